@@ -1,0 +1,27 @@
+#pragma once
+
+#include "graze/model/model.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace graze {
+
+/// A model that comes with graze.
+struct CatalogueEntry {
+    std::string name;
+    std::string summary; ///< one line
+    std::string text;    ///< the model file, whole
+};
+
+/// The shipped models, built into the library (the files of models/), in alphabetical order.
+const std::vector<CatalogueEntry>& catalogue();
+std::optional<CatalogueEntry> find_in_catalogue(std::string_view name);
+
+/// The model of this name or in this file: a name without a slash or ".toml" is looked up in the catalogue.
+/// @throws InputError when there is neither (with the nearest name)
+Model load_model(const std::string& name_or_path);
+
+} // namespace graze

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "graze/model/model.hpp"
+
+#include <string>
+#include <vector>
+
+namespace graze {
+
+/// Things that are allowed but probably not meant: an event that nobody watches, a mode that nothing leads to,
+/// a watched event without a transition, an unused parameter, definition or jump, overlapping conditions, ...
+std::vector<std::string> model_warnings(const Model& model);
+
+/// The connectivity graph (modes as nodes, transitions as arrows) in the language of Graphviz.
+std::string connectivity_graph(const Model& model);
+
+} // namespace graze

@@ -1,0 +1,155 @@
+#pragma once
+
+#include "graze/symbolic/expression.hpp"
+#include "graze/symbolic/parser.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace graze {
+
+struct Parameter {
+    std::string name, unit, text;
+    std::optional<double> value;          ///< of an independent parameter
+    std::optional<Expression> expression; ///< of a dependent one, in terms of other parameters
+};
+
+struct State {
+    std::string name, unit, text;
+    Expression initial;               ///< in terms of parameters
+    std::optional<Expression> period; ///< of a cyclic state, in terms of parameters; kept in [0, period)
+    bool drifting = false;            ///< orbits are periodic up to a translation of this state
+};
+
+struct Definition {
+    std::string name, text;
+    Expression value; ///< in terms of states, parameters and other definitions
+};
+
+struct Mode {
+    std::string name, text;
+    std::vector<Expression> rates;    ///< time derivative of each state
+    std::vector<std::size_t> watched; ///< events, in the order in which simultaneous ones are served
+};
+
+/// A barrier is positive on the admissible side, and must not be crossed; a section may have either sign.
+/// Either happens when its function falls through zero.
+enum class EventKind { barrier, section };
+
+struct Event {
+    std::string name, text;
+    Expression function;
+    EventKind kind = EventKind::barrier;
+};
+
+struct Jump {
+    std::string name, text;
+    std::vector<Expression> map; ///< each state after, in terms of states before
+};
+
+/// One way in which a transition can go on, taken when all conditions hold in the state after the jump.
+struct Alternative {
+    std::vector<Condition> when;
+    std::string when_text;           ///< as the user wrote it; empty when unconditional
+    std::optional<std::size_t> mode; ///< none: the trajectory ends here
+};
+
+/// Where the motion goes when contacts accumulate: infinitely many in a finite time (Budd and Dux 1994).
+struct Sticking {
+    std::size_t jump; ///< applied at the time of accumulation
+    std::size_t mode;
+};
+
+struct Transition {
+    std::string label; ///< for signatures, such as J1; "mode:event" when the user gave none
+    std::size_t mode = 0, event = 0, jump = 0;
+    std::vector<Alternative> next; ///< the first whose conditions hold is taken
+    std::optional<Sticking> chatter;
+};
+
+enum class Direction { falling, rising, both };
+
+/// A surface at which states are recorded without disturbing the motion: a zero of `function`, or a value of
+/// a cyclic state.
+struct Section {
+    std::string name, text;
+    Expression function;              ///< empty for a phase section
+    std::optional<std::size_t> state; ///< cyclic state of a phase section
+    Expression value;                 ///< of that state, in terms of parameters
+    Direction direction = Direction::both; ///< of `function`; a phase section is passed as the phase moves
+};
+
+/// A map of states that takes solutions to solutions.
+struct Symmetry {
+    std::string name, text;
+    std::vector<Expression> map;
+    std::vector<std::size_t> modes; ///< image of each mode
+};
+
+struct Quantity {
+    std::string name, unit, text;
+    Expression value; ///< in terms of states, parameters and definitions
+};
+
+/// A hybrid dynamical system, ready to be compiled. Expressions are in terms of the symbols of states,
+/// parameters and definitions; `expand` leaves only states and independent parameters.
+/// Jump 0 is always the identity.
+struct Model {
+    Model();
+
+    std::shared_ptr<Graph> graph;
+    std::string name, text, source;
+    std::string time_unit;
+    std::vector<Parameter> parameters;
+    std::vector<State> states;
+    std::vector<Definition> definitions;
+    std::vector<Mode> modes;
+    std::vector<Event> events;
+    std::vector<Jump> jumps;
+    std::vector<Transition> transitions;
+    std::vector<Section> sections;
+    std::vector<Symmetry> symmetries;
+    std::vector<Quantity> quantities;
+    std::size_t initial_mode = 0;
+
+    Expression symbol(std::string_view name) const { return graph->symbol(name); }
+    std::vector<Expression> state_symbols() const;
+    /// Symbols of the independent parameters, in the order of `parameters`.
+    std::vector<Expression> parameter_symbols() const;
+    /// Values of the independent parameters, in that order.
+    std::vector<double> parameter_values() const;
+    /// Replaces definitions and dependent parameters by what they stand for.
+    /// @throws InputError when they refer to one another in a circle
+    Expression expand(const Expression& expression) const;
+    std::vector<Expression> expand(std::span<const Expression> expressions) const;
+
+    /// Index of the named item.
+    std::optional<std::size_t> find_parameter(std::string_view name) const; ///< among `parameters`
+    std::optional<std::size_t> find_state(std::string_view name) const;
+    std::optional<std::size_t> find_mode(std::string_view name) const;
+    std::optional<std::size_t> find_event(std::string_view name) const;
+    std::optional<std::size_t> find_jump(std::string_view name) const;
+    std::optional<std::size_t> find_section(std::string_view name) const;
+    std::optional<std::size_t> find_quantity(std::string_view name) const;
+    const Transition* find_transition(std::size_t mode, std::size_t event) const;
+
+    /// Sets an independent parameter.
+    /// @throws InputError unknown name (with the nearest), dependent parameter, value not finite
+    void set_parameter(std::string_view name, double value);
+    /// Sets the initial value of a state. @throws InputError as above
+    void set_initial(std::string_view name, double value);
+    void set_initial_mode(std::string_view name);
+    /// Values of the initial state at the present parameters.
+    std::vector<double> initial_state() const;
+
+    /// Checks everything that a compiled model relies on: sizes, indices, names, symbols, circular definitions,
+    /// finite parameters, periods positive. @throws InputError naming the first thing wrong
+    void validate() const;
+};
+
+} // namespace graze

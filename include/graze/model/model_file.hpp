@@ -1,0 +1,19 @@
+#pragma once
+
+#include "graze/model/model.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace graze {
+
+/// Reads a model from TOML text; docs/model-format.md describes it.
+/// @param file the name to use in messages
+/// @throws InputError with the place of the first thing wrong
+Model parse_model(std::string_view text, const std::string& file);
+/// Reads a model file. @throws InputError also when the file cannot be read
+Model read_model(const std::string& path);
+/// Writes a model as a file that reads back to the same model.
+std::string write_model(const Model& model);
+
+} // namespace graze

@@ -1,0 +1,142 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace graze {
+
+class Expression;
+
+/// The elementary operations of which every expression is made. `number` and `symbol` are leaves.
+enum class Operation : std::uint8_t {
+    number,
+    symbol,
+    add,
+    subtract,
+    multiply,
+    divide,
+    power,
+    negate,
+    sqrt,
+    exp,
+    log,
+    sin,
+    cos,
+    tan,
+    asin,
+    acos,
+    atan,
+    sinh,
+    cosh,
+    tanh,
+};
+
+/// 0 for leaves, 1 for functions and negation, 2 for arithmetic.
+int arity(Operation operation);
+
+/// Index of a node in its graph. Operands always have smaller indices than the node that uses them, so that a
+/// loop over rising indices visits operands first: no algorithm on graphs recurses.
+using NodeIndex = std::uint32_t;
+
+struct Node {
+    Operation operation = Operation::number;
+    NodeIndex left = 0;  ///< first operand; for a symbol, the index of its name
+    NodeIndex right = 0; ///< second operand of arithmetic operations
+    double value = 0;    ///< of a number
+};
+
+/// Owner of expressions: an append-only, hash-consed graph in which equal subexpressions exist once.
+/// Not safe to append to from several threads at once; reading is.
+class Graph : public std::enable_shared_from_this<Graph> {
+public:
+    static std::shared_ptr<Graph> create();
+
+    Expression number(double value);
+    /// The symbol of this name; the same one each time it is asked for.
+    Expression symbol(std::string_view name);
+    /// Applies one operation, with the simplifications described in docs/expressions.md: results are equal to
+    /// those of the unsimplified expression up to round-off.
+    Expression apply(Operation operation, const Expression& operand);
+    Expression apply(Operation operation, const Expression& left, const Expression& right);
+
+    std::size_t size() const { return nodes_.size(); }
+    const Node& node(NodeIndex index) const { return nodes_[index]; }
+    const std::string& symbol_name(const Node& node) const { return names_[node.left]; }
+
+private:
+    Graph() = default;
+    NodeIndex intern(const Node& node);
+
+    struct Hash {
+        std::size_t operator()(const Node& node) const;
+    };
+    struct Equal {
+        bool operator()(const Node& one, const Node& other) const;
+    };
+    std::vector<Node> nodes_;
+    std::vector<std::string> names_;
+    std::unordered_map<std::string, NodeIndex> name_indices_;
+    std::unordered_map<Node, NodeIndex, Hash, Equal> indices_;
+};
+
+/// A node of a graph that it keeps alive; cheap to copy. Two expressions of one graph are the same expression
+/// exactly if their indices are equal. Operators throw std::invalid_argument for operands of different graphs.
+class Expression {
+public:
+    /// Names nothing; only assignment and `empty` may be used.
+    Expression() = default;
+    Expression(std::shared_ptr<Graph> graph, NodeIndex index) : graph_(std::move(graph)), index_(index) {}
+
+    bool empty() const { return graph_ == nullptr; }
+    const std::shared_ptr<Graph>& graph() const { return graph_; }
+    NodeIndex index() const { return index_; }
+    const Node& node() const { return graph_->node(index_); }
+    Operation operation() const { return node().operation; }
+    bool is_number() const { return operation() == Operation::number; }
+    bool is_number(double value) const { return is_number() && node().value == value; }
+    bool is_symbol() const { return operation() == Operation::symbol; }
+    /// Name of a symbol.
+    const std::string& name() const { return graph_->symbol_name(node()); }
+
+    friend bool operator==(const Expression& one, const Expression& other) {
+        return one.graph_ == other.graph_ && one.index_ == other.index_;
+    }
+
+private:
+    std::shared_ptr<Graph> graph_;
+    NodeIndex index_ = 0;
+};
+
+Expression operator+(const Expression& a, const Expression& b);
+Expression operator-(const Expression& a, const Expression& b);
+Expression operator*(const Expression& a, const Expression& b);
+Expression operator/(const Expression& a, const Expression& b);
+Expression operator+(const Expression& a, double b);
+Expression operator-(const Expression& a, double b);
+Expression operator*(const Expression& a, double b);
+Expression operator/(const Expression& a, double b);
+Expression operator+(double a, const Expression& b);
+Expression operator-(double a, const Expression& b);
+Expression operator*(double a, const Expression& b);
+Expression operator/(double a, const Expression& b);
+Expression operator-(const Expression& a);
+Expression pow(const Expression& a, const Expression& b);
+Expression pow(const Expression& a, double b);
+Expression sqrt(const Expression& a);
+Expression exp(const Expression& a);
+Expression log(const Expression& a);
+Expression sin(const Expression& a);
+Expression cos(const Expression& a);
+Expression tan(const Expression& a);
+Expression asin(const Expression& a);
+Expression acos(const Expression& a);
+Expression atan(const Expression& a);
+Expression sinh(const Expression& a);
+Expression cosh(const Expression& a);
+Expression tanh(const Expression& a);
+
+} // namespace graze

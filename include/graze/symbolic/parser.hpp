@@ -1,0 +1,41 @@
+#pragma once
+
+#include "graze/symbolic/expression.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace graze {
+
+/// What names mean while an expression is parsed.
+using Scope = std::map<std::string, Expression, std::less<>>;
+
+/// Parses infix text: numbers, + - * / ^ (right associative, above unary minus: -x^2 is -(x^2)), parentheses,
+/// the functions of `Operation`, `pi`, and the names in `scope`. Never recurses: nesting is bounded by memory.
+/// @param place where the text begins, for errors (an error's column is counted on from there)
+/// @throws InputError unknown name (with the nearest known one), unbalanced parentheses, wrong number of
+///         arguments, malformed number, non-analytic function (with the advice to use an event), empty text
+Expression parse_expression(Graph& graph, std::string_view text, const Scope& scope, const Place& place = {});
+
+/// One side of a condition such as `x > 0`: holds where `function` > 0 (strict) or >= 0.
+struct Condition {
+    Expression function;
+    bool strict = true;
+};
+
+/// Parses conditions joined by `and`: each `a > b`, `a >= b`, `a < b` or `a <= b`. Errors as parse_expression.
+std::vector<Condition> parse_conditions(Graph& graph, std::string_view text, const Scope& scope,
+                                        const Place& place = {});
+
+/// Whether a name may be given to a state, parameter, ...: letters, digits and underscores, not starting with
+/// a digit, and not the name of a function, `pi`, `t`, `and`.
+bool is_valid_name(std::string_view name);
+bool is_reserved_name(std::string_view name);
+
+/// The candidate nearest to `name` in edit distance, or "" when none is near.
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
+
+} // namespace graze

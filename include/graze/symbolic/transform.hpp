@@ -1,0 +1,28 @@
+#pragma once
+
+#include "graze/symbolic/expression.hpp"
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace graze {
+
+/// Exact partial derivative; may be applied any number of times. Time linear in the size of the graph below.
+Expression differentiate(const Expression& expression, const Expression& symbol);
+/// The same for several expressions, visiting shared parts once.
+std::vector<Expression> differentiate(std::span<const Expression> expressions, const Expression& symbol);
+
+/// Replaces symbols by expressions, all at once (replacements are not searched again).
+using Replacement = std::pair<Expression, Expression>; ///< symbol, what replaces it
+Expression substitute(const Expression& expression, std::span<const Replacement> replacements);
+std::vector<Expression> substitute(std::span<const Expression> expressions, std::span<const Replacement> replacements);
+
+/// The symbols that occur in the expressions, in the order of their indices.
+std::vector<Expression> symbols_of(std::span<const Expression> expressions);
+
+/// Infix text that parses back to the same expression (numbers with as many digits as they need).
+std::string to_string(const Expression& expression);
+
+} // namespace graze

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "graze/tape/tape.hpp"
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+namespace graze {
+
+/// Instruction sets for which the kernels are compiled.
+enum class InstructionSet { baseline, avx2, avx512 };
+/// The widest that this processor has.
+InstructionSet best_instruction_set();
+bool is_supported(InstructionSet set);
+std::string_view name_of(InstructionSet set);
+
+/// What the lanes of a jet are.
+enum class LaneKind {
+    single,   ///< one trajectory
+    ensemble, ///< independent trajectories of one tape, side by side
+    tangent,  ///< one trajectory (first) and its derivatives in several directions (the others)
+};
+
+/// Highest order for which kernels exist.
+inline constexpr int highest_order = 32;
+
+/// Computes Taylor coefficients of states and outputs of a tape (Jorba and Zou 2005; Griewank and Walther 2008,
+/// chapter 13). Every number is stored `width()` times over: coefficient k of a series, lane l, is at
+/// [k * width() + l]. The arithmetic of lane 0 of `single`, of each lane of `ensemble` and of lane 0 of `tangent`
+/// is the same bit for bit (for one instruction set).
+class Jet {
+public:
+    virtual ~Jet() = default;
+    Jet(const Jet&) = delete;
+    Jet& operator=(const Jet&) = delete;
+
+    virtual int order() const = 0;
+    virtual int width() const = 0;
+
+    /// @param parameters [parameter * width() + lane]; in a tangent jet lanes 1.. are directional derivatives
+    virtual void set_parameters(std::span<const double> parameters) = 0;
+    /// Computes coefficients 0 .. order() from states [state * width() + lane].
+    virtual void compute(std::span<const double> states) = 0;
+    /// Computes only coefficient 0 of outputs and rates: cheap evaluation at a point.
+    virtual void compute_values(std::span<const double> states) = 0;
+
+    /// Coefficients of a state or output: (order() + 1) * width() numbers, valid until the next `compute`.
+    virtual const double* state(std::size_t index) const = 0;
+    virtual const double* output(std::size_t index) const = 0;
+
+protected:
+    Jet() = default;
+};
+
+/// Lanes of an ensemble jet, or directions of a tangent jet (one less than its width).
+int lanes_of(LaneKind kind, InstructionSet set);
+
+/// @param order 1 .. highest_order
+/// @throws std::invalid_argument when the instruction set is not supported or the order out of range
+std::unique_ptr<Jet> make_jet(const Tape& tape, int order, LaneKind kind,
+                              InstructionSet set = best_instruction_set());
+
+} // namespace graze
