@@ -55,21 +55,28 @@ class Graph : public std::enable_shared_from_this<Graph> {
 public:
     static std::shared_ptr<Graph> create();
 
+    /// @throws std::invalid_argument when the value is not finite. The zeros of both signs are one number.
     Expression number(double value);
     /// The symbol of this name; the same one each time it is asked for.
     Expression symbol(std::string_view name);
     /// Applies one operation, with the simplifications described in docs/expressions.md: results are equal to
     /// those of the unsimplified expression up to round-off.
+    /// @throws std::invalid_argument for operands of other graphs, or as many as the operation does not take
     Expression apply(Operation operation, const Expression& operand);
     Expression apply(Operation operation, const Expression& left, const Expression& right);
 
     std::size_t size() const { return nodes_.size(); }
     const Node& node(NodeIndex index) const { return nodes_[index]; }
     const std::string& symbol_name(const Node& node) const { return names_[node.left]; }
+    /// Whether the node has no value whatever the values of its symbols, as 1/0, log(-1) + x or 1e308*10.
+    /// Such expressions are kept as they were written.
+    bool is_undefined(NodeIndex index) const { return undefined_[index]; }
 
 private:
+    friend class Simplifier;
     Graph() = default;
-    NodeIndex intern(const Node& node);
+    NodeIndex intern(Node node);
+    NodeIndex own(const Expression& expression) const;
 
     struct Hash {
         std::size_t operator()(const Node& node) const;
@@ -78,6 +85,7 @@ private:
         bool operator()(const Node& one, const Node& other) const;
     };
     std::vector<Node> nodes_;
+    std::vector<bool> undefined_;
     std::vector<std::string> names_;
     std::unordered_map<std::string, NodeIndex> name_indices_;
     std::unordered_map<Node, NodeIndex, Hash, Equal> indices_;

@@ -1,0 +1,208 @@
+#include "graze/symbolic/expression.hpp"
+
+#include "symbolic/simplify.hpp"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace graze {
+
+namespace {
+
+Expression apply(Operation operation, const Expression& operand) {
+    if (operand.empty())
+        throw std::invalid_argument("an operand is an empty expression");
+    return operand.graph()->apply(operation, operand);
+}
+
+Expression apply(Operation operation, const Expression& left, const Expression& right) {
+    if (left.empty())
+        throw std::invalid_argument("an operand is an empty expression");
+    return left.graph()->apply(operation, left, right);
+}
+
+Expression number_beside(const Expression& expression, double value) {
+    if (expression.empty())
+        throw std::invalid_argument("an operand is an empty expression");
+    return expression.graph()->number(value);
+}
+
+} // namespace
+
+int arity(Operation operation) {
+    switch (operation) {
+    case Operation::number:
+    case Operation::symbol:
+        return 0;
+    case Operation::add:
+    case Operation::subtract:
+    case Operation::multiply:
+    case Operation::divide:
+    case Operation::power:
+        return 2;
+    default:
+        return 1;
+    }
+}
+
+std::size_t Graph::Hash::operator()(const Node& node) const {
+    // Operands are small consecutive integers: multiply-and-fold spreads them over all bits.
+    constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;
+    std::uint64_t mixed = std::bit_cast<std::uint64_t>(node.value) ^ static_cast<std::uint64_t>(node.operation);
+    for (const std::uint64_t part : {std::uint64_t{node.left}, std::uint64_t{node.right}}) {
+        mixed = (mixed ^ (mixed >> 32)) * odd;
+        mixed += part;
+    }
+    mixed = (mixed ^ (mixed >> 29)) * odd;
+    return static_cast<std::size_t>(mixed ^ (mixed >> 32));
+}
+
+bool Graph::Equal::operator()(const Node& one, const Node& other) const {
+    return one.operation == other.operation && one.left == other.left && one.right == other.right &&
+           one.value == other.value;
+}
+
+std::shared_ptr<Graph> Graph::create() {
+    return std::shared_ptr<Graph>(new Graph);
+}
+
+NodeIndex Graph::intern(Node node) {
+    const auto found = indices_.find(node);
+    if (found != indices_.end())
+        return found->second;
+    if (nodes_.size() >= std::numeric_limits<NodeIndex>::max())
+        throw std::length_error("an expression graph is full");
+    // What could be folded has been; constant operands that are left have no finite value.
+    bool undefined = false;
+    const auto is_number = [&](NodeIndex operand) { return nodes_[operand].operation == Operation::number; };
+    if (arity(node.operation) == 1)
+        undefined = undefined_[node.left] || is_number(node.left);
+    else if (arity(node.operation) == 2)
+        undefined = undefined_[node.left] || undefined_[node.right] ||
+                    (is_number(node.left) && is_number(node.right)) ||
+                    (node.operation == Operation::divide && is_number(node.right) && nodes_[node.right].value == 0);
+    const auto index = static_cast<NodeIndex>(nodes_.size());
+    nodes_.push_back(node);
+    undefined_.push_back(undefined);
+    indices_.emplace(node, index);
+    return index;
+}
+
+NodeIndex Graph::own(const Expression& expression) const {
+    if (expression.graph().get() != this)
+        throw std::invalid_argument(expression.empty() ? "an operand is an empty expression"
+                                                       : "expressions of different graphs cannot be combined");
+    return expression.index();
+}
+
+Expression Graph::number(double value) {
+    if (!std::isfinite(value))
+        throw std::invalid_argument("a number in an expression must be finite");
+    // Adding 0 turns -0 into 0.
+    return {shared_from_this(), intern({Operation::number, 0, 0, value + 0.0})};
+}
+
+Expression Graph::symbol(std::string_view name) {
+    const auto [entry, is_new] = name_indices_.try_emplace(std::string(name), static_cast<NodeIndex>(names_.size()));
+    if (is_new)
+        names_.emplace_back(name);
+    return {shared_from_this(), intern({Operation::symbol, entry->second, 0, 0})};
+}
+
+Expression Graph::apply(Operation operation, const Expression& operand) {
+    if (arity(operation) != 1)
+        throw std::invalid_argument("an operation that does not take one operand was given one");
+    return {shared_from_this(), Simplifier(*this).function(operation, own(operand))};
+}
+
+Expression Graph::apply(Operation operation, const Expression& left, const Expression& right) {
+    if (arity(operation) != 2)
+        throw std::invalid_argument("an operation that does not take two operands was given two");
+    return {shared_from_this(), Simplifier(*this).arithmetic(operation, own(left), own(right))};
+}
+
+Expression operator+(const Expression& a, const Expression& b) {
+    return apply(Operation::add, a, b);
+}
+Expression operator-(const Expression& a, const Expression& b) {
+    return apply(Operation::subtract, a, b);
+}
+Expression operator*(const Expression& a, const Expression& b) {
+    return apply(Operation::multiply, a, b);
+}
+Expression operator/(const Expression& a, const Expression& b) {
+    return apply(Operation::divide, a, b);
+}
+Expression operator+(const Expression& a, double b) {
+    return a + number_beside(a, b);
+}
+Expression operator-(const Expression& a, double b) {
+    return a - number_beside(a, b);
+}
+Expression operator*(const Expression& a, double b) {
+    return a * number_beside(a, b);
+}
+Expression operator/(const Expression& a, double b) {
+    return a / number_beside(a, b);
+}
+Expression operator+(double a, const Expression& b) {
+    return number_beside(b, a) + b;
+}
+Expression operator-(double a, const Expression& b) {
+    return number_beside(b, a) - b;
+}
+Expression operator*(double a, const Expression& b) {
+    return number_beside(b, a) * b;
+}
+Expression operator/(double a, const Expression& b) {
+    return number_beside(b, a) / b;
+}
+Expression operator-(const Expression& a) {
+    return apply(Operation::negate, a);
+}
+Expression pow(const Expression& a, const Expression& b) {
+    return apply(Operation::power, a, b);
+}
+Expression pow(const Expression& a, double b) {
+    return pow(a, number_beside(a, b));
+}
+Expression sqrt(const Expression& a) {
+    return apply(Operation::sqrt, a);
+}
+Expression exp(const Expression& a) {
+    return apply(Operation::exp, a);
+}
+Expression log(const Expression& a) {
+    return apply(Operation::log, a);
+}
+Expression sin(const Expression& a) {
+    return apply(Operation::sin, a);
+}
+Expression cos(const Expression& a) {
+    return apply(Operation::cos, a);
+}
+Expression tan(const Expression& a) {
+    return apply(Operation::tan, a);
+}
+Expression asin(const Expression& a) {
+    return apply(Operation::asin, a);
+}
+Expression acos(const Expression& a) {
+    return apply(Operation::acos, a);
+}
+Expression atan(const Expression& a) {
+    return apply(Operation::atan, a);
+}
+Expression sinh(const Expression& a) {
+    return apply(Operation::sinh, a);
+}
+Expression cosh(const Expression& a) {
+    return apply(Operation::cosh, a);
+}
+Expression tanh(const Expression& a) {
+    return apply(Operation::tanh, a);
+}
+
+} // namespace graze
