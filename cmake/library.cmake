@@ -1,0 +1,31 @@
+# One folder per word of the architecture; each may use only those before it. Each is compiled once, as objects of which
+# the library consists and on which its tests are linked together with the folders before it.
+set(GRAZE_FOLDERS symbolic model tape flow trajectory)
+
+add_library(graze)
+add_library(graze::graze ALIAS graze)
+set(earlier)
+foreach(folder IN LISTS GRAZE_FOLDERS)
+    file(GLOB sources CONFIGURE_DEPENDS src/${folder}/*.cpp)
+    if(sources)
+        add_library(graze_${folder} OBJECT ${sources})
+        set_target_properties(graze_${folder} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+        target_include_directories(graze_${folder} PUBLIC include PRIVATE src)
+        target_link_libraries(graze_${folder} PUBLIC fmt::fmt PRIVATE graze_options graze_headers)
+        target_sources(graze PRIVATE $<TARGET_OBJECTS:graze_${folder}>)
+        list(APPEND earlier ${folder})
+    endif()
+    set(before_${folder} ${earlier})
+endforeach()
+include(cmake/kernels.cmake)
+include(cmake/catalogue.cmake OPTIONAL)
+
+target_compile_features(graze PUBLIC cxx_std_20)
+target_include_directories(
+    graze PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+)
+target_link_libraries(graze PRIVATE $<BUILD_INTERFACE:graze_options> fmt::fmt)
+set_target_properties(
+    graze PROPERTIES LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION} SOVERSION
+                     ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+)

@@ -1,0 +1,42 @@
+# How everything here is compiled. Consumers of the library inherit nothing of it.
+include(GNUInstallDirs)
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+if(PROJECT_IS_TOP_LEVEL)
+    set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+    if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+        set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+    endif()
+    find_program(CCACHE ccache)
+    if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+        set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+    endif()
+endif()
+
+find_package(fmt REQUIRED)
+find_package(Eigen3 REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(CLI11 REQUIRED)
+
+# Contractions to fused operations happen only where the source asks for them: lanes and scalar must agree bit for bit.
+add_library(graze_options INTERFACE)
+target_compile_options(graze_options INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi)
+if(GRAZE_WARNINGS_AS_ERRORS)
+    target_compile_options(graze_options INTERFACE -Werror)
+endif()
+if(GRAZE_SANITIZERS)
+    set(sanitize -fsanitize=${GRAZE_SANITIZERS} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_compile_options(graze_options INTERFACE ${sanitize})
+    target_link_options(graze_options INTERFACE ${sanitize})
+endif()
+
+# Eigen and toml++ by their headers alone, so that a static libgraze.a asks its consumers to link nothing but fmt.
+add_library(graze_headers INTERFACE)
+target_include_directories(
+    graze_headers SYSTEM INTERFACE
+    $<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>
+    $<TARGET_PROPERTY:tomlplusplus::tomlplusplus,INTERFACE_INCLUDE_DIRECTORIES>
+)

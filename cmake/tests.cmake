@@ -1,0 +1,64 @@
+# Tests by folder, examples, the installed package, the documentation. Suites whose name ends in "Slow" are labelled
+# slow, so that `ctest -LE slow` leaves them out.
+find_package(GTest REQUIRED)
+include(GoogleTest)
+
+foreach(folder IN LISTS GRAZE_FOLDERS ITEMS program)
+    file(GLOB sources CONFIGURE_DEPENDS tests/${folder}/*.cpp)
+    if(NOT sources OR (folder STREQUAL program AND NOT TARGET graze_program))
+        continue()
+    endif()
+    add_executable(test_${folder} ${sources})
+    target_include_directories(test_${folder} PRIVATE include src tests)
+    target_link_libraries(test_${folder} PRIVATE GTest::gtest_main graze_options graze_headers fmt::fmt)
+    if(folder STREQUAL program)
+        target_link_libraries(test_${folder} PRIVATE graze_program)
+        if(TARGET graze_executable)
+            add_dependencies(test_${folder} graze_executable)
+            target_compile_definitions(test_${folder} PRIVATE GRAZE_PROGRAM="$<TARGET_FILE:graze_executable>")
+        endif()
+    else()
+        foreach(part IN LISTS before_${folder})
+            target_link_libraries(test_${folder} PRIVATE graze_${part})
+        endforeach()
+    endif()
+    target_compile_definitions(test_${folder} PRIVATE GRAZE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    gtest_discover_tests(
+        test_${folder} TEST_PREFIX ${folder}. TEST_FILTER "-*Slow.*" DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600
+    )
+    gtest_discover_tests(
+        test_${folder} TEST_PREFIX ${folder}. TEST_FILTER "*Slow.*" DISCOVERY_TIMEOUT 60
+        PROPERTIES TIMEOUT 1200 LABELS slow
+    )
+endforeach()
+
+# Examples are programs of a user: they see the library as an installed one is seen.
+file(GLOB examples CONFIGURE_DEPENDS examples/*.cpp)
+foreach(source IN LISTS examples)
+    cmake_path(GET source STEM name)
+    add_executable(example_${name} ${source})
+    target_link_libraries(example_${name} PRIVATE graze::graze graze_options)
+    set_target_properties(example_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/examples)
+    add_test(NAME example.${name} COMMAND example_${name} WORKING_DIRECTORY ${PROJECT_BINARY_DIR}/examples)
+    set_tests_properties(example.${name} PROPERTIES TIMEOUT 300)
+endforeach()
+
+add_test(
+    NAME layers COMMAND bash ${PROJECT_SOURCE_DIR}/tests/layers/check_layers.sh ${PROJECT_SOURCE_DIR} ${GRAZE_FOLDERS}
+                        program
+)
+
+if(TARGET graze_executable)
+    if(GRAZE_INSTALL)
+        add_test(
+            NAME package
+            COMMAND
+                ${CMAKE_COMMAND} -D build=${PROJECT_BINARY_DIR} -D work=${PROJECT_BINARY_DIR}/package -D
+                compiler=${CMAKE_CXX_COMPILER} -D generator=${CMAKE_GENERATOR} -D sanitizers=${GRAZE_SANITIZERS} -P
+                ${PROJECT_SOURCE_DIR}/tests/package/install_and_use.cmake
+        )
+    endif()
+    add_test(NAME demo COMMAND bash ${PROJECT_SOURCE_DIR}/examples/demo.sh ${PROJECT_BINARY_DIR}/demo)
+    set_tests_properties(demo PROPERTIES ENVIRONMENT "GRAZE=$<TARGET_FILE:graze_executable>")
+    include(tests/documentation/documentation.cmake)
+endif()

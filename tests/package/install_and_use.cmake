@@ -1,0 +1,31 @@
+# Installs graze into a folder of its own, moves it, and builds and runs a consumer that knows nothing else.
+# Needs: build (the build folder), work (a folder to work in), compiler, generator; sanitizers, if any.
+function(must_run)
+    execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT RESULT_VARIABLE result)
+    if(NOT result EQUAL 0)
+        message(FATAL_ERROR "failed with ${result}: ${ARGV}")
+    endif()
+endfunction()
+
+file(REMOVE_RECURSE ${work})
+must_run(${CMAKE_COMMAND} --install ${build} --prefix ${work}/first)
+# An installed package must not remember where it was installed.
+file(RENAME ${work}/first ${work}/prefix)
+file(GLOB installed_models ${work}/prefix/share/graze/models/*.toml)
+if(NOT installed_models)
+    message(FATAL_ERROR "no models were installed")
+endif()
+must_run(${work}/prefix/bin/graze models)
+
+# A copy, so that no relative path can lead back into the repository.
+file(COPY ${CMAKE_CURRENT_LIST_DIR}/consumer DESTINATION ${work})
+set(flags)
+if(sanitizers)
+    set(flags -D CMAKE_CXX_FLAGS=-fsanitize=${sanitizers})
+endif()
+must_run(
+    ${CMAKE_COMMAND} -S ${work}/consumer -B ${work}/build -G ${generator} -D CMAKE_CXX_COMPILER=${compiler} -D
+    CMAKE_PREFIX_PATH=${work}/prefix -D headers=${work}/prefix/include ${flags}
+)
+must_run(${CMAKE_COMMAND} --build ${work}/build)
+must_run(${work}/build/consumer)
