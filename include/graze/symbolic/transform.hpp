@@ -22,7 +22,9 @@ std::vector<Expression> substitute(std::span<const Expression> expressions, std:
 /// The symbols that occur in the expressions, in the order of their indices.
 std::vector<Expression> symbols_of(std::span<const Expression> expressions);
 
-/// Infix text that parses back to the same expression (numbers with as many digits as they need).
+/// Infix text that parses back to the same expression (numbers with as many digits as they need), given that the
+/// names of its symbols are valid. Time is linear in the length of the text, in which shared parts are repeated.
+/// @throws std::length_error when that would be about 1e9 characters
 std::string to_string(const Expression& expression);
 
 } // namespace graze

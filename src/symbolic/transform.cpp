@@ -1,0 +1,182 @@
+#include "graze/symbolic/transform.hpp"
+
+#include "symbolic/subgraph.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <unordered_map>
+
+namespace graze {
+
+namespace {
+
+/// Sum in which an empty expression stands for an absent (zero) term.
+Expression sum(const Expression& a, const Expression& b) {
+    if (a.empty())
+        return b;
+    return b.empty() ? a : a + b;
+}
+
+/// Derivative of base^exponent. A constant exponent brings no logarithm, so that powers of negative bases have
+/// derivatives too.
+Expression derivative_of_power(const Expression& value, const Expression& base, const Expression& exponent,
+                               const Expression& base_rate, const Expression& exponent_rate) {
+    Expression result;
+    if (!base_rate.empty())
+        result = exponent * pow(base, exponent - 1) * base_rate;
+    if (!exponent_rate.empty())
+        result = sum(result, value * log(base) * exponent_rate);
+    return result;
+}
+
+/// d/da of a function of one operand, in terms of the operand and of the function's value.
+Expression slope(Operation operation, const Expression& value, const Expression& operand) {
+    switch (operation) {
+    case Operation::negate:
+        return operand.graph()->number(-1);
+    case Operation::sqrt:
+        return 1 / (2 * value);
+    case Operation::exp:
+        return value;
+    case Operation::log:
+        return 1 / operand;
+    case Operation::sin:
+        return cos(operand);
+    case Operation::cos:
+        return -sin(operand);
+    case Operation::tan:
+        return 1 + pow(value, 2);
+    case Operation::asin: // (1 - a)(1 + a), because 1 - a^2 cancels near the ends of the domain
+        return 1 / sqrt((1 - operand) * (1 + operand));
+    case Operation::acos:
+        return -1 / sqrt((1 - operand) * (1 + operand));
+    case Operation::atan:
+        return 1 / (1 + pow(operand, 2));
+    case Operation::sinh:
+        return cosh(operand);
+    case Operation::cosh:
+        return sinh(operand);
+    case Operation::tanh:
+        return 1 - pow(value, 2);
+    default:
+        throw std::invalid_argument("an operation of one operand was expected");
+    }
+}
+
+/// Derivative of a node from those of its operands, which are empty where they are zero (but not all).
+Expression derivative(Operation operation, const Expression& value, const Expression& left, const Expression& right,
+                      const Expression& left_rate, const Expression& right_rate) {
+    switch (operation) {
+    case Operation::add:
+        return sum(left_rate, right_rate);
+    case Operation::subtract:
+        return sum(left_rate, right_rate.empty() ? right_rate : -right_rate);
+    case Operation::multiply:
+        return sum(left_rate.empty() ? left_rate : left_rate * right,
+                   right_rate.empty() ? right_rate : left * right_rate);
+    case Operation::divide:
+        return sum(left_rate, right_rate.empty() ? right_rate : -(value * right_rate)) / right;
+    case Operation::power:
+        return derivative_of_power(value, left, right, left_rate, right_rate);
+    default:
+        break;
+    }
+    const Expression factor = slope(operation, value, left);
+    // rate/divisor has one operation fewer than (1/divisor) * rate
+    const Node& node = factor.node();
+    if (node.operation == Operation::divide && left.graph()->node(node.left).operation == Operation::number)
+        return Expression(left.graph(), node.left) * left_rate / Expression(left.graph(), node.right);
+    return factor * left_rate;
+}
+
+} // namespace
+
+std::vector<Expression> differentiate(std::span<const Expression> expressions, const Expression& symbol) {
+    if (symbol.empty() || !symbol.is_symbol())
+        throw std::invalid_argument("derivatives are taken with respect to symbols only");
+    const Subgraph part = subgraph_of(expressions);
+    if (part.graph && part.graph != symbol.graph())
+        throw std::invalid_argument("the symbol belongs to another graph than the expressions");
+    std::vector<Expression> rates(part.items.size()); // empty where zero
+    for (std::size_t position = 0; position < rates.size(); ++position) {
+        const Subgraph::Item& item = part.items[position];
+        const Operation operation = part.node(item).operation;
+        if (item.index == symbol.index()) {
+            rates[position] = symbol.graph()->number(1);
+            continue;
+        }
+        const int operands = arity(operation);
+        if (operands == 0 || (rates[item.left].empty() && (operands == 1 || rates[item.right].empty())))
+            continue;
+        const Subgraph::Item& left = part.items[item.left];
+        const Subgraph::Item& right = part.items[operands == 2 ? item.right : item.left];
+        const Expression result =
+            derivative(operation, part.expression(item), part.expression(left), part.expression(right),
+                       rates[item.left], operands == 2 ? rates[item.right] : Expression());
+        if (!result.is_number(0))
+            rates[position] = result;
+    }
+    std::vector<Expression> results;
+    results.reserve(part.roots.size());
+    for (const std::uint32_t root : part.roots)
+        results.push_back(rates[root].empty() ? part.graph->number(0) : rates[root]);
+    return results;
+}
+
+Expression differentiate(const Expression& expression, const Expression& symbol) {
+    return differentiate(std::span(&expression, 1), symbol).front();
+}
+
+std::vector<Expression> substitute(std::span<const Expression> expressions, std::span<const Replacement> replacements) {
+    const Subgraph part = subgraph_of(expressions);
+    std::unordered_map<NodeIndex, NodeIndex> replaced;
+    for (const auto& [symbol, replacement] : replacements) {
+        if (symbol.empty() || replacement.empty() || !symbol.is_symbol())
+            throw std::invalid_argument("only symbols can be replaced, and only by expressions");
+        if (part.graph && (part.graph != symbol.graph() || part.graph != replacement.graph()))
+            throw std::invalid_argument("a replacement belongs to another graph than the expressions");
+        if (!replaced.emplace(symbol.index(), replacement.index()).second)
+            throw std::invalid_argument("symbol '" + symbol.name() + "' is to be replaced twice");
+    }
+    std::vector<NodeIndex> results(part.items.size());
+    for (std::size_t position = 0; position < results.size(); ++position) {
+        const Subgraph::Item& item = part.items[position];
+        const Node node = part.node(item);
+        const int operands = arity(node.operation);
+        if (operands == 0) {
+            const auto found = replaced.find(item.index);
+            results[position] = found == replaced.end() ? item.index : found->second;
+            continue;
+        }
+        const NodeIndex left = results[item.left];
+        const NodeIndex right = operands == 2 ? results[item.right] : node.right;
+        if (left == node.left && right == node.right)
+            results[position] = item.index;
+        else if (operands == 1)
+            results[position] = part.graph->apply(node.operation, Expression(part.graph, left)).index();
+        else
+            results[position] =
+                part.graph->apply(node.operation, Expression(part.graph, left), Expression(part.graph, right)).index();
+    }
+    std::vector<Expression> replaced_expressions;
+    replaced_expressions.reserve(part.roots.size());
+    for (const std::uint32_t root : part.roots)
+        replaced_expressions.emplace_back(part.graph, results[root]);
+    return replaced_expressions;
+}
+
+Expression substitute(const Expression& expression, std::span<const Replacement> replacements) {
+    return substitute(std::span(&expression, 1), replacements).front();
+}
+
+std::vector<Expression> symbols_of(std::span<const Expression> expressions) {
+    const Subgraph part = subgraph_of(expressions);
+    std::vector<Expression> symbols;
+    for (const Subgraph::Item& item : part.items)
+        if (part.node(item).operation == Operation::symbol)
+            symbols.push_back(part.expression(item));
+    std::ranges::sort(symbols, {}, &Expression::index);
+    return symbols;
+}
+
+} // namespace graze
