@@ -117,7 +117,7 @@ struct Model {
     std::vector<Quantity> quantities;
     std::size_t initial_mode = 0;
 
-    Expression symbol(std::string_view name) const { return graph->symbol(name); }
+    Expression symbol(std::string_view item) const { return graph->symbol(item); }
     std::vector<Expression> state_symbols() const;
     /// Symbols of the independent parameters, in the order of `parameters`.
     std::vector<Expression> parameter_symbols() const;
@@ -129,22 +129,24 @@ struct Model {
     std::vector<Expression> expand(std::span<const Expression> expressions) const;
 
     /// Index of the named item.
-    std::optional<std::size_t> find_parameter(std::string_view name) const; ///< among `parameters`
-    std::optional<std::size_t> find_state(std::string_view name) const;
-    std::optional<std::size_t> find_mode(std::string_view name) const;
-    std::optional<std::size_t> find_event(std::string_view name) const;
-    std::optional<std::size_t> find_jump(std::string_view name) const;
-    std::optional<std::size_t> find_section(std::string_view name) const;
-    std::optional<std::size_t> find_quantity(std::string_view name) const;
+    std::optional<std::size_t> find_parameter(std::string_view item) const; ///< among `parameters`
+    std::optional<std::size_t> find_state(std::string_view item) const;
+    std::optional<std::size_t> find_mode(std::string_view item) const;
+    std::optional<std::size_t> find_event(std::string_view item) const;
+    std::optional<std::size_t> find_jump(std::string_view item) const;
+    std::optional<std::size_t> find_section(std::string_view item) const;
+    std::optional<std::size_t> find_quantity(std::string_view item) const;
     const Transition* find_transition(std::size_t mode, std::size_t event) const;
 
     /// Sets an independent parameter.
     /// @throws InputError unknown name (with the nearest), dependent parameter, value not finite
-    void set_parameter(std::string_view name, double value);
+    void set_parameter(std::string_view item, double value);
     /// Sets the initial value of a state. @throws InputError as above
-    void set_initial(std::string_view name, double value);
-    void set_initial_mode(std::string_view name);
-    /// Values of the initial state at the present parameters.
+    void set_initial(std::string_view item, double value);
+    /// @throws InputError unknown name (with the nearest)
+    void set_initial_mode(std::string_view item);
+    /// Values of the initial state at the present parameters, cyclic states within their period.
+    /// @throws InputError when a value is not finite or a period not positive
     std::vector<double> initial_state() const;
 
     /// Checks everything that a compiled model relies on: sizes, indices, names, symbols, circular definitions,

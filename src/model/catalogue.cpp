@@ -1,0 +1,69 @@
+#include "graze/model/catalogue.hpp"
+
+#include "graze/model/model_file.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "model/catalogue_data.hpp"
+#include "model/model_file_toml.hpp"
+#include "model/model_validate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace graze {
+
+namespace {
+
+/// The first sentence of the text, or its first line.
+std::string first_sentence(const std::string& text) {
+    const std::size_t start = std::min(text.find_first_not_of(" \t\n"), text.size());
+    const std::size_t end = std::min({text.find(". ", start), text.find(".\n", start), text.find("\n\n", start)});
+    std::string result = text.substr(start, end == std::string::npos ? end : end - start);
+    for (char& c : result)
+        if (c == '\n')
+            c = ' ';
+    while (!result.empty() && (result.back() == '.' || result.back() == ' '))
+        result.pop_back();
+    return result;
+}
+
+CatalogueEntry entry_of(const EmbeddedModel& model) {
+    const toml::table table = parse_toml(model.text, std::string(model.name));
+    return {std::string(model.name), first_sentence(table["text"].value_or(std::string())), std::string(model.text)};
+}
+
+std::vector<CatalogueEntry> all_entries() {
+    std::vector<CatalogueEntry> result;
+    for (const EmbeddedModel& model : embedded_models())
+        result.push_back(entry_of(model));
+    return result;
+}
+
+} // namespace
+
+const std::vector<CatalogueEntry>& catalogue() {
+    static const std::vector<CatalogueEntry> entries = all_entries();
+    return entries;
+}
+
+std::optional<CatalogueEntry> find_in_catalogue(std::string_view name) {
+    for (const EmbeddedModel& model : embedded_models())
+        if (model.name == name)
+            return entry_of(model);
+    return std::nullopt;
+}
+
+Model load_model(const std::string& name_or_path) {
+    const bool is_path = name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".toml");
+    if (is_path)
+        return read_model(name_or_path);
+    if (const auto entry = find_in_catalogue(name_or_path))
+        return parse_model(entry->text, name_or_path);
+    std::vector<std::string> names;
+    for (const EmbeddedModel& model : embedded_models())
+        names.emplace_back(model.name);
+    throw InputError(fmt::format("there is no shipped model '{}'", name_or_path),
+                     name_remedy(name_or_path, names) + " (the name of a file ends in .toml or contains a slash)");
+}
+
+} // namespace graze

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace graze {
+
+/// A file of models/ in the program; the build writes the source that defines them (cmake/catalogue.cmake).
+struct EmbeddedModel {
+    std::string_view name; ///< of the file, without its ending
+    std::string_view text;
+};
+
+/// In alphabetical order.
+std::span<const EmbeddedModel> embedded_models();
+
+} // namespace graze

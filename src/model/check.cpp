@@ -1,0 +1,272 @@
+#include "graze/model/check.hpp"
+
+#include "graze/symbolic/function.hpp"
+#include "graze/symbolic/transform.hpp"
+#include "model/model_validate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace graze {
+
+namespace {
+
+/// Whether each item of a list is used.
+using Used = std::vector<bool>;
+
+class Checker {
+public:
+    explicit Checker(const Model& model) : model_(model) {}
+
+    std::vector<std::string> run() {
+        check_symbols();
+        check_events();
+        check_modes();
+        check_jumps();
+        check_transitions();
+        check_start();
+        return std::move(warnings_);
+    }
+
+private:
+    template <typename... Arguments>
+    void warn(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+        warnings_.push_back(fmt::format(format, std::forward<Arguments>(arguments)...));
+    }
+
+    void check_symbols() {
+        std::set<std::string> used;
+        std::vector<Expression> all;
+        for (const ModelExpression& item : model_expressions(model_))
+            all.push_back(item.expression);
+        for (const Expression& symbol : symbols_of(all))
+            used.insert(symbol.name());
+        for (const Parameter& parameter : model_.parameters)
+            if (used.count(parameter.name) == 0)
+                warn("nothing uses the parameter '{}'", parameter.name);
+        for (const Definition& definition : model_.definitions)
+            if (used.count(definition.name) == 0)
+                warn("nothing uses the definition '{}'", definition.name);
+    }
+
+    void check_events() {
+        Used watched(model_.events.size(), false);
+        for (const Mode& mode : model_.modes)
+            for (const std::size_t event : mode.watched)
+                watched[event] = true;
+        for (std::size_t i = 0; i < watched.size(); ++i)
+            if (!watched[i])
+                warn("no mode watches the event '{}'", model_.events[i].name);
+    }
+
+    void check_modes() {
+        Used reached(model_.modes.size(), false);
+        std::vector<std::size_t> open{model_.initial_mode};
+        reached[model_.initial_mode] = true;
+        const auto reach = [&](std::size_t mode) {
+            if (!reached[mode])
+                open.push_back(mode);
+            reached[mode] = true;
+        };
+        while (!open.empty()) {
+            const std::size_t mode = open.back();
+            open.pop_back();
+            for (const Transition& transition : model_.transitions) {
+                if (transition.mode != mode || !is_watched(transition))
+                    continue;
+                for (const Alternative& alternative : transition.next)
+                    if (alternative.mode)
+                        reach(*alternative.mode);
+                if (transition.chatter)
+                    reach(transition.chatter->mode);
+            }
+        }
+        for (std::size_t i = 0; i < reached.size(); ++i)
+            if (!reached[i])
+                warn("no transition leads from the initial mode '{}' to the mode '{}'",
+                     model_.modes[model_.initial_mode].name, model_.modes[i].name);
+    }
+
+    bool is_watched(const Transition& transition) const {
+        const std::vector<std::size_t>& watched = model_.modes[transition.mode].watched;
+        return std::find(watched.begin(), watched.end(), transition.event) != watched.end();
+    }
+
+    void check_jumps() {
+        Used used(model_.jumps.size(), false);
+        for (const Transition& transition : model_.transitions) {
+            used[transition.jump] = true;
+            if (transition.chatter)
+                used[transition.chatter->jump] = true;
+        }
+        for (std::size_t i = 1; i < used.size(); ++i)
+            if (!used[i])
+                warn("no transition uses the jump '{}'", model_.jumps[i].name);
+    }
+
+    void check_transitions() {
+        for (std::size_t i = 0; i < model_.modes.size(); ++i)
+            for (const std::size_t event : model_.modes[i].watched)
+                if (model_.find_transition(i, event) == nullptr)
+                    warn("mode '{}' watches the section '{}' but has no transition for it: nothing will happen there",
+                         model_.modes[i].name, model_.events[event].name);
+        std::set<std::string> labels;
+        for (const Transition& transition : model_.transitions) {
+            if (!labels.insert(transition.label).second)
+                warn("two transitions have the label '{}'", transition.label);
+            if (!is_watched(transition))
+                warn("the transition '{}' is never taken: mode '{}' does not watch the event '{}'", transition.label,
+                     model_.modes[transition.mode].name, model_.events[transition.event].name);
+            if (transition.chatter && model_.events[transition.event].kind == EventKind::section)
+                warn("the transition '{}' says where chatter leads, but '{}' is not a barrier", transition.label,
+                     model_.events[transition.event].name);
+            check_alternatives(transition);
+        }
+    }
+
+    void check_alternatives(const Transition& transition) {
+        const auto same = [](const Alternative& one, const Alternative& other) {
+            return std::equal(one.when.begin(), one.when.end(), other.when.begin(), other.when.end(),
+                              [](const Condition& a, const Condition& b) {
+                                  return a.function == b.function && a.strict == b.strict;
+                              });
+        };
+        const auto& next = transition.next;
+        const auto last = std::find_if(next.begin(), next.end(), [](const auto& item) { return item.when.empty(); });
+        if (last == next.end())
+            warn("the conditions of the transition '{}' may all fail: the motion ends where they do", transition.label);
+        for (auto item = next.begin(); item != next.end(); ++item) {
+            const bool repeated =
+                std::any_of(next.begin(), item, [&](const auto& other) { return same(*item, other); });
+            if (repeated || item > last)
+                warn("alternative {} of the transition '{}' is never taken: an earlier one always comes first",
+                     item - next.begin() + 1, transition.label);
+        }
+    }
+
+    /// Values of expressions in the initial state.
+    std::vector<double> at_start(const std::vector<Expression>& expressions) const {
+        std::vector<Expression> inputs = model_.state_symbols();
+        std::vector<double> values = model_.initial_state();
+        for (const Expression& symbol : model_.parameter_symbols())
+            inputs.push_back(symbol);
+        for (const double value : model_.parameter_values())
+            values.push_back(value);
+        return Function(inputs, model_.expand(expressions))(values);
+    }
+
+    void check_start() {
+        const Mode& mode = model_.modes[model_.initial_mode];
+        const std::vector<double> rates = at_start(mode.rates);
+        for (std::size_t i = 0; i < rates.size(); ++i)
+            if (!std::isfinite(rates[i])) {
+                const std::string reason = culprit(mode.rates[i]);
+                warn("in the initial state the rate of '{}' is {}{}", model_.states[i].name, rates[i],
+                     reason.empty() ? "" : ", because " + reason);
+            }
+        std::vector<Expression> functions;
+        for (const std::size_t event : mode.watched)
+            functions.push_back(model_.events[event].function);
+        const std::vector<double> values = at_start(functions);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const Event& event = model_.events[mode.watched[i]];
+            if (!std::isfinite(values[i]))
+                warn("in the initial state the event '{}' is {}", event.name, values[i]);
+            else if (values[i] < 0 && event.kind == EventKind::barrier)
+                warn("in the initial state the barrier '{}' is {}: the motion starts on the wrong side of it",
+                     event.name, values[i]);
+        }
+    }
+
+    /// The definition or dependent parameter in which a value that is not finite arises: one that is not finite
+    /// though all that it uses is. Empty when that is the expression itself.
+    std::string culprit(const Expression& expression) const {
+        std::string result;
+        std::vector<Expression> search{expression};
+        while (true) {
+            std::vector<Expression> used;
+            for (const Expression& symbol : symbols_of(search))
+                if (!stands_for(symbol).empty())
+                    used.push_back(symbol);
+            const std::vector<double> values = at_start(used);
+            const auto bad = std::find_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
+            if (bad == values.end())
+                return result;
+            const Expression& symbol = used[static_cast<std::size_t>(bad - values.begin())];
+            result = fmt::format("'{}' is {}", symbol.name(), *bad);
+            search = {stands_for(symbol)};
+        }
+    }
+
+    /// What a definition or dependent parameter stands for.
+    Expression stands_for(const Expression& symbol) const {
+        for (const Definition& definition : model_.definitions)
+            if (definition.name == symbol.name())
+                return definition.value;
+        for (const Parameter& parameter : model_.parameters)
+            if (parameter.name == symbol.name() && parameter.expression)
+                return *parameter.expression;
+        return {};
+    }
+
+    const Model& model_;
+    std::vector<std::string> warnings_;
+};
+
+/// A string of the Graphviz language.
+std::string dot_string(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\')
+            result += '\\';
+        result += c == '\n' ? ' ' : c;
+    }
+    return result + '"';
+}
+
+} // namespace
+
+std::vector<std::string> model_warnings(const Model& model) {
+    return Checker(model).run();
+}
+
+std::string connectivity_graph(const Model& model) {
+    std::string result = fmt::format("digraph {} {{\n"
+                                     "    rankdir = LR;\n"
+                                     "    node [shape = box, style = rounded, fontname = \"Helvetica\"];\n"
+                                     "    edge [fontname = \"Helvetica\", fontsize = 10];\n"
+                                     "    start [shape = point];\n",
+                                     dot_string(model.name));
+    const auto node = [](std::optional<std::size_t> mode) { return mode ? fmt::format("mode{}", *mode) : "end"; };
+    for (std::size_t i = 0; i < model.modes.size(); ++i)
+        result += fmt::format("    {} [label = {}];\n", node(i), dot_string(model.modes[i].name));
+    const auto ends = [](const Transition& transition) {
+        return std::any_of(transition.next.begin(), transition.next.end(), [](const auto& item) { return !item.mode; });
+    };
+    if (std::any_of(model.transitions.begin(), model.transitions.end(), ends))
+        result += "    end [shape = doublecircle, label = \"end\"];\n";
+    result += fmt::format("    start -> {};\n", node(model.initial_mode));
+    for (const Transition& transition : model.transitions) {
+        const std::string& event = model.events[transition.event].name;
+        const std::string default_label = model.modes[transition.mode].name + ":" + event;
+        const std::string label = transition.label == default_label ? "" : transition.label + ": ";
+        const auto through = [&](std::size_t jump) {
+            return label + event + (jump == 0 ? "" : " / " + model.jumps[jump].name);
+        };
+        for (const Alternative& alternative : transition.next) {
+            const std::string when = alternative.when.empty() ? "" : " [" + alternative.when_text + "]";
+            result += fmt::format("    {} -> {} [label = {}];\n", node(transition.mode), node(alternative.mode),
+                                  dot_string(through(transition.jump) + when));
+        }
+        if (transition.chatter)
+            result += fmt::format("    {} -> {} [label = {}, style = dashed];\n", node(transition.mode),
+                                  node(transition.chatter->mode),
+                                  dot_string(through(transition.chatter->jump) + " [chatter]"));
+    }
+    return result + "}\n";
+}
+
+} // namespace graze

@@ -1,0 +1,126 @@
+#include "graze/model/model.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/parser.hpp"
+#include "model/model_expand.hpp"
+#include "model/model_validate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+template <typename Item>
+std::optional<std::size_t> find_named(const std::vector<Item>& items, std::string_view name) {
+    const auto found = std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
+    if (found == items.end())
+        return std::nullopt;
+    return static_cast<std::size_t>(found - items.begin());
+}
+
+/// Index of the named item. @throws InputError with the nearest name
+template <typename Item>
+std::size_t require_named(const std::vector<Item>& items, std::string_view name, const char* kind) {
+    if (const auto index = find_named(items, name))
+        return *index;
+    std::vector<std::string> names;
+    for (const Item& item : items)
+        names.push_back(item.name);
+    throw InputError(fmt::format("there is no {} '{}'", kind, name), name_remedy(name, names));
+}
+
+void require_finite(double value, std::string_view what) {
+    if (!std::isfinite(value))
+        throw InputError(fmt::format("the value of {} must be a finite number, not {}", what, value),
+                         "give a finite number");
+}
+
+} // namespace
+
+Model::Model() : graph(Graph::create()) {
+    jumps.push_back({"identity", "states stay as they are", {}});
+}
+
+std::vector<Expression> Model::state_symbols() const {
+    std::vector<Expression> result;
+    for (const State& state : states)
+        result.push_back(symbol(state.name));
+    return result;
+}
+
+std::vector<Expression> Model::parameter_symbols() const {
+    std::vector<Expression> result;
+    for (const Parameter& parameter : parameters)
+        if (!parameter.expression)
+            result.push_back(symbol(parameter.name));
+    return result;
+}
+
+std::vector<double> Model::parameter_values() const {
+    std::vector<double> result;
+    for (const Parameter& parameter : parameters)
+        if (!parameter.expression)
+            result.push_back(parameter.value.value_or(std::nan("")));
+    return result;
+}
+
+std::optional<std::size_t> Model::find_parameter(std::string_view item) const {
+    return find_named(parameters, item);
+}
+std::optional<std::size_t> Model::find_state(std::string_view item) const {
+    return find_named(states, item);
+}
+std::optional<std::size_t> Model::find_mode(std::string_view item) const {
+    return find_named(modes, item);
+}
+std::optional<std::size_t> Model::find_event(std::string_view item) const {
+    return find_named(events, item);
+}
+std::optional<std::size_t> Model::find_jump(std::string_view item) const {
+    return find_named(jumps, item);
+}
+std::optional<std::size_t> Model::find_section(std::string_view item) const {
+    return find_named(sections, item);
+}
+std::optional<std::size_t> Model::find_quantity(std::string_view item) const {
+    return find_named(quantities, item);
+}
+
+const Transition* Model::find_transition(std::size_t mode, std::size_t event) const {
+    const auto found = std::find_if(transitions.begin(), transitions.end(),
+                                    [&](const Transition& t) { return t.mode == mode && t.event == event; });
+    return found == transitions.end() ? nullptr : &*found;
+}
+
+void Model::set_parameter(std::string_view item, double value) {
+    Parameter& parameter = parameters[require_named(parameters, item, "parameter")];
+    if (parameter.expression)
+        throw InputError(fmt::format("the parameter '{}' follows from others and cannot be set", item),
+                         "set the parameters that it depends on");
+    require_finite(value, fmt::format("parameter '{}'", item));
+    parameter.value = value;
+}
+
+void Model::set_initial(std::string_view item, double value) {
+    State& state = states[require_named(states, item, "state")];
+    require_finite(value, fmt::format("state '{}'", item));
+    state.initial = graph->number(value);
+}
+
+void Model::set_initial_mode(std::string_view item) {
+    initial_mode = require_named(modes, item, "mode");
+}
+
+std::vector<double> Model::initial_state() const {
+    return checked_initial_state(*this, Places(name));
+}
+
+void Model::validate() const {
+    validate_model(*this, Places(name));
+}
+
+} // namespace graze

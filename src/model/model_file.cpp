@@ -1,0 +1,549 @@
+#include "graze/model/model_file.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/parser.hpp"
+#include "model/model_file_toml.hpp"
+#include "model/model_validate.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <system_error>
+
+namespace graze {
+
+namespace {
+
+/// Reads one model, table by table.
+class ModelReader {
+public:
+    ModelReader(std::string_view text, const std::string& file)
+        : source_(text, file), reader_(file), places_(file, &source_), root_(parse_toml(text, file)) {}
+
+    Model read() {
+        if (root_.empty())
+            throw InputError({source_.file(), 0, 0}, "the model is empty",
+                             "give at least [states] and a mode; docs/model-format.md shows how");
+        std::map<std::string, TomlEntry> top;
+        for (const TomlEntry& entry :
+             reader_.entries(root_, "",
+                             {"name", "text", "source", "time_unit", "parameters", "states", "definitions", "modes",
+                              "events", "jumps", "transitions", "sections", "symmetries", "quantities", "initial"})) {
+            places_.set(entry.name, entry.place);
+            top.emplace(entry.name, entry);
+        }
+        const auto read = [&](const char* key, void (ModelReader::*member)(const TomlEntry&)) {
+            if (const auto found = top.find(key); found != top.end())
+                (this->*member)(found->second);
+        };
+        read_head(top);
+        read("parameters", &ModelReader::name_parameters);
+        read("states", &ModelReader::name_states);
+        read("definitions", &ModelReader::name_definitions);
+        validate_names(model_, places_);
+        make_scope();
+        read("parameters", &ModelReader::read_parameters);
+        read("states", &ModelReader::read_states);
+        read("definitions", &ModelReader::read_definitions);
+        read("events", &ModelReader::read_events);
+        model_.jumps.front().map = model_.state_symbols();
+        read("jumps", &ModelReader::read_jumps);
+        read("modes", &ModelReader::name_modes);
+        read("modes", &ModelReader::read_modes);
+        read("transitions", &ModelReader::read_transitions);
+        read("sections", &ModelReader::read_sections);
+        read("symmetries", &ModelReader::read_symmetries);
+        read("quantities", &ModelReader::read_quantities);
+        if (top.count("initial") != 0)
+            read("initial", &ModelReader::read_initial);
+        else if (model_.modes.size() > 1)
+            throw InputError({source_.file(), 0, 0}, "the model has several modes but does not say which one is first",
+                             "add [initial] with mode = \"<mode>\"");
+        validate_model(model_, places_);
+        return std::move(model_);
+    }
+
+private:
+    using Keys = std::initializer_list<std::string_view>;
+
+    void read_head(const std::map<std::string, TomlEntry>& top) {
+        model_.name = std::filesystem::path(source_.file()).stem().string();
+        const std::pair<const char*, std::string*> strings[] = {{"name", &model_.name},
+                                                                {"text", &model_.text},
+                                                                {"source", &model_.source},
+                                                                {"time_unit", &model_.time_unit}};
+        for (const auto& [key, value] : strings)
+            if (const auto found = top.find(key); found != top.end())
+                *value = reader_.string(found->second);
+    }
+
+    void name_parameters(const TomlEntry& group) { name_items(group, model_.parameters); }
+    void name_states(const TomlEntry& group) { name_items(group, model_.states); }
+    void name_definitions(const TomlEntry& group) { name_items(group, model_.definitions); }
+    void name_modes(const TomlEntry& group) { name_items(group, model_.modes); }
+
+    /// Names come before all contents, which may refer to them in any order.
+    template <typename Item>
+    void name_items(const TomlEntry& group, std::vector<Item>& items) {
+        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
+            places_.set(entry.path, entry.place);
+            Item item;
+            item.name = entry.name;
+            items.push_back(std::move(item));
+        }
+    }
+
+    void make_scope() {
+        for (const Parameter& parameter : model_.parameters)
+            scope_.emplace(parameter.name, model_.symbol(parameter.name));
+        for (const State& state : model_.states)
+            scope_.emplace(state.name, model_.symbol(state.name));
+        for (const Definition& definition : model_.definitions)
+            scope_.emplace(definition.name, model_.symbol(definition.name));
+    }
+
+    /// The place of an error in the value of a string, found as if the string were a file of its own.
+    InputError inside(const TomlEntry& entry, const std::string& text, const InputError& error) const {
+        std::size_t offset = 0;
+        for (int line = 1; line < error.place().line; ++line) {
+            const std::size_t end = text.find('\n', offset);
+            offset = end == std::string::npos ? text.size() : end + 1;
+        }
+        offset += static_cast<std::size_t>(std::max(error.place().column, 1) - 1);
+        return {source_.inside_string(reader_.place(*entry.node), offset), error.problem(), error.remedy()};
+    }
+
+    /// Parses a string with `parse(text, place)`, and notes where it is.
+    template <typename Parse>
+    auto parse_string(const TomlEntry& entry, Parse parse) {
+        const std::string text = reader_.string(entry);
+        places_.set_string(entry.path, reader_.place(*entry.node), text);
+        try {
+            return parse(text, Place{source_.file(), 1, 1});
+        } catch (const InputError& error) {
+            throw inside(entry, text, error);
+        }
+    }
+
+    /// A number or the text of an expression.
+    Expression expression(const TomlEntry& entry) {
+        if (entry.node->is_number())
+            return model_.graph->number(number(entry));
+        if (!entry.node->is_string())
+            reader_.fail_type(entry, "a number or an expression");
+        return parse_string(entry, [&](const std::string& text, const Place& place) {
+            return parse_expression(*model_.graph, text, scope_, place);
+        });
+    }
+
+    double number(const TomlEntry& entry) {
+        places_.set(entry.path, reader_.place(*entry.node));
+        const toml::value<std::int64_t>* integer = entry.node->as_integer();
+        const double value =
+            integer != nullptr ? static_cast<double>(integer->get()) : entry.node->as_floating_point()->get();
+        if (!std::isfinite(value))
+            throw InputError(reader_.place(*entry.node), fmt::format("{} is {}", entry.path, value),
+                             "give a finite number");
+        return value;
+    }
+
+    /// The entries of a table, or the short form: a value alone, which stands for `{ key = value }`.
+    std::vector<TomlEntry> short_form(const TomlEntry& entry, const char* key, Keys allowed) {
+        if (entry.node->is_table())
+            return reader_.entries(*entry.node->as_table(), entry.path, allowed);
+        if (!entry.node->is_number() && !entry.node->is_string())
+            reader_.fail_type(entry, "a number, an expression or a table");
+        return {{key, entry.path + "." + key, entry.place, entry.node}};
+    }
+
+    [[noreturn]] void fail_missing(const TomlEntry& entry, const char* what, const char* key) const {
+        throw InputError(entry.place, fmt::format("{} has no {}", entry.path, what), fmt::format("add {} = ...", key));
+    }
+
+    void read_parameters(const TomlEntry& group) {
+        auto item = model_.parameters.begin();
+        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
+            Parameter& parameter = *item++;
+            for (const TomlEntry& part : short_form(entry, "value", {"value", "unit", "text"})) {
+                if (part.name == "value" && part.node->is_number())
+                    parameter.value = number(part);
+                else if (part.name == "value")
+                    parameter.expression = expression(part);
+                else
+                    (part.name == "unit" ? parameter.unit : parameter.text) = reader_.string(part);
+            }
+            if (!parameter.value && !parameter.expression)
+                fail_missing(entry, "value", "value");
+        }
+    }
+
+    void read_states(const TomlEntry& group) {
+        auto item = model_.states.begin();
+        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
+            State& state = *item++;
+            for (const TomlEntry& part :
+                 short_form(entry, "initial", {"initial", "unit", "text", "period", "drifting"})) {
+                if (part.name == "initial")
+                    state.initial = expression(part);
+                else if (part.name == "period")
+                    state.period = expression(part);
+                else if (part.name == "drifting")
+                    state.drifting = reader_.boolean(part);
+                else
+                    (part.name == "unit" ? state.unit : state.text) = reader_.string(part);
+            }
+            if (state.initial.empty())
+                fail_missing(entry, "initial value", "initial");
+        }
+    }
+
+    void read_definitions(const TomlEntry& group) {
+        auto item = model_.definitions.begin();
+        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
+            Definition& definition = *item++;
+            for (const TomlEntry& part : short_form(entry, "value", {"value", "text"})) {
+                if (part.name == "value")
+                    definition.value = expression(part);
+                else
+                    definition.text = reader_.string(part);
+            }
+            if (definition.value.empty())
+                fail_missing(entry, "value", "value");
+        }
+    }
+
+    void read_events(const TomlEntry& group) {
+        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
+            places_.set(entry.path, entry.place);
+            Event event;
+            event.name = entry.name;
+            for (const TomlEntry& part : short_form(entry, "function", {"function", "kind", "text"})) {
+                if (part.name == "function")
+                    event.function = expression(part);
+                else if (part.name == "kind")
+                    event.kind =
+                        choice<EventKind>(part, {{"barrier", EventKind::barrier}, {"section", EventKind::section}});
+                else
+                    event.text = reader_.string(part);
+            }
+            if (event.function.empty())
+                fail_missing(entry, "function", "function");
+            model_.events.push_back(std::move(event));
+        }
+    }
+
+    template <typename Value>
+    Value choice(const TomlEntry& entry, const std::vector<std::pair<std::string, Value>>& choices) {
+        const std::string text = reader_.string(entry);
+        std::vector<std::string> names;
+        for (const auto& [name, value] : choices) {
+            if (name == text)
+                return value;
+            names.push_back(name);
+        }
+        throw InputError(reader_.place(*entry.node), fmt::format("{} cannot be '{}'", entry.path, text),
+                         fmt::format("choose from {}", fmt::join(names, ", ")));
+    }
+
+    /// Index of the item that a string names.
+    template <typename Item>
+    std::size_t index(const TomlEntry& entry, const std::vector<Item>& items, const char* kind) {
+        const std::string name = reader_.string(entry);
+        places_.set(entry.path, reader_.place(*entry.node));
+        std::vector<std::string> names;
+        for (const Item& item : items) {
+            if (item.name == name)
+                return names.size();
+            names.push_back(item.name);
+        }
+        throw InputError(reader_.place(*entry.node), fmt::format("there is no {} '{}'", kind, name),
+                         name_remedy(name, names));
+    }
+
+    /// Index of the state that is named by a key.
+    std::size_t state_index(const TomlEntry& entry) const {
+        if (const auto found = model_.find_state(entry.name))
+            return *found;
+        std::vector<std::string> names;
+        for (const State& state : model_.states)
+            names.push_back(state.name);
+        throw InputError(entry.place, fmt::format("{}: there is no state '{}'", entry.path, entry.name),
+                         name_remedy(entry.name, names));
+    }
+
+    /// A map of states; those that are not mentioned stay as they are.
+    std::vector<Expression> state_map(const std::vector<TomlEntry>& entries) {
+        std::vector<Expression> result = model_.state_symbols();
+        for (const TomlEntry& entry : entries)
+            result[state_index(entry)] = expression(entry);
+        return result;
+    }
+
+    void read_jumps(const TomlEntry& group) {
+        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
+            places_.set(entry.path, entry.place);
+            if (entry.name == "identity")
+                throw InputError(entry.place, "the jump 'identity' exists always",
+                                 "choose another name, or leave it out");
+            Jump jump;
+            jump.name = entry.name;
+            std::vector<TomlEntry> states = reader_.entries(reader_.table(entry), entry.path);
+            // "text" describes the jump, unless a state has that name.
+            if (!model_.find_state("text"))
+                std::erase_if(states, [&](const TomlEntry& part) {
+                    if (part.name == "text")
+                        jump.text = reader_.string(part);
+                    return part.name == "text";
+                });
+            jump.map = state_map(states);
+            model_.jumps.push_back(std::move(jump));
+        }
+    }
+
+    void read_modes(const TomlEntry& group) {
+        auto item = model_.modes.begin();
+        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
+            Mode& mode = *item++;
+            mode.rates.resize(model_.states.size());
+            Place rates = entry.place;
+            for (const TomlEntry& part :
+                 reader_.entries(reader_.table(entry), entry.path, {"text", "rates", "watch"})) {
+                places_.set(part.path, part.place);
+                if (part.name == "text") {
+                    mode.text = reader_.string(part);
+                } else if (part.name == "watch") {
+                    for (const TomlEntry& event : reader_.elements(part))
+                        mode.watched.push_back(index(event, model_.events, "event"));
+                } else {
+                    rates = part.place;
+                    for (const TomlEntry& rate : reader_.entries(reader_.table(part), part.path))
+                        mode.rates[state_index(rate)] = expression(rate);
+                }
+            }
+            for (std::size_t i = 0; i < mode.rates.size(); ++i)
+                if (mode.rates[i].empty())
+                    throw InputError(
+                        rates,
+                        fmt::format("mode '{}' has no rate for the state '{}'", mode.name, model_.states[i].name),
+                        fmt::format("add {} = \"...\" to the rates; 0 for a state that does not move",
+                                    model_.states[i].name));
+        }
+    }
+
+    void read_transitions(const TomlEntry& group) {
+        for (const TomlEntry& entry : reader_.elements(group)) {
+            places_.set(entry.path, entry.place);
+            Transition transition;
+            bool has_mode = false;
+            bool has_event = false;
+            for (const TomlEntry& part : reader_.entries(reader_.table(entry), entry.path,
+                                                         {"mode", "event", "label", "jump", "next", "chatter"})) {
+                if (part.name == "mode") {
+                    transition.mode = index(part, model_.modes, "mode");
+                    has_mode = true;
+                } else if (part.name == "event") {
+                    transition.event = index(part, model_.events, "event");
+                    has_event = true;
+                } else if (part.name == "label") {
+                    transition.label = reader_.string(part);
+                } else if (part.name == "jump") {
+                    transition.jump = index(part, model_.jumps, "jump");
+                } else if (part.name == "next") {
+                    transition.next = read_next(part);
+                } else {
+                    transition.chatter = read_chatter(part);
+                }
+            }
+            if (!has_mode)
+                fail_missing(entry, "mode", "mode");
+            if (!has_event)
+                fail_missing(entry, "event", "event");
+            if (transition.next.empty())
+                fail_missing(entry, "next mode", "next");
+            if (transition.label.empty())
+                transition.label = model_.modes[transition.mode].name + ":" + model_.events[transition.event].name;
+            model_.transitions.push_back(std::move(transition));
+        }
+    }
+
+    std::optional<std::size_t> next_mode(const TomlEntry& entry) {
+        if (reader_.string(entry) == "end")
+            return std::nullopt;
+        return index(entry, model_.modes, "mode");
+    }
+
+    std::vector<Alternative> read_next(const TomlEntry& entry) {
+        places_.set(entry.path, entry.place);
+        if (entry.node->is_string())
+            return {{{}, "", next_mode(entry)}};
+        if (!entry.node->is_array())
+            reader_.fail_type(entry, "the name of a mode or a list of alternatives");
+        std::vector<Alternative> result;
+        for (const TomlEntry& element : reader_.elements(entry)) {
+            Alternative alternative;
+            bool has_mode = false;
+            for (const TomlEntry& part : reader_.entries(reader_.table(element), element.path, {"when", "mode"})) {
+                if (part.name == "mode") {
+                    alternative.mode = next_mode(part);
+                    has_mode = true;
+                } else {
+                    alternative.when_text = reader_.string(part);
+                    alternative.when = parse_string(part, [&](const std::string& text, const Place& place) {
+                        return parse_conditions(*model_.graph, text, scope_, place);
+                    });
+                }
+            }
+            if (!has_mode)
+                fail_missing(element, "mode", "mode");
+            result.push_back(std::move(alternative));
+        }
+        return result;
+    }
+
+    Sticking read_chatter(const TomlEntry& entry) {
+        Sticking sticking{0, model_.modes.size()};
+        for (const TomlEntry& part : reader_.entries(reader_.table(entry), entry.path, {"jump", "mode"})) {
+            if (part.name == "jump")
+                sticking.jump = index(part, model_.jumps, "jump");
+            else
+                sticking.mode = index(part, model_.modes, "mode");
+        }
+        if (sticking.mode == model_.modes.size())
+            fail_missing(entry, "mode", "mode");
+        return sticking;
+    }
+
+    void read_sections(const TomlEntry& group) {
+        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
+            places_.set(entry.path, entry.place);
+            Section section;
+            section.name = entry.name;
+            const TomlEntry* direction = nullptr;
+            const std::vector<TomlEntry> parts =
+                reader_.entries(reader_.table(entry), entry.path, {"function", "direction", "state", "value", "text"});
+            for (const TomlEntry& part : parts) {
+                if (part.name == "function")
+                    section.function = expression(part);
+                else if (part.name == "state")
+                    section.state = index(part, model_.states, "state");
+                else if (part.name == "value")
+                    section.value = expression(part);
+                else if (part.name == "text")
+                    section.text = reader_.string(part);
+                else
+                    direction = &part;
+            }
+            if (section.function.empty() == !section.state)
+                throw InputError(entry.place, fmt::format("{} needs either a function or a state", entry.path),
+                                 "give function = \"...\", or state = \"...\" and value = ...");
+            if (section.state.has_value() == section.value.empty())
+                throw InputError(entry.place, fmt::format("{}: state and value belong together", entry.path),
+                                 "give state = \"...\" and value = ...");
+            if (direction != nullptr && section.state)
+                throw InputError(direction->place, fmt::format("{} cannot have a direction", entry.path),
+                                 "a phase section is passed as the phase moves: leave direction out");
+            if (direction != nullptr)
+                section.direction = choice<Direction>(
+                    *direction,
+                    {{"falling", Direction::falling}, {"rising", Direction::rising}, {"both", Direction::both}});
+            model_.sections.push_back(std::move(section));
+        }
+    }
+
+    void read_symmetries(const TomlEntry& group) {
+        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
+            places_.set(entry.path, entry.place);
+            Symmetry symmetry;
+            symmetry.name = entry.name;
+            symmetry.map = model_.state_symbols();
+            for (std::size_t i = 0; i < model_.modes.size(); ++i)
+                symmetry.modes.push_back(i);
+            for (const TomlEntry& part : reader_.entries(reader_.table(entry), entry.path, {"map", "modes", "text"})) {
+                if (part.name == "text") {
+                    symmetry.text = reader_.string(part);
+                } else if (part.name == "map") {
+                    symmetry.map = state_map(reader_.entries(reader_.table(part), part.path));
+                } else {
+                    for (const TomlEntry& mode : reader_.entries(reader_.table(part), part.path)) {
+                        const auto found = model_.find_mode(mode.name);
+                        if (!found)
+                            throw InputError(mode.place, fmt::format("there is no mode '{}'", mode.name),
+                                             name_remedy(mode.name, names_of_modes()));
+                        symmetry.modes[*found] = index(mode, model_.modes, "mode");
+                    }
+                }
+            }
+            model_.symmetries.push_back(std::move(symmetry));
+        }
+    }
+
+    std::vector<std::string> names_of_modes() const {
+        std::vector<std::string> result;
+        for (const Mode& mode : model_.modes)
+            result.push_back(mode.name);
+        return result;
+    }
+
+    void read_quantities(const TomlEntry& group) {
+        for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
+            places_.set(entry.path, entry.place);
+            Quantity quantity;
+            quantity.name = entry.name;
+            for (const TomlEntry& part : short_form(entry, "value", {"value", "unit", "text"})) {
+                if (part.name == "value")
+                    quantity.value = expression(part);
+                else
+                    (part.name == "unit" ? quantity.unit : quantity.text) = reader_.string(part);
+            }
+            if (quantity.value.empty())
+                fail_missing(entry, "value", "value");
+            model_.quantities.push_back(std::move(quantity));
+        }
+    }
+
+    void read_initial(const TomlEntry& entry) {
+        bool has_mode = false;
+        for (const TomlEntry& part : reader_.entries(reader_.table(entry), entry.path, {"mode"})) {
+            model_.initial_mode = index(part, model_.modes, "mode");
+            has_mode = true;
+        }
+        if (!has_mode && model_.modes.size() > 1)
+            fail_missing(entry, "mode", "mode");
+    }
+
+    SourceText source_;
+    TomlReader reader_;
+    Places places_;
+    toml::table root_;
+    Model model_;
+    Scope scope_;
+};
+
+} // namespace
+
+Model parse_model(std::string_view text, const std::string& file) {
+    return ModelReader(text, file).read();
+}
+
+Model read_model(const std::string& path) {
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error))
+        throw InputError({path, 0, 0}, "this is a directory, not a model file", "give the name of a file");
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    if (file)
+        text << file.rdbuf();
+    if (!file || file.bad())
+        throw InputError({path, 0, 0}, "the model file cannot be read",
+                         std::filesystem::exists(path, error) ? "check its permissions" : "there is no such file");
+    return parse_model(std::move(text).str(), path);
+}
+
+} // namespace graze

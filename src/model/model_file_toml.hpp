@@ -1,0 +1,55 @@
+#pragma once
+
+#include "model/model_places.hpp"
+
+// The parser is compiled in rather than linked, for its limits to be ours.
+#undef TOML_SHARED_LIB
+#undef TOML_HEADER_ONLY
+#define TOML_HEADER_ONLY 1
+#define TOML_MAX_NESTED_VALUES 64
+#include <toml++/toml.h>
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace graze {
+
+/// A value of a table, with its key.
+struct TomlEntry {
+    std::string name;
+    std::string path; ///< as "modes.flight"
+    Place place;      ///< of the key
+    const toml::node* node = nullptr;
+};
+
+/// Parses TOML text. @throws InputError with the place, also for nesting that would exhaust the stack
+toml::table parse_toml(std::string_view text, const std::string& file);
+
+/// Reads typed values from nodes of a file; every mistake is an InputError with the place of the node.
+class TomlReader {
+public:
+    explicit TomlReader(std::string file) : file_(std::move(file)) {}
+
+    Place place(const toml::node& node) const { return place(node.source()); }
+    /// In the order of the file. @param allowed when given, the only keys that may occur
+    std::vector<TomlEntry> entries(const toml::table& table, const std::string& path) const;
+    std::vector<TomlEntry> entries(const toml::table& table, const std::string& path,
+                                   std::initializer_list<std::string_view> allowed) const;
+
+    const toml::table& table(const TomlEntry& entry) const;
+    /// Elements, with paths such as "modes.flight.watch.1".
+    std::vector<TomlEntry> elements(const TomlEntry& entry) const;
+    std::string string(const TomlEntry& entry) const;
+    bool boolean(const TomlEntry& entry) const;
+    /// @param expected as "a number or an expression"
+    [[noreturn]] void fail_type(const TomlEntry& entry, const std::string& expected) const;
+
+private:
+    Place place(const toml::source_region& region) const;
+
+    std::string file_;
+};
+
+} // namespace graze

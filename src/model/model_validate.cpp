@@ -1,0 +1,410 @@
+#include "model/model_validate.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/parser.hpp"
+#include "graze/symbolic/transform.hpp"
+#include "model/model_expand.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace graze {
+
+namespace {
+
+/// Names of modes, events, ... may also contain hyphens: they never occur in expressions.
+bool is_valid_label(std::string_view name) {
+    return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+    });
+}
+
+/// What each name of an expression stands for: parameter, state or definition.
+class SymbolNames {
+public:
+    explicit SymbolNames(const Places& places) : places_(places) {}
+
+    void add(const std::string& name, const char* kind, const std::string& path) {
+        if (is_reserved_name(name))
+            throw InputError(places_.of(path), fmt::format("'{}' is a reserved name and cannot name a {}", name, kind),
+                             "choose another name");
+        if (!is_valid_name(name))
+            throw InputError(places_.of(path), fmt::format("'{}' cannot be the name of a {}", name, kind),
+                             "names consist of letters, digits and underscores and do not start with a digit");
+        const auto [other, is_new] = kinds_.emplace(name, kind);
+        if (!is_new)
+            throw InputError(
+                places_.of(path),
+                fmt::format("the name '{}' is used twice, for a {} and for a {}", name, other->second, kind),
+                "rename one of them");
+    }
+
+private:
+    const Places& places_;
+    std::map<std::string, const char*> kinds_;
+};
+
+template <typename Item>
+void check_labels(const std::vector<Item>& items, const char* kind, const std::string& group, const Places& places) {
+    std::set<std::string> seen;
+    for (const Item& item : items) {
+        const std::string path = group + "." + item.name;
+        if (!is_valid_label(item.name))
+            throw InputError(places.of(path), fmt::format("'{}' cannot be the name of a {}", item.name, kind),
+                             "names consist of letters, digits, underscores and hyphens");
+        if (!seen.insert(item.name).second)
+            throw InputError(places.of(path), fmt::format("there are two {}s '{}'", kind, item.name),
+                             "rename one of them");
+    }
+}
+
+/// One check after the other of a model; each throws at the first thing wrong.
+class Validator {
+public:
+    Validator(const Model& model, const Places& places) : model_(model), places_(places) {}
+
+    void run() const {
+        if (model_.states.empty())
+            fail("states", "the model has no states", "give at least one state, with its initial value, in [states]");
+        if (model_.modes.empty())
+            fail("modes", "the model has no modes", "give the rates of the states in a mode, [modes.<name>]");
+        validate_names(model_, places_);
+        check_other_names();
+        check_sizes();
+        check_indices();
+        check_expressions();
+        check_circles();
+        check_transitions();
+        check_sections();
+        check_values();
+    }
+
+private:
+    [[noreturn]] void fail(std::string_view path, const std::string& problem, const std::string& remedy) const {
+        throw InputError(places_.of(path), problem, remedy);
+    }
+
+    void check_other_names() const {
+        check_labels(model_.modes, "mode", "modes", places_);
+        check_labels(model_.events, "event", "events", places_);
+        check_labels(model_.jumps, "jump", "jumps", places_);
+        check_labels(model_.sections, "section", "sections", places_);
+        check_labels(model_.symmetries, "symmetry", "symmetries", places_);
+        if (model_.find_mode("end"))
+            fail("modes.end", "a mode cannot be named 'end', which stands for the end of a trajectory",
+                 "choose another name");
+        if (model_.jumps.empty() || model_.jumps.front().name != "identity")
+            fail("jumps", "the first jump is not the identity", "leave jump 0 of the model as it is");
+        std::set<std::string> seen;
+        for (const Quantity& quantity : model_.quantities) {
+            const std::string path = "quantities." + quantity.name;
+            if (!is_valid_name(quantity.name))
+                fail(
+                    path, fmt::format("'{}' cannot be the name of a quantity", quantity.name),
+                    "names consist of letters, digits and underscores, do not start with a digit and are not reserved");
+            if (!seen.insert(quantity.name).second || model_.find_state(quantity.name) ||
+                model_.find_parameter(quantity.name))
+                fail(path, fmt::format("the name '{}' of a quantity is used twice", quantity.name),
+                     "rename one of them");
+        }
+    }
+
+    void check_count(const std::string& path, std::size_t count, std::size_t expected, const char* of) const {
+        if (count != expected)
+            fail(path, fmt::format("{} has {} entries for {} {}", path, count, expected, of),
+                 fmt::format("give one for each of the {}", of));
+    }
+
+    void check_sizes() const {
+        const std::size_t states = model_.states.size();
+        for (const Mode& mode : model_.modes)
+            check_count("modes." + mode.name + ".rates", mode.rates.size(), states, "states");
+        for (std::size_t i = 0; i < model_.jumps.size(); ++i)
+            if (i > 0 || !model_.jumps[i].map.empty())
+                check_count("jumps." + model_.jumps[i].name, model_.jumps[i].map.size(), states, "states");
+        if (const auto& identity = model_.jumps.front().map; !identity.empty() && identity != model_.state_symbols())
+            fail("jumps.identity", "the jump 'identity' changes states", "give your jump another name");
+        for (const Symmetry& symmetry : model_.symmetries) {
+            check_count("symmetries." + symmetry.name + ".map", symmetry.map.size(), states, "states");
+            check_count("symmetries." + symmetry.name + ".modes", symmetry.modes.size(), model_.modes.size(), "modes");
+        }
+    }
+
+    void check_index(const std::string& path, std::size_t index, std::size_t count, const char* kind) const {
+        if (index >= count)
+            fail(path, fmt::format("{} refers to {} {}, but there are {} (counted from 0)", path, kind, index, count),
+                 fmt::format("use an index below {}", count));
+    }
+
+    void check_indices() const {
+        check_index("initial.mode", model_.initial_mode, model_.modes.size(), "mode");
+        for (const Mode& mode : model_.modes)
+            for (const std::size_t event : mode.watched)
+                check_index("modes." + mode.name + ".watch", event, model_.events.size(), "event");
+        for (std::size_t i = 0; i < model_.transitions.size(); ++i) {
+            const Transition& transition = model_.transitions[i];
+            const std::string path = fmt::format("transitions.{}", i + 1);
+            check_index(path + ".mode", transition.mode, model_.modes.size(), "mode");
+            check_index(path + ".event", transition.event, model_.events.size(), "event");
+            check_index(path + ".jump", transition.jump, model_.jumps.size(), "jump");
+            for (const Alternative& alternative : transition.next)
+                check_index(path + ".next", alternative.mode.value_or(0), model_.modes.size(), "mode");
+            if (transition.chatter) {
+                check_index(path + ".chatter.jump", transition.chatter->jump, model_.jumps.size(), "jump");
+                check_index(path + ".chatter.mode", transition.chatter->mode, model_.modes.size(), "mode");
+            }
+        }
+        for (const Section& section : model_.sections)
+            check_index("sections." + section.name + ".state", section.state.value_or(0), model_.states.size(),
+                        "state");
+        for (const Symmetry& symmetry : model_.symmetries)
+            for (const std::size_t mode : symmetry.modes)
+                check_index("symmetries." + symmetry.name + ".modes", mode, model_.modes.size(), "mode");
+    }
+
+    void check_expressions() const {
+        const std::vector<ModelExpression> all = model_expressions(model_);
+        std::vector<Expression> parametric;
+        std::vector<Expression> general;
+        for (const ModelExpression& item : all) {
+            if (item.expression.empty())
+                fail(item.path, fmt::format("{} is missing", item.path), "give an expression");
+            if (item.expression.graph() != model_.graph)
+                fail(item.path, fmt::format("{} belongs to another graph", item.path),
+                     "build all expressions of a model from its own symbols");
+            (item.in_parameters ? parametric : general).push_back(item.expression);
+        }
+        std::set<NodeIndex> parameters;
+        for (const Parameter& parameter : model_.parameters)
+            parameters.insert(model_.symbol(parameter.name).index());
+        std::set<NodeIndex> symbols = parameters;
+        for (const Expression& state : model_.state_symbols())
+            symbols.insert(state.index());
+        for (const Definition& definition : model_.definitions)
+            symbols.insert(model_.symbol(definition.name).index());
+        // Expressions share parts, so that all are searched at once; which one is to blame is found when it matters.
+        const auto is_wrong = [](const std::vector<Expression>& expressions, const std::set<NodeIndex>& allowed) {
+            const std::vector<Expression> found = symbols_of(expressions);
+            return std::any_of(found.begin(), found.end(),
+                               [&](const Expression& symbol) { return allowed.count(symbol.index()) == 0; });
+        };
+        if (!is_wrong(parametric, parameters) && !is_wrong(general, symbols))
+            return;
+        for (const ModelExpression& item : all)
+            for (const Expression& symbol : symbols_of({&item.expression, 1}))
+                if ((item.in_parameters ? parameters : symbols).count(symbol.index()) == 0)
+                    fail_symbol(item, symbol.name());
+    }
+
+    [[noreturn]] void fail_symbol(const ModelExpression& item, const std::string& name) const {
+        const Place place = places_.of_name(item.path, name);
+        const bool is_state = model_.find_state(name).has_value();
+        const bool is_definition = std::any_of(model_.definitions.begin(), model_.definitions.end(),
+                                               [&](const Definition& definition) { return definition.name == name; });
+        if (is_state || is_definition)
+            throw InputError(
+                place, fmt::format("{} uses the {} '{}'", item.path, is_state ? "state" : "definition", name),
+                is_state ? "write it in terms of parameters" : "make that a dependent parameter, or write it out");
+        throw InputError(place, fmt::format("{} uses the unknown name '{}'", item.path, name),
+                         "give it as a state, parameter or definition");
+    }
+
+    void check_circles() const {
+        const std::vector<std::string> circle = find_circle(model_);
+        if (circle.empty())
+            return;
+        const bool of_parameters = model_.find_parameter(circle.front()).has_value();
+        const std::string path = (of_parameters ? "parameters." : "definitions.") + circle.front() + ".value";
+        throw InputError(places_.of_name(path, circle[1]),
+                         fmt::format("{} refer to one another in a circle: {}",
+                                     of_parameters ? "dependent parameters" : "definitions", circle_text(circle)),
+                         "define one of them without the others");
+    }
+
+    void check_transitions() const {
+        std::set<std::pair<std::size_t, std::size_t>> seen;
+        for (std::size_t i = 0; i < model_.transitions.size(); ++i) {
+            const Transition& transition = model_.transitions[i];
+            const std::string path = fmt::format("transitions.{}", i + 1);
+            if (!seen.emplace(transition.mode, transition.event).second)
+                fail(path,
+                     fmt::format("there is a second transition for event '{}' in mode '{}'",
+                                 model_.events[transition.event].name, model_.modes[transition.mode].name),
+                     "write one transition with alternatives: next = [{ when = \"...\", mode = \"...\" }, ...]");
+            if (transition.next.empty())
+                fail(path + ".next", fmt::format("{} does not say what comes next", path),
+                     "give next = \"<mode>\", or \"end\"");
+        }
+        for (const Mode& mode : model_.modes) {
+            const std::string path = "modes." + mode.name + ".watch";
+            std::set<std::size_t> watched;
+            for (std::size_t i = 0; i < mode.watched.size(); ++i) {
+                const Event& event = model_.events[mode.watched[i]];
+                const std::string item = fmt::format("{}.{}", path, i + 1);
+                if (!watched.insert(mode.watched[i]).second)
+                    fail(item, fmt::format("mode '{}' watches event '{}' twice", mode.name, event.name),
+                         "remove one of the two");
+                const auto index = static_cast<std::size_t>(&mode - model_.modes.data());
+                if (event.kind == EventKind::barrier && model_.find_transition(index, mode.watched[i]) == nullptr)
+                    fail(item,
+                         fmt::format("mode '{}' watches the barrier '{}' but has no transition for it", mode.name,
+                                     event.name),
+                         fmt::format("add [[transitions]] with mode = \"{}\" and event = \"{}\", or make the event a "
+                                     "section",
+                                     mode.name, event.name));
+            }
+        }
+    }
+
+    void check_sections() const {
+        for (const Section& section : model_.sections) {
+            const std::string path = "sections." + section.name;
+            if (section.state && !section.function.empty())
+                fail(path, fmt::format("{} has both a function and a state", path), "keep one of the two");
+            if (section.state && !model_.states[*section.state].period)
+                fail(path + ".state",
+                     fmt::format("{} is at a value of the state '{}', which is not cyclic", path,
+                                 model_.states[*section.state].name),
+                     "give the state a period, or use function = \"...\"");
+        }
+    }
+
+    /// Values that the parameters, as they stand, give.
+    void check_values() const {
+        for (const Parameter& parameter : model_.parameters) {
+            const std::string path = "parameters." + parameter.name;
+            if (parameter.value.has_value() == parameter.expression.has_value())
+                fail(path, fmt::format("parameter '{}' must have either a value or an expression", parameter.name),
+                     "give one of the two");
+            if (parameter.value && !std::isfinite(*parameter.value))
+                fail(path + ".value",
+                     fmt::format("the value of parameter '{}' is {}", parameter.name, *parameter.value),
+                     "give a finite number");
+        }
+        std::vector<const ModelExpression*> items;
+        std::vector<Expression> expressions;
+        const std::vector<ModelExpression> all = model_expressions(model_);
+        for (const ModelExpression& item : all)
+            if (item.in_parameters) {
+                items.push_back(&item);
+                expressions.push_back(item.expression);
+            }
+        const std::vector<double> values = evaluate_in_parameters(model_, expressions);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            if (!std::isfinite(values[i]))
+                fail(items[i]->path, fmt::format("{} is {} at these parameters", items[i]->path, values[i]),
+                     "look for a division by zero, or the root or logarithm of a negative number");
+        checked_initial_state(model_, places_);
+    }
+
+    const Model& model_;
+    const Places& places_;
+};
+
+} // namespace
+
+std::string name_remedy(std::string_view name, const std::vector<std::string>& known) {
+    const std::string near = nearest_name(name, known);
+    if (!near.empty())
+        return fmt::format("did you mean '{}'?", near);
+    if (known.empty())
+        return "there are none";
+    constexpr std::size_t most = 20;
+    return fmt::format("known: {}{}", fmt::join(known.begin(), known.begin() + std::min(known.size(), most), ", "),
+                       known.size() > most ? ", ..." : "");
+}
+
+std::vector<ModelExpression> model_expressions(const Model& model) {
+    std::vector<ModelExpression> result;
+    const auto add_each_state = [&](const std::string& path, const std::vector<Expression>& expressions) {
+        for (std::size_t i = 0; i < expressions.size(); ++i)
+            result.push_back({path + "." + model.states[i].name, expressions[i]});
+    };
+    for (const Parameter& parameter : model.parameters)
+        if (parameter.expression)
+            result.push_back({"parameters." + parameter.name + ".value", *parameter.expression, true});
+    for (const State& state : model.states) {
+        result.push_back({"states." + state.name + ".initial", state.initial, true});
+        if (state.period)
+            result.push_back({"states." + state.name + ".period", *state.period, true});
+    }
+    for (const Definition& definition : model.definitions)
+        result.push_back({"definitions." + definition.name + ".value", definition.value});
+    for (const Mode& mode : model.modes)
+        add_each_state("modes." + mode.name + ".rates", mode.rates);
+    for (const Event& event : model.events)
+        result.push_back({"events." + event.name + ".function", event.function});
+    for (const Jump& jump : model.jumps)
+        add_each_state("jumps." + jump.name, jump.map);
+    for (std::size_t i = 0; i < model.transitions.size(); ++i)
+        for (std::size_t k = 0; k < model.transitions[i].next.size(); ++k)
+            for (const Condition& condition : model.transitions[i].next[k].when)
+                result.push_back({fmt::format("transitions.{}.next.{}.when", i + 1, k + 1), condition.function});
+    for (const Section& section : model.sections) {
+        const std::string path = "sections." + section.name;
+        if (section.state)
+            result.push_back({path + ".value", section.value, true});
+        else
+            result.push_back({path + ".function", section.function});
+    }
+    for (const Symmetry& symmetry : model.symmetries)
+        add_each_state("symmetries." + symmetry.name + ".map", symmetry.map);
+    for (const Quantity& quantity : model.quantities)
+        result.push_back({"quantities." + quantity.name + ".value", quantity.value});
+    return result;
+}
+
+void validate_names(const Model& model, const Places& places) {
+    SymbolNames names(places);
+    for (const Parameter& parameter : model.parameters)
+        names.add(parameter.name, "parameter", "parameters." + parameter.name);
+    for (const State& state : model.states)
+        names.add(state.name, "state", "states." + state.name);
+    for (const Definition& definition : model.definitions)
+        names.add(definition.name, "definition", "definitions." + definition.name);
+}
+
+void validate_model(const Model& model, const Places& places) {
+    Validator(model, places).run();
+}
+
+std::vector<double> checked_initial_state(const Model& model, const Places& places) {
+    std::vector<Expression> expressions;
+    for (const State& state : model.states) {
+        expressions.push_back(state.initial);
+        expressions.push_back(state.period.value_or(model.graph->number(1)));
+    }
+    const std::vector<double> values = evaluate_in_parameters(model, expressions);
+    std::vector<double> result;
+    for (std::size_t i = 0; i < model.states.size(); ++i) {
+        const std::string path = "states." + model.states[i].name;
+        double value = values[2 * i];
+        const double period = values[2 * i + 1];
+        if (!std::isfinite(value))
+            throw InputError(places.of(path + ".initial"),
+                             fmt::format("the initial value of '{}' is {}", model.states[i].name, value),
+                             "give a finite number, or an expression that is finite at these parameters");
+        if (!(period > 0) || !std::isfinite(period))
+            throw InputError(places.of(path + ".period"),
+                             fmt::format("the period of '{}' is {}", model.states[i].name, period),
+                             "a period must be positive and finite");
+        if (model.states[i].period) {
+            value = std::fmod(value, period);
+            if (value < 0)
+                value += period;
+            // The sum of a tiny negative number and the period rounds to the period itself.
+            if (value >= period)
+                value = 0;
+        }
+        result.push_back(value);
+    }
+    return result;
+}
+
+} // namespace graze

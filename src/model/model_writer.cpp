@@ -1,0 +1,292 @@
+#include "graze/model/model_file.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/parser.hpp"
+#include "graze/symbolic/transform.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <iterator>
+
+namespace graze {
+
+namespace {
+
+/// A TOML string; of several lines when the text has them.
+std::string quoted(const std::string& text) {
+    const bool long_form = text.find('\n') != std::string::npos;
+    std::string result = long_form ? "\"\"\"\n" : "\"";
+    for (const char c : text) {
+        const auto code = static_cast<unsigned char>(c);
+        if (c == '"' || c == '\\')
+            result += {'\\', c};
+        else if (c == '\n' || c == '\t')
+            result += c;
+        else if (code < 0x20 || code == 0x7f)
+            result += fmt::format("\\u{:04X}", code);
+        else
+            result += c;
+    }
+    return result + (long_form ? "\"\"\"" : "\"");
+}
+
+/// A number that reads back to the same double.
+std::string number_text(double value) {
+    if (value == 0 && std::signbit(value))
+        return "-0.0"; // "-0" would be an integer, which has no sign
+    return fmt::format("{}", value);
+}
+
+std::string value_text(const Expression& expression) {
+    return expression.is_number() ? number_text(expression.node().value) : quoted(to_string(expression));
+}
+
+/// Parts of an inline table; those with empty values are left out.
+class InlineTable {
+public:
+    void add(const char* key, const std::string& written) { parts_.push_back(fmt::format("{} = {}", key, written)); }
+    void add_string(const char* key, const std::string& text) {
+        if (!text.empty())
+            add(key, quoted(text));
+    }
+    std::size_t size() const { return parts_.size(); }
+    std::string text() const { return fmt::format("{{ {} }}", fmt::join(parts_, ", ")); }
+
+private:
+    std::vector<std::string> parts_;
+};
+
+class ModelWriter {
+public:
+    explicit ModelWriter(const Model& model) : model_(model), states_(model.state_symbols()) {
+        for (const Expression& symbol : states_)
+            scope_.emplace(symbol.name(), symbol);
+        for (const Parameter& parameter : model.parameters)
+            scope_.emplace(parameter.name, model.symbol(parameter.name));
+        for (const Definition& definition : model.definitions)
+            scope_.emplace(definition.name, model.symbol(definition.name));
+    }
+
+    std::string write() {
+        line("name = {}", quoted(model_.name));
+        string("text", model_.text);
+        string("source", model_.source);
+        string("time_unit", model_.time_unit);
+        write_values();
+        write_modes();
+        write_events();
+        write_jumps();
+        write_transitions();
+        write_sections();
+        write_symmetries();
+        write_quantities();
+        line("\n[initial]");
+        line("mode = {}", quoted(mode_name(model_.initial_mode)));
+        return std::move(text_);
+    }
+
+private:
+    template <typename... Arguments>
+    void line(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+        fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
+        text_ += '\n';
+    }
+    void string(const char* key, const std::string& text) {
+        if (!text.empty())
+            line("{} = {}", key, quoted(text));
+    }
+    /// The short form `key = value` when there is only a value.
+    void item(const std::string& key, const std::string& value, const InlineTable& table) {
+        line("{} = {}", key, table.size() == 1 ? value : table.text());
+    }
+    const std::string& mode_name(std::size_t mode) const { return model_.modes[mode].name; }
+
+    void write_values() {
+        if (!model_.parameters.empty())
+            line("\n[parameters]");
+        for (const Parameter& parameter : model_.parameters) {
+            // A dependent parameter stays a string even when it is a number, for it to stay dependent.
+            const std::string value = parameter.expression ? quoted(to_string(*parameter.expression))
+                                                           : number_text(parameter.value.value_or(std::nan("")));
+            InlineTable table;
+            table.add("value", value);
+            table.add_string("unit", parameter.unit);
+            table.add_string("text", parameter.text);
+            item(parameter.name, value, table);
+        }
+        line("\n[states]");
+        for (const State& state : model_.states) {
+            InlineTable table;
+            table.add("initial", value_text(state.initial));
+            if (state.period)
+                table.add("period", value_text(*state.period));
+            if (state.drifting)
+                table.add("drifting", "true");
+            table.add_string("unit", state.unit);
+            table.add_string("text", state.text);
+            item(state.name, value_text(state.initial), table);
+        }
+        if (!model_.definitions.empty())
+            line("\n[definitions]");
+        for (const Definition& definition : model_.definitions) {
+            InlineTable table;
+            table.add("value", value_text(definition.value));
+            table.add_string("text", definition.text);
+            item(definition.name, value_text(definition.value), table);
+        }
+    }
+
+    void write_modes() {
+        for (const Mode& mode : model_.modes) {
+            line("\n[modes.{}]", mode.name);
+            string("text", mode.text);
+            if (!mode.watched.empty()) {
+                std::vector<std::string> names;
+                for (const std::size_t event : mode.watched)
+                    names.push_back(quoted(model_.events[event].name));
+                line("watch = [{}]", fmt::join(names, ", "));
+            }
+            line("[modes.{}.rates]", mode.name);
+            for (std::size_t i = 0; i < mode.rates.size(); ++i)
+                line("{} = {}", model_.states[i].name, value_text(mode.rates[i]));
+        }
+    }
+
+    void write_events() {
+        for (const Event& event : model_.events) {
+            line("\n[events.{}]", event.name);
+            string("text", event.text);
+            line("function = {}", value_text(event.function));
+            if (event.kind == EventKind::section)
+                line("kind = \"section\"");
+        }
+    }
+
+    /// The entries of a map that change something.
+    std::vector<std::string> changes(const std::vector<Expression>& map) const {
+        std::vector<std::string> result;
+        for (std::size_t i = 0; i < map.size(); ++i)
+            if (!(map[i] == states_[i]))
+                result.push_back(fmt::format("{} = {}", states_[i].name(), value_text(map[i])));
+        return result;
+    }
+
+    void write_jumps() {
+        for (std::size_t i = 1; i < model_.jumps.size(); ++i) {
+            const Jump& jump = model_.jumps[i];
+            line("\n[jumps.{}]", jump.name);
+            if (!model_.find_state("text"))
+                string("text", jump.text);
+            for (const std::string& change : changes(jump.map))
+                line("{}", change);
+        }
+    }
+
+    /// The text that the user gave when it still says what `when` does, or else a new one.
+    std::string conditions_text(const Alternative& alternative) const {
+        if (!alternative.when_text.empty()) {
+            try {
+                const std::vector<Condition> read = parse_conditions(*model_.graph, alternative.when_text, scope_);
+                const auto same = [](const Condition& one, const Condition& other) {
+                    return one.function == other.function && one.strict == other.strict;
+                };
+                if (std::equal(read.begin(), read.end(), alternative.when.begin(), alternative.when.end(), same))
+                    return alternative.when_text;
+            } catch (const InputError&) {
+                // Words of a model that was built from C++, not conditions.
+            }
+        }
+        std::vector<std::string> parts;
+        for (const Condition& condition : alternative.when)
+            parts.push_back(fmt::format("{} {} 0", to_string(condition.function), condition.strict ? ">" : ">="));
+        return fmt::format("{}", fmt::join(parts, " and "));
+    }
+
+    void write_transitions() {
+        for (const Transition& transition : model_.transitions) {
+            const std::string& event = model_.events[transition.event].name;
+            line("\n[[transitions]]");
+            line("mode = {}", quoted(mode_name(transition.mode)));
+            line("event = {}", quoted(event));
+            if (transition.label != mode_name(transition.mode) + ":" + event)
+                string("label", transition.label);
+            if (transition.jump != 0)
+                line("jump = {}", quoted(model_.jumps[transition.jump].name));
+            const auto next = [&](const Alternative& alternative) {
+                return quoted(alternative.mode ? mode_name(*alternative.mode) : "end");
+            };
+            if (transition.next.size() == 1 && transition.next.front().when.empty()) {
+                line("next = {}", next(transition.next.front()));
+            } else {
+                line("next = [");
+                for (const Alternative& alternative : transition.next) {
+                    InlineTable table;
+                    if (!alternative.when.empty())
+                        table.add("when", quoted(conditions_text(alternative)));
+                    table.add("mode", next(alternative));
+                    line("    {},", table.text());
+                }
+                line("]");
+            }
+            if (transition.chatter)
+                line("chatter = {{ jump = {}, mode = {} }}", quoted(model_.jumps[transition.chatter->jump].name),
+                     quoted(mode_name(transition.chatter->mode)));
+        }
+    }
+
+    void write_sections() {
+        for (const Section& section : model_.sections) {
+            line("\n[sections.{}]", section.name);
+            string("text", section.text);
+            if (section.state) {
+                line("state = {}", quoted(model_.states[*section.state].name));
+                line("value = {}", value_text(section.value));
+                continue;
+            }
+            line("function = {}", value_text(section.function));
+            if (section.direction != Direction::both)
+                line("direction = {}", section.direction == Direction::falling ? "\"falling\"" : "\"rising\"");
+        }
+    }
+
+    void write_symmetries() {
+        for (const Symmetry& symmetry : model_.symmetries) {
+            line("\n[symmetries.{}]", symmetry.name);
+            string("text", symmetry.text);
+            line("map = {{ {} }}", fmt::join(changes(symmetry.map), ", "));
+            std::vector<std::string> modes;
+            for (std::size_t i = 0; i < symmetry.modes.size(); ++i)
+                if (symmetry.modes[i] != i)
+                    modes.push_back(fmt::format("{} = {}", mode_name(i), quoted(mode_name(symmetry.modes[i]))));
+            if (!modes.empty())
+                line("modes = {{ {} }}", fmt::join(modes, ", "));
+        }
+    }
+
+    void write_quantities() {
+        if (!model_.quantities.empty())
+            line("\n[quantities]");
+        for (const Quantity& quantity : model_.quantities) {
+            InlineTable table;
+            table.add("value", value_text(quantity.value));
+            table.add_string("unit", quantity.unit);
+            table.add_string("text", quantity.text);
+            item(quantity.name, value_text(quantity.value), table);
+        }
+    }
+
+    const Model& model_;
+    std::vector<Expression> states_;
+    Scope scope_;
+    std::string text_;
+};
+
+} // namespace
+
+std::string write_model(const Model& model) {
+    return ModelWriter(model).write();
+}
+
+} // namespace graze
