@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+
+namespace graze {
+
+/// Tolerances that can be asked for. Below the lower one, round-off rules.
+inline constexpr double smallest_tolerance = 1e-16;
+inline constexpr double largest_tolerance = 1e-2;
+
+/// The order at which a step costs least per unit of time for a relative error of `tolerance`:
+/// 1 - ln(tolerance) / 2, rounded up (Jorba and Zou 2005, section 3.2).
+int order_for_tolerance(double tolerance);
+
+/// Chooses steps from the last two coefficients of each state (Jorba and Zou 2005), each state being measured
+/// by its own size over the step, so that units and magnitudes of different states do not matter.
+class StepSize {
+public:
+    StepSize(int order, double tolerance);
+
+    /// @param states  pointers to order + 1 coefficients of each state
+    /// @param previous the last step, for the size of states that are momentarily zero; 0 when there is none
+    /// @return the step; infinity when nothing changes; NaN when a coefficient is
+    ///         not finite
+    double operator()(const double* const* states, std::size_t count, double previous) const;
+
+    /// Estimate of the radius of convergence, from the last coefficients (for reporting singularities).
+    double radius(const double* const* states, std::size_t count) const;
+
+    int order() const { return order_; }
+
+private:
+    /// For a state that is a polynomial of lower degree, any step is exact: one over which it changes by about its
+    /// own size keeps sizes meaningful (they are what round-off is measured by).
+    double polynomial_step(const double* coefficients, double size) const;
+    double step_for(const double* const* states, std::size_t count, double reference) const;
+
+    int order_;
+    double tolerance_;
+    double root_high_, root_low_; ///< tolerance^(1/order), tolerance^(1/(order-1))
+};
+
+} // namespace graze

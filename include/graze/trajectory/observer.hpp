@@ -1,0 +1,75 @@
+#pragma once
+
+#include "graze/flow/roots.hpp"
+
+#include <cstddef>
+#include <span>
+
+namespace graze {
+
+/// One step of an arc: Taylor polynomials in s = time - start, valid for 0 <= s <= length.
+struct Step {
+    double start = 0, length = 0;
+    std::size_t mode = 0;
+    int order = 0;
+    std::span<const double* const> states;   ///< order + 1 coefficients each
+    std::span<const double* const> events;   ///< of the watched events of the mode
+    std::span<const double* const> observed; ///< of the observed expressions
+
+    double state(std::size_t index, double s) const { return value(states[index], s); }
+    double value(const double* coefficients, double s) const {
+        return evaluate_polynomial({coefficients, static_cast<std::size_t>(order) + 1}, s);
+    }
+};
+
+enum class ContactKind {
+    crossing, ///< the event function falls through zero; the transition is made
+    touch,    ///< it comes within the contact tolerance of zero without falling through: nothing happens
+    sticking, ///< accumulation of contacts, or contact without speed: the transition's `chatter` is made
+};
+
+/// Something that happened at an event's surface.
+struct Contact {
+    ContactKind kind = ContactKind::crossing;
+    double time = 0;
+    std::size_t event = 0;
+    std::size_t transition = 0;   ///< index in Model::transitions
+    std::size_t mode_before = 0, mode_after = 0;
+    double rate_before = 0;       ///< of the event function along the flow: minus the approach speed
+    double rate_after = 0;        ///< of the same function just after, by the flow of the next mode
+    double value = 0;             ///< of the event function (least value, for a touch)
+    bool simultaneous = false;    ///< at the same time as the contact before
+    std::span<const double> before, after; ///< states; valid during the call
+};
+
+/// A probe's surface is passed, or its expression has an extremum.
+struct Passage {
+    std::size_t probe = 0;
+    double time = 0;
+    int direction = 0; ///< +1 rising (or a minimum), -1 falling (or a maximum)
+    std::size_t mode = 0;
+    bool at_contact = false; ///< an extremum made by a jump or a change of mode
+    std::span<const double> state; ///< valid during the call
+};
+
+/// Least value of a watched event function over a step.
+struct StepMinimum {
+    std::size_t event = 0;
+    double time = 0;
+    Minimum minimum; ///< `at` counts from the start of the step
+};
+
+/// Receives what happens along a trajectory, in the order of time within each kind. Any call may be left out.
+class Observer {
+public:
+    virtual ~Observer() = default;
+    /// Each step, after its length is known.
+    virtual void step(const Step&) {}
+    virtual void contact(const Contact&) {}
+    virtual void passage(const Passage&) {}
+    virtual void minimum(const StepMinimum&) {}
+    /// Asked after every step: true ends the trajectory with Ending::stopped.
+    virtual bool stop() { return false; }
+};
+
+} // namespace graze

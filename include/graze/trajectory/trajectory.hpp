@@ -1,0 +1,154 @@
+#pragma once
+
+#include "graze/flow/roots.hpp"
+#include "graze/flow/step_size.hpp"
+#include "graze/trajectory/observer.hpp"
+#include "graze/trajectory/outcome.hpp"
+#include "graze/trajectory/simulation.hpp"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace graze {
+
+class ProbeTracker;
+class Tangents;
+
+/// One trajectory of a hybrid system, as a state machine that is handed the jets of its present state one at a
+/// time. Whoever drives it (`run` below for one, `Ensemble` for many in lanes) computes
+/// `jet.compute(state())` for the tape of `mode()` and calls `advance` until `finished()`.
+///
+/// Every event function is a polynomial over a step, whose roots are isolated: see docs/method.md.
+class Trajectory {
+public:
+    /// @param parameters of the compiled model, in its order; @param observer must outlive the trajectory
+    Trajectory(const Simulation& simulation, std::span<const double> parameters, Observer& observer);
+    ~Trajectory();
+    Trajectory(Trajectory&&) noexcept;
+
+    /// Begins at a state; may be called again to begin anew.
+    /// @throws InputError for states or times that are not finite, and for periods that are not positive
+    void start(std::span<const double> state, std::size_t mode, double time, double end_time);
+    /// Carries on a finished trajectory from where it is to a later time.
+    void extend(double end_time);
+    /// Also carries derivatives with respect to the given directions: seeds are (states + parameters) numbers
+    /// each, one direction after another. Call after `start`.
+    void carry_tangents(std::span<const double> seeds, std::size_t directions);
+
+    bool finished() const { return outcome_.ending != Ending::running; }
+    const Outcome& outcome() const { return outcome_; }
+    double time() const { return time_; }
+    std::span<const double> state() const { return state_; }
+    std::size_t mode() const { return mode_; }
+    std::span<const double> parameters() const { return parameters_; }
+    std::size_t steps() const { return steps_; }
+    const Simulation& simulation() const { return *simulation_; }
+    /// Derivatives of the state at the present time, [state * directions + direction]; empty when not carried.
+    std::span<const double> tangents() const;
+    /// False after a contact at zero speed, where derivatives do not exist.
+    bool tangents_valid() const;
+
+    /// Makes one step, or one contact without a step, given the jet of state() in mode().
+    /// @param jet single or ensemble; @param lane of this trajectory
+    void advance(const Jet& jet, std::size_t lane = 0);
+
+private:
+    struct Watch {
+        int side = 0;  ///< sign of the event function where it was last known for certain
+        int strip = 0; ///< coefficients that are zero at the start of an arc, plus one; 0: begins as it is
+    };
+    struct Touch {
+        std::size_t watched;
+        Root root;
+    };
+    struct Chattering {
+        std::size_t event = no_event;
+        int count = 0;
+        double rate = 0; ///< of the event function, just before the last contact
+    };
+    static constexpr std::size_t no_event = static_cast<std::size_t>(-1);
+
+    void load(const Jet& jet, std::size_t lane);
+    void begin_arc(double step);
+    bool classify(std::size_t watched, double step);
+    void announce_contact();
+    bool complete_chatter(std::size_t watched, double step);
+    void stick(std::size_t watched, double remaining, double impulse);
+    void carry_tangents_to_rest(std::size_t watched, double remaining, double share);
+    std::size_t find_contact(double& step);
+    void make_contact(std::size_t watched, double s);
+    void apply_transition(std::size_t transition, double rate);
+    void jump(std::size_t index);
+    void enter(std::size_t jump, std::size_t mode);
+    std::optional<std::size_t> next_mode(std::size_t transition, bool& ends);
+    void report_touches(double step);
+    void report_minima(double step);
+    bool make_step(double& length);
+    void report_passage(std::size_t probe, double at, int direction, bool at_contact);
+    void update_sides(double length);
+    void wrap_cyclic_states(bool snap);
+    void add_time(double step);
+    void finish(Ending ending, double time, std::string detail = {});
+    void finish_undefined();
+    std::string where() const;
+    std::span<const double> series(std::size_t index) const {
+        return {series_[index], static_cast<std::size_t>(order_) + 1};
+    }
+    std::span<const double> event_series(std::size_t watched) const { return series(states_ + watched); }
+    double evaluate_state(std::size_t index, double s) const { return evaluate_polynomial(series(index), s); }
+
+    const Simulation* simulation_;
+    Observer* observer_;
+    std::vector<double> parameters_;
+    StepSize step_size_;
+    RootFinder roots_;
+    std::unique_ptr<ProbeTracker> probes_;
+    std::unique_ptr<Tangents> tangents_;
+    std::size_t states_ = 0;
+    int order_ = 0;
+
+    std::vector<double> state_, inputs_, work_, periods_, fields_, jacobian_, row_, kick_, conditions_, before_,
+        after_;
+    std::vector<const double*> series_;
+    std::vector<double> lanes_; ///< coefficients gathered from an ensemble jet
+    std::vector<Watch> watches_;
+    std::vector<Touch> touches_;
+    std::vector<Root> found_touches_;
+    std::vector<std::size_t> together_; ///< events at the time of the last contact, still to be served
+
+    Outcome outcome_;
+    std::size_t mode_ = 0, steps_ = 0;
+    double time_ = 0, time_low_ = 0, end_time_ = 0;
+    double previous_step_ = 0, largest_step_ = 0;
+    bool arc_start_ = true;
+    std::size_t served_ = no_event; ///< event of the contact at which the present arc began
+    std::optional<Contact> pending_; ///< contact still to be announced, when the next jet is known
+    Chattering chattering_;
+    int contacts_now_ = 0;
+};
+
+/// Jets for the modes of a simulation, made when first needed.
+class JetSet {
+public:
+    JetSet(const Simulation& simulation, LaneKind kind, InstructionSet set = best_instruction_set());
+    /// The jet of a mode.
+    Jet& operator()(std::size_t mode);
+    /// Parameters [parameter * width + lane] for all modes, also those made later.
+    void set_parameters(std::span<const double> parameters);
+    int width() const { return width_; }
+
+private:
+    const Simulation* simulation_;
+    LaneKind kind_;
+    InstructionSet set_;
+    int width_;
+    std::vector<double> parameters_;
+    std::vector<std::unique_ptr<Jet>> jets_;
+};
+
+/// Drives one trajectory to its end.
+void run(Trajectory& trajectory, JetSet& jets);
+
+} // namespace graze

@@ -1,0 +1,96 @@
+#include "graze/flow/compiled_model.hpp"
+
+#include "graze/symbolic/transform.hpp"
+
+#include <algorithm>
+
+namespace graze {
+
+CompiledModel::CompiledModel(const Model& model, std::span<const Expression> observed)
+    : model_(model), observed_(observed.size()) {
+    model_.validate();
+    inputs_ = model_.state_symbols();
+    const auto parameter_symbols = model_.parameter_symbols();
+    parameters_ = parameter_symbols.size();
+    inputs_.insert(inputs_.end(), parameter_symbols.begin(), parameter_symbols.end());
+
+    compile_modes(observed);
+    compile_jumps();
+    compile_transitions();
+
+    std::vector<Expression> periods, initial;
+    for (const State& state : model_.states) {
+        has_cyclic_states_ = has_cyclic_states_ || state.period.has_value();
+        periods.push_back(state.period ? *state.period : model_.graph->number(0));
+        initial.push_back(state.initial);
+    }
+    periods_ = Function(parameter_symbols, model_.expand(periods));
+    initial_ = Function(parameter_symbols, model_.expand(initial));
+    workspace_ = std::max({workspace_, periods_.workspace(), initial_.workspace()});
+}
+
+Function CompiledModel::function_of(std::span<const Expression> outputs) {
+    Function function(inputs_, model_.expand(outputs));
+    workspace_ = std::max(workspace_, function.workspace());
+    return function;
+}
+
+void CompiledModel::compile_modes(std::span<const Expression> observed) {
+    const auto states = model_.state_symbols();
+    const auto parameters = model_.parameter_symbols();
+    for (std::size_t m = 0; m < model_.modes.size(); ++m) {
+        const Mode& mode = model_.modes[m];
+        std::vector<Expression> outputs;
+        CompiledMode compiled;
+        compiled.watched = mode.watched;
+        for (const std::size_t event : mode.watched) {
+            outputs.push_back(model_.events[event].function);
+            const Transition* transition = model_.find_transition(m, event);
+            compiled.transitions.push_back(static_cast<std::size_t>(transition - model_.transitions.data()));
+        }
+        outputs.insert(outputs.end(), observed.begin(), observed.end());
+        compiled.tape = compile_tape(states, parameters, model_.expand(mode.rates), model_.expand(outputs));
+        compiled.rates = function_of(mode.rates);
+        modes_.push_back(std::move(compiled));
+    }
+}
+
+void CompiledModel::compile_jumps() {
+    for (const Jump& jump : model_.jumps) {
+        CompiledJump compiled;
+        const auto map = model_.expand(jump.map);
+        const auto states = model_.state_symbols();
+        compiled.identity = std::equal(map.begin(), map.end(), states.begin(), states.end());
+        compiled.map = function_of(map);
+        std::vector<std::vector<Expression>> columns;
+        for (const Expression& input : inputs_)
+            columns.push_back(differentiate(map, input));
+        std::vector<Expression> jacobian;
+        for (std::size_t row = 0; row < map.size(); ++row)
+            for (const auto& column : columns)
+                jacobian.push_back(column[row]);
+        compiled.jacobian = function_of(jacobian);
+        jumps_.push_back(std::move(compiled));
+    }
+}
+
+void CompiledModel::compile_transitions() {
+    for (const Transition& transition : model_.transitions) {
+        CompiledTransition compiled;
+        compiled.jump = transition.jump;
+        for (const Alternative& alternative : transition.next) {
+            std::vector<Expression> conditions;
+            CompiledAlternative way;
+            for (const Condition& condition : alternative.when) {
+                conditions.push_back(condition.function);
+                way.strict.push_back(condition.strict);
+            }
+            way.conditions = function_of(conditions);
+            way.mode = alternative.mode;
+            compiled.next.push_back(std::move(way));
+        }
+        transitions_.push_back(std::move(compiled));
+    }
+}
+
+} // namespace graze

@@ -1,0 +1,88 @@
+#include "graze/flow/step_size.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+int order_for_tolerance(double tolerance) {
+    const double bounded = std::clamp(tolerance, smallest_tolerance, largest_tolerance);
+    return std::max(4, static_cast<int>(std::ceil(1 - std::log(bounded) / 2)));
+}
+
+StepSize::StepSize(int order, double tolerance)
+    : order_(order), tolerance_(std::clamp(tolerance, smallest_tolerance, largest_tolerance)),
+      root_high_(std::pow(tolerance_, 1.0 / order)), root_low_(std::pow(tolerance_, 1.0 / (order - 1))) {}
+
+double StepSize::operator()(const double* const* states, std::size_t count, double previous) const {
+    if (previous > 0)
+        return step_for(states, count, previous);
+    // Without a previous step the sizes of states that start at zero are unknown: begin with a step over which
+    // the state changes by about its own size, and let it settle.
+    double reference = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < count; ++i)
+        for (int k = 1; k <= order_; ++k)
+            for (int j = 0; j < k; ++j)
+                if (states[i][k] != 0 && states[i][j] != 0)
+                    reference = std::min(reference, std::pow(std::abs(states[i][j] / states[i][k]), 1.0 / (k - j)));
+    if (!std::isfinite(reference))
+        reference = 1;
+    for (int sweep = 0; sweep < 3; ++sweep) {
+        const double step = step_for(states, count, reference);
+        if (!std::isfinite(step))
+            return step;
+        reference = step;
+    }
+    return reference;
+}
+
+double StepSize::polynomial_step(const double* c, double size) const {
+    int degree = order_;
+    while (degree > 0 && c[degree] == 0)
+        --degree;
+    if (degree == 0 || size == 0)
+        return std::numeric_limits<double>::infinity();
+    return std::pow(size / std::abs(c[degree]), 1.0 / degree);
+}
+
+double StepSize::step_for(const double* const* states, std::size_t count, double reference) const {
+    double high = 0, low = 0, sum = 0, polynomial = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < count; ++i) {
+        const double* c = states[i];
+        const double last = std::abs(c[order_]), before = std::abs(c[order_ - 1]);
+        sum += last + before; // not finite as soon as one is not
+        double size = std::abs(c[0]) + reference * (std::abs(c[1]) + reference * std::abs(c[2]));
+        if (size == 0)
+            for (int k = order_; k >= 0; --k)
+                size = size * reference + std::abs(c[k]);
+        if (last == 0 && before == 0) {
+            polynomial = std::min(polynomial, polynomial_step(c, size));
+            continue;
+        }
+        high = std::max(high, last / size);
+        low = std::max(low, before / size);
+    }
+    if (!std::isfinite(sum))
+        return std::numeric_limits<double>::quiet_NaN();
+    if (high == 0 && low == 0)
+        return polynomial;
+    double step = std::numeric_limits<double>::infinity();
+    if (high > 0)
+        step = root_high_ * std::exp2(-std::log2(high) / order_);
+    if (low > 0)
+        step = std::min(step, root_low_ * std::exp2(-std::log2(low) / (order_ - 1)));
+    return step;
+}
+
+double StepSize::radius(const double* const* states, std::size_t count) const {
+    double radius = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < count; ++i) {
+        const double last = std::abs(states[i][order_]), before = std::abs(states[i][order_ - 1]);
+        if (last > 0 && before > 0)
+            radius = std::min(radius, before / last);
+    }
+    return radius;
+}
+
+} // namespace graze

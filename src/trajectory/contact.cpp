@@ -1,0 +1,369 @@
+// Contacts: how they are found, what may be found at the start of an arc, and how transitions are made.
+
+#include "graze/trajectory/trajectory.hpp"
+
+#include "trajectory/probe_tracker.hpp"
+#include "trajectory/series.hpp"
+#include "trajectory/tangents.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// A jump that keeps the motion at the surface leaves the event function at round-off, which the sizes of the
+/// terms of the function and of the jump may magnify.
+constexpr double served_roundoff = 1e-10;
+
+/// Contacts in a row before an accumulation is looked for.
+constexpr int fewest_contacts_of_chatter = 3;
+
+} // namespace
+
+std::size_t Trajectory::find_contact(double& step) {
+    const auto& mode = simulation_->compiled().mode(mode_);
+    const SimulationOptions& options = simulation_->options();
+    const double whole = step;
+    const double together = 8 * epsilon * std::max(std::abs(time_), step);
+    std::size_t first = no_event;
+    together_.clear();
+    for (std::size_t w = 0; w < mode.watched.size(); ++w) {
+        Watch& watch = watches_[w];
+        if (watch.side == 0)
+            continue;
+        auto c = event_series(w);
+        Root root{};
+        const RootStart start = watch.strip > 0 ? RootStart::deflate : RootStart::as_is;
+        if (watch.strip > 0)
+            c = c.subspan(static_cast<std::size_t>(watch.strip) - 1);
+        const double length = std::min(whole, step + together);
+        bool found = false;
+        if (start == RootStart::as_is && watch.side > 0 && c[0] <= 0) {
+            found = true; // fell through zero in the round-off between two steps
+        } else if (watch.side > 0 && RootFinder::surely_positive(c, length, start)) {
+            continue;
+        } else {
+            const double touch = options.touch > 0 ? options.touch : 100 * options.tolerance * series_size(c, length);
+            found_touches_.clear();
+            found = roots_.first_falling(c, length, start, root, touch, &found_touches_);
+            if (simulation_->model().events[mode.watched[w]].kind == EventKind::barrier && watch.strip <= 1)
+                for (const Root& found_touch : found_touches_)
+                    touches_.push_back({w, found_touch});
+        }
+        if (!found)
+            continue;
+        if (first != no_event && root.at >= step - together) {
+            together_.push_back(mode.watched[w]); // the search ended just behind the first
+            continue;
+        }
+        if (first != no_event && step - root.at <= together)
+            together_.push_back(mode.watched[first]);
+        else
+            together_.clear();
+        first = w;
+        step = root.at;
+    }
+    std::stable_sort(touches_.begin(), touches_.end(),
+                     [](const Touch& a, const Touch& b) { return a.root.at < b.root.at; });
+    return first;
+}
+
+void Trajectory::update_sides(double length) {
+    const auto& mode = simulation_->compiled().mode(mode_);
+    for (std::size_t w = 0; w < mode.watched.size(); ++w) {
+        Watch& watch = watches_[w];
+        watch.strip = 0;
+        if (watch.side > 0)
+            continue; // had it fallen, it would have been found; within round-off of zero the next step decides
+        const double value = evaluate_polynomial(event_series(w), length);
+        const bool barrier = simulation_->model().events[mode.watched[w]].kind == EventKind::barrier;
+        if (value > 0)
+            watch.side = 1;
+        else if (watch.side == 0 && std::abs(value) > roundoff * series_size(event_series(w), length))
+            watch.side = barrier ? 1 : -1; // left the surface it moved along: for a barrier, a contact at once
+    }
+}
+
+void Trajectory::begin_arc(double step) {
+    announce_contact();
+    arc_start_ = false;
+    probes_->begin_arc();
+    const auto& mode = simulation_->compiled().mode(mode_);
+    for (std::size_t w = 0; w < mode.watched.size(); ++w)
+        if (!classify(w, step))
+            return;
+    served_ = no_event;
+    together_.clear();
+}
+
+/// Decides on which side of a watched event's surface the arc begins. Returns false when something happens at
+/// once: a contact, sticking, or the end of the trajectory.
+bool Trajectory::classify(std::size_t w, double step) {
+    const auto& mode = simulation_->compiled().mode(mode_);
+    const std::size_t event = mode.watched[w];
+    const Event& definition = simulation_->model().events[event];
+    const auto c = event_series(w);
+    const double size = series_size(c, step);
+    const double noise = roundoff * size;
+    const bool served = event == served_;
+    const bool due = std::find(together_.begin(), together_.end(), event) != together_.end();
+    Watch& watch = watches_[w];
+    watch = {};
+    if (std::abs(c[0]) > (served || due ? served_roundoff * size : noise)) {
+        watch.side = c[0] > 0 ? 1 : -1;
+        if (watch.side > 0 || definition.kind == EventKind::section)
+            return true;
+        finish(Ending::inadmissible, time_,
+               fmt::format("barrier '{}' is already violated ({:.6g} < 0) {}: choose an initial state on its admissible "
+                           "side, or a jump that does not lead beyond it",
+                           definition.name, c[0], where()));
+        return false;
+    }
+    const std::size_t leading = leading_index(c, step, noise);
+    if (leading == 0)
+        return true; // moves along the surface: nothing to watch until it leaves
+    watch.side = c[leading] > 0 ? 1 : -1;
+    watch.strip = static_cast<int>(leading);
+    if (watch.side > 0)
+        return !(served && leading == 1) || !complete_chatter(w, step);
+    if (definition.kind == EventKind::section && !due)
+        return true;
+    if (!served) {
+        make_contact(w, 0);
+        return false;
+    }
+    if (leading == 1) {
+        finish(Ending::no_separation, time_,
+               fmt::format("after its jump, barrier '{}' is still approached {}: give its transition a jump that "
+                           "separates, or a next mode that does not watch it, or declare it a section",
+                           definition.name, where()));
+        return false;
+    }
+    stick(w, 0, 0);
+    return false;
+}
+
+void Trajectory::announce_contact() {
+    if (!pending_)
+        return;
+    const auto& mode = simulation_->compiled().mode(mode_);
+    for (std::size_t w = 0; w < mode.watched.size(); ++w)
+        if (mode.watched[w] == pending_->event)
+            pending_->rate_after = event_series(w)[1];
+    pending_->before = before_;
+    pending_->after = after_;
+    observer_->contact(*pending_);
+    pending_.reset();
+}
+
+void Trajectory::make_contact(std::size_t w, double s) {
+    const auto& mode = simulation_->compiled().mode(mode_);
+    const std::size_t event = mode.watched[w];
+    const std::size_t transition = mode.transitions[w];
+    const double rate = evaluate_derivative(event_series(w), s);
+    fields_.resize(2 * states_);
+    for (std::size_t i = 0; i < states_; ++i) {
+        before_[i] = evaluate_state(i, s);
+        fields_[i] = evaluate_derivative(series(i), s);
+    }
+    if (tangents_) {
+        row_.resize(tangents_->directions());
+        tangents_->evaluate(mode_, state_, s, {}, w, row_);
+        tangents_->advance(mode_, state_, s);
+        if (std::abs(rate) * previous_step_ <= roundoff * series_size(event_series(w), previous_step_))
+            tangents_->invalidate();
+        else
+            for (double& shift : row_)
+                shift /= -rate;
+    }
+    add_time(s);
+    if (event == chattering_.event)
+        ++chattering_.count;
+    else if (simulation_->compiled().transition(transition).jump != 0)
+        chattering_ = {event, 1, 0};
+    if (event == chattering_.event)
+        chattering_.rate = rate;
+    Contact contact;
+    contact.kind = ContactKind::crossing;
+    contact.event = event;
+    contact.simultaneous = contacts_now_ > 0;
+    contact.rate_before = rate;
+    pending_ = contact;
+    apply_transition(transition, rate);
+}
+
+/// Makes the transition's jump from `before_` and finds the next mode.
+void Trajectory::apply_transition(std::size_t transition, double rate) {
+    const Model& model = simulation_->model();
+    const auto& compiled = simulation_->compiled().transition(transition);
+    pending_->transition = transition;
+    pending_->time = time_;
+    pending_->mode_before = pending_->mode_after = mode_;
+    pending_->rate_before = rate;
+    served_ = pending_->event;
+    jump(compiled.jump);
+    bool ends = false;
+    const auto next = next_mode(transition, ends);
+    if (!next) {
+        const Transition& definition = model.transitions[transition];
+        pending_->before = before_;
+        pending_->after = after_;
+        observer_->contact(*pending_);
+        pending_.reset();
+        state_ = after_;
+        if (ends)
+            return finish(Ending::terminal, time_);
+        return finish(Ending::no_transition, time_,
+                      fmt::format("no condition of transition '{}' (mode '{}', event '{}') holds at time {:.15g}: add an "
+                                  "alternative without a condition, or one that covers this state",
+                                  definition.label, model.modes[definition.mode].name,
+                                  model.events[definition.event].name, time_));
+    }
+    enter(compiled.jump, *next);
+}
+
+void Trajectory::jump(std::size_t jump) {
+    std::copy(before_.begin(), before_.end(), inputs_.begin());
+    simulation_->compiled().jump(jump).map.evaluate(inputs_, after_, work_);
+}
+
+std::optional<std::size_t> Trajectory::next_mode(std::size_t transition, bool& ends) {
+    std::copy(after_.begin(), after_.end(), inputs_.begin());
+    for (const auto& alternative : simulation_->compiled().transition(transition).next) {
+        conditions_.resize(alternative.strict.size());
+        alternative.conditions.evaluate(inputs_, conditions_, work_);
+        bool holds = true;
+        for (std::size_t i = 0; i < conditions_.size(); ++i)
+            holds = holds && (alternative.strict[i] ? conditions_[i] > 0 : conditions_[i] >= 0);
+        if (holds) {
+            ends = !alternative.mode.has_value();
+            return alternative.mode;
+        }
+    }
+    return std::nullopt;
+}
+
+/// Goes on in a mode from `after_`, reached from `before_` by a jump whose time depends on the initial state as
+/// `row_` says.
+void Trajectory::enter(std::size_t jump, std::size_t mode) {
+    const CompiledModel& compiled = simulation_->compiled();
+    if (tangents_) {
+        jacobian_.resize(states_ * (states_ + parameters_.size()));
+        std::copy(before_.begin(), before_.end(), inputs_.begin());
+        compiled.jump(jump).jacobian.evaluate(inputs_, jacobian_, work_);
+        std::copy(after_.begin(), after_.end(), inputs_.begin());
+        const auto field_after = std::span<double>(fields_).subspan(states_, states_);
+        compiled.mode(mode).rates.evaluate(inputs_, field_after, work_);
+        if (tangents_->valid())
+            tangents_->pass_jump(row_, std::span<const double>(fields_).first(states_), jacobian_, field_after);
+    }
+    pending_->mode_after = mode;
+    for (std::size_t i = 0; i < states_; ++i)
+        if (!std::isfinite(after_[i]))
+            return finish(Ending::undefined, time_,
+                          fmt::format("jump '{}' gives state '{}' no finite value {}: look for a division by zero, or a "
+                                      "root or logarithm of a number that is not positive",
+                                      compiled.model().jumps[jump].name, compiled.model().states[i].name, where()));
+    for (std::size_t i = 0; i < states_; ++i)
+        if (periods_[i] > 0 && after_[i] != before_[i])
+            probes_->relocate(i, before_[i], after_[i]);
+    state_ = after_;
+    mode_ = mode;
+    wrap_cyclic_states(true);
+    arc_start_ = true;
+    if (++contacts_now_ > simulation_->options().contacts_at_once)
+        finish(Ending::no_progress, time_,
+               fmt::format("{} events happened at once {}: look for modes that hand over to one another in a circle",
+                           contacts_now_, where()));
+}
+
+/// Contacts at one barrier that follow each other ever faster come to an end in finite time (Budd and Dux 1994).
+/// With speed u and deceleration a after a contact, and speeds that fall by a factor r each, what remains takes
+/// 2u / (a (1 - r)). It is taken at once when that is so short that all else is constant to within tolerance.
+bool Trajectory::complete_chatter(std::size_t w, double step) {
+    const std::size_t event = simulation_->compiled().mode(mode_).watched[w];
+    if (chattering_.event != event || chattering_.count < fewest_contacts_of_chatter)
+        return false;
+    const auto c = event_series(w);
+    const double speed = c[1], deceleration = -2 * c[2];
+    if (!(deceleration > 0) || !(chattering_.rate < 0))
+        return false;
+    const double ratio = speed / -chattering_.rate;
+    if (!(ratio < 1))
+        return false;
+    const double remaining = 2 * speed / (deceleration * (1 - ratio));
+    const double allowed = std::max(4 * epsilon, 0.01 * simulation_->options().tolerance);
+    const double height = deceleration * remaining * remaining;
+    const double change = std::abs(c[3] / c[2]) * remaining;
+    if (height > allowed * series_size(c, step) || change * remaining > allowed * step ||
+        remaining > (end_time_ - time_) - time_low_)
+        return false;
+    stick(w, remaining, deceleration * remaining - speed);
+    return true;
+}
+
+/// Ends an accumulation of contacts `remaining` after the present state: what the contacts still to come do to the
+/// event function's rate, `impulse` in all, they do to the state in the proportions of the last one.
+void Trajectory::stick(std::size_t w, double remaining, double impulse) {
+    const auto& mode = simulation_->compiled().mode(mode_);
+    const std::size_t event = mode.watched[w];
+    const Transition& transition = simulation_->model().transitions[mode.transitions[w]];
+    const auto c = event_series(w);
+    const double last_impulse = c[1] - chattering_.rate;
+    const double share = remaining > 0 && last_impulse > 0 ? impulse / last_impulse : 0;
+    fields_.resize(2 * states_);
+    if (tangents_)
+        carry_tangents_to_rest(w, remaining, share);
+    for (std::size_t i = 0; i < states_; ++i) {
+        const double kick = share * (after_[i] - before_[i]);
+        fields_[i] = series(i)[1];
+        before_[i] = state_[i] + remaining * fields_[i] + (periods_[i] > 0 ? 0 : kick);
+    }
+    add_time(remaining);
+    chattering_ = {};
+    if (!transition.chatter) {
+        state_ = before_;
+        return finish(Ending::chatter, time_,
+                      fmt::format("contacts at barrier '{}' accumulate in mode '{}' at time {:.15g}, and its transition "
+                                  "does not say what follows: give it `chatter = {{ jump = ..., mode = ... }}`",
+                                  simulation_->model().events[event].name, simulation_->model().modes[mode_].name,
+                                  time_));
+    }
+    Contact contact;
+    contact.kind = ContactKind::sticking;
+    contact.time = time_;
+    contact.event = event;
+    contact.transition = mode.transitions[w];
+    contact.mode_before = mode_;
+    contact.rate_before = c[1];
+    pending_ = contact;
+    served_ = no_event;
+    jump(transition.chatter->jump);
+    enter(transition.chatter->jump, transition.chatter->mode);
+}
+
+/// Derivatives of the state and time of accumulation: its time changes with the speed after the last contact.
+void Trajectory::carry_tangents_to_rest(std::size_t w, double remaining, double share) {
+    const auto c = event_series(w);
+    row_.assign(tangents_->directions(), 0.0);
+    if (!(remaining > 0))
+        return;
+    tangents_->coefficient(mode_, state_, w, 1, row_);
+    // d(remaining)/d(speed), and the impulse a (remaining) - u that goes with it
+    const double per_speed = remaining / c[1];
+    const double kicks = share == 0 ? 0 : (-2 * c[2] * per_speed - 1) / (c[1] - chattering_.rate);
+    kick_.resize(states_);
+    for (std::size_t i = 0; i < states_; ++i)
+        kick_[i] = periods_[i] > 0 ? 0 : kicks * (after_[i] - before_[i]);
+    tangents_->add_product(kick_, row_);
+    for (double& shift : row_)
+        shift *= per_speed;
+}
+
+} // namespace graze

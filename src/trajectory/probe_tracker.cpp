@@ -1,0 +1,182 @@
+#include "trajectory/probe_tracker.hpp"
+
+#include "trajectory/series.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+ProbeTracker::ProbeTracker(const Simulation& simulation, std::span<const double> phase_values,
+                           std::span<const double> periods)
+    : simulation_(&simulation), phase_values_(phase_values.begin(), phase_values.end()),
+      periods_(periods.begin(), periods.end()), roots_(simulation.order()), tracked_(simulation.probes().size()),
+      work_(static_cast<std::size_t>(simulation.order()) + 1) {
+    found_.reserve(16);
+    found_roots_.reserve(static_cast<std::size_t>(simulation.order()) + 1);
+}
+
+void ProbeTracker::start(std::span<const double> state) {
+    arc_start_ = true;
+    for (std::size_t p = 0; p < tracked_.size(); ++p) {
+        tracked_[p] = {};
+        const Probe& probe = simulation_->probes()[p];
+        if (probe.kind == Probe::Kind::phase)
+            locate(p, state[probe.state]);
+    }
+}
+
+void ProbeTracker::locate(std::size_t index, double value) {
+    const double period = periods_[simulation_->probes()[index].state];
+    const double target = phase_values_[index];
+    const double slack = roundoff * period;
+    Tracked& tracked = tracked_[index];
+    const double turns = (value - target) / period;
+    tracked.lower = target + std::floor(turns) * period;
+    tracked.upper = tracked.lower + period;
+    tracked.lower_slack = tracked.upper_slack = 0;
+    // Beginning on the section is not a passage of it, whichever way the phase goes.
+    if (value - tracked.lower <= slack)
+        tracked.lower_slack = slack;
+    if (tracked.upper - value <= slack) {
+        tracked.lower = tracked.upper;
+        tracked.upper += period;
+        tracked.lower_slack = slack;
+    }
+}
+
+void ProbeTracker::shift(std::size_t state, double shift) {
+    for (std::size_t p = 0; p < tracked_.size(); ++p)
+        if (const Probe& probe = simulation_->probes()[p]; probe.kind == Probe::Kind::phase && probe.state == state) {
+            tracked_[p].lower += shift;
+            tracked_[p].upper += shift;
+        }
+}
+
+void ProbeTracker::relocate(std::size_t state, double before, double after) {
+    const double period = periods_[state];
+    const double turns = std::round((after - before) / period);
+    // A jump by whole periods moves the sections along: a passage that is due must be neither lost nor doubled.
+    if (std::abs(after - before - turns * period) <= 16 * roundoff * period)
+        return shift(state, turns * period);
+    for (std::size_t p = 0; p < tracked_.size(); ++p)
+        if (const Probe& probe = simulation_->probes()[p]; probe.kind == Probe::Kind::phase && probe.state == state)
+            locate(p, after);
+}
+
+void ProbeTracker::search_again(const Step& step) {
+    tracked_ = tracked_before_;
+    arc_start_ = arc_start_before_;
+    search(step);
+}
+
+std::span<const ProbeTracker::Found> ProbeTracker::search(const Step& step) {
+    found_.clear();
+    tracked_before_ = tracked_;
+    arc_start_before_ = arc_start_;
+    const auto& probes = simulation_->probes();
+    const auto size = static_cast<std::size_t>(step.order) + 1;
+    for (std::size_t p = 0; p < probes.size(); ++p) {
+        if (probes[p].kind == Probe::Kind::phase) {
+            search_phase(p, step);
+            continue;
+        }
+        const double* c = step.observed[simulation_->series_of_probe(p)];
+        if (probes[p].kind == Probe::Kind::crossing) {
+            search_series(p, {c, size}, step.length, false);
+        } else {
+            for (std::size_t k = 0; k + 1 < size; ++k)
+                work_[k] = static_cast<double>(k + 1) * c[k + 1];
+            search_series(p, {work_.data(), size - 1}, step.length, true);
+        }
+    }
+    arc_start_ = false;
+    std::stable_sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) { return a.at < b.at; });
+    return found_;
+}
+
+void ProbeTracker::note(std::size_t probe, double at, int direction, bool at_contact) {
+    const Direction wanted = simulation_->probes()[probe].direction;
+    if (simulation_->probes()[probe].kind == Probe::Kind::phase || wanted == Direction::both ||
+        (wanted == Direction::rising) == (direction > 0))
+        found_.push_back({probe, at, direction, at_contact});
+}
+
+void ProbeTracker::search_series(std::size_t probe, std::span<const double> c, double length, bool extremum) {
+    Tracked& tracked = tracked_[probe];
+    int now = c[0] > 0 ? 1 : -1;
+    if (now == tracked.side && keeps_sign(c, length))
+        return;
+    const double noise = roundoff * series_size(c, length);
+    RootStart start = RootStart::as_is;
+    if (std::abs(c[0]) <= noise) {
+        const std::size_t leading = leading_index(c, length, noise);
+        if (leading == 0)
+            return; // zero throughout, to within round-off
+        now = c[leading] > 0 ? 1 : -1;
+        c = c.subspan(leading - 1);
+        start = RootStart::deflate;
+    }
+    // A changed sign at the start is a passage that fell between two steps; at the start of an arc it is the
+    // doing of a jump, which makes an extremum but is no crossing by the motion.
+    if (tracked.side != 0 && now != tracked.side && (!arc_start_ || extremum))
+        note(probe, 0, now, arc_start_);
+    tracked.side = now;
+    roots_.crossings(c, length, start, found_roots_);
+    for (const Root& root : found_roots_) {
+        const int direction = root.kind == RootKind::rising ? 1 : -1;
+        if (direction == tracked.side)
+            continue; // leaves a zero that was already counted
+        note(probe, root.at, direction, false);
+        tracked.side = direction;
+    }
+}
+
+void ProbeTracker::search_phase(std::size_t index, const Step& step) {
+    const Probe& probe = simulation_->probes()[index];
+    Tracked& tracked = tracked_[index];
+    const double period = periods_[probe.state];
+    const double* c = step.states[probe.state];
+    const auto size = static_cast<std::size_t>(step.order) + 1;
+    double reach = 0;
+    for (std::size_t k = size; k-- > 1;)
+        reach = (reach + std::abs(c[k])) * step.length;
+    reach *= 1 + roundoff;
+    for (double from = 0;;) {
+        int direction = 0;
+        double at = 0;
+        const auto try_target = [&](double target, int towards, double slack) {
+            const double offset = c[0] - target + (towards < 0 ? slack : -slack);
+            if (std::abs(offset) > reach)
+                return;
+            std::copy(c, c + size, work_.begin());
+            work_[0] = offset;
+            if (from == 0 && offset * towards >= 0) { // passed between two steps
+                direction = towards;
+                at = 0;
+                return;
+            }
+            roots_.crossings(work_, step.length, RootStart::as_is, found_roots_);
+            for (const Root& root : found_roots_)
+                if ((root.kind == RootKind::rising) == (towards > 0) && root.at >= from &&
+                    (direction == 0 || root.at < at)) {
+                    direction = towards;
+                    at = root.at;
+                    return;
+                }
+        };
+        try_target(tracked.upper, 1, tracked.upper_slack);
+        if (direction == 0 || at > 0)
+            try_target(tracked.lower, -1, tracked.lower_slack);
+        if (direction == 0)
+            break;
+        note(index, at, direction, false);
+        tracked.lower += direction * period;
+        tracked.upper += direction * period;
+        (direction > 0 ? tracked.lower_slack : tracked.upper_slack) = roundoff * period;
+        (direction > 0 ? tracked.upper_slack : tracked.lower_slack) = 0;
+        from = std::max(at, std::numeric_limits<double>::min());
+    }
+}
+
+} // namespace graze

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "graze/flow/roots.hpp"
+#include "graze/trajectory/observer.hpp"
+#include "graze/trajectory/simulation.hpp"
+
+#include <span>
+#include <vector>
+
+namespace graze {
+
+/// Follows the probes of a simulation from step to step and finds every passage exactly once. A crossing that
+/// round-off hides between two steps is found from the side on which its function was last known to be.
+class ProbeTracker {
+public:
+    /// @param phase_values, periods at the parameters of this trajectory
+    ProbeTracker(const Simulation& simulation, std::span<const double> phase_values, std::span<const double> periods);
+
+    /// Forgets everything: a trajectory begins.
+    void start(std::span<const double> state);
+    /// A new arc: expressions may have jumped.
+    void begin_arc() { arc_start_ = true; }
+    /// A cyclic state has been moved by `shift`.
+    void shift(std::size_t state, double shift);
+    /// A jump has set a cyclic state anew.
+    void relocate(std::size_t state, double before, double after);
+
+    struct Found {
+        std::size_t probe;
+        double at; ///< s
+        int direction;
+        bool at_contact;
+    };
+    /// All passages in (0, length], in increasing order; valid until the next call.
+    std::span<const Found> search(const Step& step);
+    /// The same step again, cut short: as if the search had not been made.
+    void search_again(const Step& step);
+
+private:
+    struct Tracked {
+        int side = 0;
+        double lower = 0, upper = 0;             ///< next values of a phase, below and above
+        double lower_slack = 0, upper_slack = 0; ///< of a value just passed, until it is left behind
+    };
+    void search_series(std::size_t probe, std::span<const double> c, double length, bool extremum);
+    void search_phase(std::size_t probe, const Step& step);
+    void note(std::size_t probe, double at, int direction, bool at_contact);
+    void locate(std::size_t probe, double value);
+
+    const Simulation* simulation_;
+    std::vector<double> phase_values_, periods_;
+    RootFinder roots_;
+    std::vector<Tracked> tracked_, tracked_before_;
+    std::vector<double> work_;
+    std::vector<Root> found_roots_;
+    std::vector<Found> found_;
+    bool arc_start_ = true, arc_start_before_ = true;
+};
+
+} // namespace graze

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace graze {
+
+/// Sum of |c_k| h^k: the size of a polynomial over a step, against which round-off is measured.
+inline double series_size(std::span<const double> c, double h) {
+    double size = 0;
+    for (std::size_t k = c.size(); k-- > 0;)
+        size = size * h + std::abs(c[k]);
+    return size;
+}
+
+/// Round-off of a series of that size: a value below it cannot be told from zero. An event function is a sum of
+/// a few dozen rounded terms that may be larger than itself, hence more than one epsilon.
+inline constexpr double roundoff = 64 * std::numeric_limits<double>::epsilon();
+
+/// Index, at least 1, of the first coefficient that decides the sign just after 0; 0 when none does.
+inline std::size_t leading_index(std::span<const double> c, double h, double noise) {
+    double power = 1;
+    for (std::size_t k = 1; k < c.size(); ++k) {
+        power *= h;
+        if (std::abs(c[k]) * power > noise)
+            return k;
+    }
+    return 0;
+}
+
+/// Whether the polynomial keeps the sign of its value at 0 throughout [0, h].
+inline bool keeps_sign(std::span<const double> c, double h) {
+    double rest = 0;
+    for (std::size_t k = c.size(); k-- > 1;)
+        rest = (rest + std::abs(c[k])) * h;
+    return std::abs(c[0]) > rest * (1 + roundoff);
+}
+
+} // namespace graze

@@ -1,0 +1,120 @@
+#include "trajectory/tangents.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+Tangents::Tangents(const Simulation& simulation, std::span<const double> parameters, std::span<const double> seeds,
+                   std::size_t directions)
+    : states_(simulation.compiled().states()), parameter_count_(parameters.size()), directions_(directions),
+      jets_(simulation, LaneKind::tangent), lanes_(static_cast<std::size_t>(jets_.width()) - 1),
+      parameters_(parameters.begin(), parameters.end()), parameter_seeds_(parameter_count_ * directions),
+      matrix_(states_ * directions), next_(states_ * directions), seeds_(states_ * (lanes_ + 1)),
+      parameter_lanes_(parameter_count_ * (lanes_ + 1)), shift_(directions) {
+    for (std::size_t d = 0; d < directions; ++d) {
+        const auto seed = seeds.subspan(d * (states_ + parameter_count_), states_ + parameter_count_);
+        for (std::size_t i = 0; i < states_; ++i)
+            matrix_[i * directions + d] = seed[i];
+        for (std::size_t j = 0; j < parameter_count_; ++j)
+            parameter_seeds_[j * directions + d] = seed[states_ + j];
+    }
+}
+
+template <class Use>
+void Tangents::for_each_pass(std::size_t mode, std::span<const double> state, Use use) {
+    const std::size_t width = lanes_ + 1;
+    for (std::size_t first = 0; first < directions_; first += lanes_) {
+        const std::size_t count = std::min(lanes_, directions_ - first);
+        const auto fill = [&](std::span<double> lanes, std::span<const double> values,
+                              const std::vector<double>& tangents) {
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                lanes[i * width] = values[i];
+                for (std::size_t l = 0; l < lanes_; ++l)
+                    lanes[i * width + 1 + l] = l < count ? tangents[i * directions_ + first + l] : 0.0;
+            }
+        };
+        fill(seeds_, state, matrix_);
+        fill(parameter_lanes_, parameters_, parameter_seeds_);
+        Jet& jet = jets_(mode);
+        jet.set_parameters(parameter_lanes_);
+        jet.compute(seeds_);
+        use(jet, first, count);
+    }
+}
+
+namespace {
+
+/// Value of lane `lane` of a series at s.
+double evaluate_lane(const double* series, int order, std::size_t width, std::size_t lane, double s) {
+    double value = 0;
+    for (auto k = static_cast<std::size_t>(order) + 1; k-- > 0;)
+        value = value * s + series[k * width + lane];
+    return value;
+}
+
+} // namespace
+
+void Tangents::evaluate(std::size_t mode, std::span<const double> state, double s, std::span<double> matrix,
+                        std::size_t series, std::span<double> row) {
+    const std::size_t width = lanes_ + 1;
+    for_each_pass(mode, state, [&](const Jet& jet, std::size_t first, std::size_t count) {
+        for (std::size_t l = 0; l < count; ++l) {
+            if (!matrix.empty())
+                for (std::size_t i = 0; i < states_; ++i)
+                    matrix[i * directions_ + first + l] = evaluate_lane(jet.state(i), jet.order(), width, l + 1, s);
+            if (!row.empty())
+                row[first + l] = evaluate_lane(jet.output(series), jet.order(), width, l + 1, s);
+        }
+    });
+}
+
+void Tangents::coefficient(std::size_t mode, std::span<const double> state, std::size_t series, int k,
+                           std::span<double> row) {
+    const std::size_t width = lanes_ + 1;
+    for_each_pass(mode, state, [&](const Jet& jet, std::size_t first, std::size_t count) {
+        for (std::size_t l = 0; l < count; ++l)
+            row[first + l] = jet.output(series)[static_cast<std::size_t>(k) * width + l + 1];
+    });
+}
+
+void Tangents::advance(std::size_t mode, std::span<const double> state, double s) {
+    evaluate(mode, state, s, next_, 0, {});
+    matrix_.swap(next_);
+}
+
+void Tangents::pass_contact(std::span<const double> row, double rate, std::span<const double> field_before,
+                            std::span<const double> jacobian, std::span<const double> field_after) {
+    for (std::size_t d = 0; d < directions_; ++d)
+        shift_[d] = -row[d] / rate;
+    pass_jump(shift_, field_before, jacobian, field_after);
+}
+
+void Tangents::pass_jump(std::span<const double> shift, std::span<const double> field_before,
+                         std::span<const double> jacobian, std::span<const double> field_after) {
+    add_product(field_before, shift);
+    const std::size_t columns = states_ + parameter_count_;
+    std::fill(next_.begin(), next_.end(), 0.0);
+    for (std::size_t i = 0; i < states_; ++i)
+        for (std::size_t j = 0; j < columns; ++j) {
+            const double entry = jacobian[i * columns + j];
+            if (entry == 0)
+                continue;
+            const double* from =
+                j < states_ ? &matrix_[j * directions_] : &parameter_seeds_[(j - states_) * directions_];
+            for (std::size_t d = 0; d < directions_; ++d)
+                next_[i * directions_ + d] += entry * from[d];
+        }
+    matrix_.swap(next_);
+    for (std::size_t i = 0; i < states_; ++i)
+        for (std::size_t d = 0; d < directions_; ++d)
+            matrix_[i * directions_ + d] -= field_after[i] * shift[d];
+}
+
+void Tangents::add_product(std::span<const double> column, std::span<const double> row) {
+    for (std::size_t i = 0; i < states_; ++i)
+        for (std::size_t d = 0; d < directions_; ++d)
+            matrix_[i * directions_ + d] += column[i] * row[d];
+}
+
+} // namespace graze

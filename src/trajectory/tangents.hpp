@@ -1,0 +1,61 @@
+#pragma once
+
+#include "graze/tape/jet.hpp"
+#include "graze/trajectory/simulation.hpp"
+#include "graze/trajectory/trajectory.hpp"
+
+#include <span>
+#include <vector>
+
+namespace graze {
+
+/// Derivatives of one trajectory in several directions (of initial state and parameters), carried along arcs by
+/// tangent lanes and through contacts by the saltation formulas (Aizerman and Gantmakher 1958; di Bernardo et
+/// al. 2008, section 2.5), with the field *before* the jump in the projection.
+///
+/// Matrices are row by row, [row * directions + direction]. They hold derivatives at fixed time.
+class Tangents {
+public:
+    /// @param seeds direction after direction, each (states + parameters) numbers
+    Tangents(const Simulation& simulation, std::span<const double> parameters, std::span<const double> seeds,
+             std::size_t directions);
+
+    std::size_t directions() const { return directions_; }
+    std::span<const double> matrix() const { return matrix_; }
+    bool valid() const { return valid_; }
+    void invalidate() { valid_ = false; }
+
+    /// Derivatives along the arc that starts at `state`, a time s later.
+    /// @param matrix states x directions, may be empty; @param row of the output `series` of the mode's tape
+    ///        (its watched events, then observed expressions), directions; may be empty
+    void evaluate(std::size_t mode, std::span<const double> state, double s, std::span<double> matrix,
+                  std::size_t series, std::span<double> row);
+    /// Derivatives of coefficient k of an output at the start of the arc.
+    void coefficient(std::size_t mode, std::span<const double> state, std::size_t series, int k,
+                     std::span<double> row);
+
+    /// Moves along the arc.
+    void advance(std::size_t mode, std::span<const double> state, double s);
+    /// Passes a contact at which the event function has the derivatives `row` and falls at `rate`.
+    /// @param field_before, field_after rates of the states; @param jacobian of the jump, states x (states +
+    ///        parameters)
+    void pass_contact(std::span<const double> row, double rate, std::span<const double> field_before,
+                      std::span<const double> jacobian, std::span<const double> field_after);
+    /// Passes a jump that comes `shift` (derivatives, directions) later than time says.
+    void pass_jump(std::span<const double> shift, std::span<const double> field_before,
+                   std::span<const double> jacobian, std::span<const double> field_after);
+    /// Adds `column` times `row` to the matrix.
+    void add_product(std::span<const double> column, std::span<const double> row);
+
+private:
+    template <class Use>
+    void for_each_pass(std::size_t mode, std::span<const double> state, Use use);
+
+    std::size_t states_, parameter_count_, directions_;
+    JetSet jets_;
+    std::size_t lanes_; ///< directions a pass
+    std::vector<double> parameters_, parameter_seeds_, matrix_, next_, seeds_, parameter_lanes_, shift_;
+    bool valid_ = true;
+};
+
+} // namespace graze

@@ -1,0 +1,322 @@
+#include "graze/trajectory/trajectory.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "trajectory/probe_tracker.hpp"
+#include "trajectory/series.hpp"
+#include "trajectory/tangents.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+Trajectory::Trajectory(const Simulation& simulation, std::span<const double> parameters, Observer& observer)
+    : simulation_(&simulation), observer_(&observer), parameters_(parameters.begin(), parameters.end()),
+      step_size_(simulation.order(), simulation.options().tolerance), roots_(simulation.order()),
+      states_(simulation.compiled().states()), order_(simulation.order()) {
+    const CompiledModel& compiled = simulation.compiled();
+    if (parameters_.size() != compiled.parameters())
+        throw InputError(
+            fmt::format("{} parameters were given where {} are needed", parameters_.size(), compiled.parameters()),
+            "give one value for each independent parameter of the model");
+    std::size_t most_watched = 0;
+    for (std::size_t m = 0; m < compiled.model().modes.size(); ++m)
+        most_watched = std::max(most_watched, compiled.mode(m).watched.size());
+    state_.resize(states_);
+    before_.resize(states_);
+    after_.resize(states_);
+    inputs_.resize(states_ + parameters_.size());
+    work_.resize(compiled.workspace() + simulation.phase_values().workspace());
+    std::copy(parameters_.begin(), parameters_.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
+    series_.resize(states_ + most_watched + compiled.observed());
+    watches_.resize(most_watched);
+    together_.reserve(most_watched);
+    periods_.resize(states_);
+    compiled.periods().evaluate(parameters_, periods_, work_);
+    std::vector<double> phase_values(simulation.probes().size());
+    simulation.phase_values().evaluate(parameters_, phase_values, work_);
+    probes_ = std::make_unique<ProbeTracker>(simulation, phase_values, periods_);
+}
+
+Trajectory::~Trajectory() = default;
+Trajectory::Trajectory(Trajectory&&) noexcept = default;
+
+void Trajectory::start(std::span<const double> state, std::size_t mode, double time, double end_time) {
+    const Model& model = simulation_->model();
+    if (state.size() != states_ || mode >= model.modes.size())
+        throw InputError("the initial state does not fit the model",
+                         fmt::format("give {} numbers and one of its modes", states_));
+    for (std::size_t i = 0; i < states_; ++i) {
+        if (!std::isfinite(state[i]))
+            throw InputError(fmt::format("the initial value of state '{}' is {}", model.states[i].name, state[i]),
+                             "give a finite number");
+        if (model.states[i].period && !(periods_[i] > 0 && std::isfinite(periods_[i])))
+            throw InputError(fmt::format("the period of state '{}' is {}", model.states[i].name, periods_[i]),
+                             "choose parameters that make it positive");
+    }
+    for (std::size_t j = 0; j < parameters_.size(); ++j)
+        if (!std::isfinite(parameters_[j]))
+            throw InputError(fmt::format("parameter '{}' is {}", model.parameter_symbols()[j].name(), parameters_[j]),
+                             "give a finite number");
+    if (!std::isfinite(time) || !(end_time >= time))
+        throw InputError(fmt::format("a trajectory cannot run from time {} to {}", time, end_time),
+                         "give an end that is not before the start");
+    std::copy(state.begin(), state.end(), state_.begin());
+    wrap_cyclic_states(true);
+    mode_ = mode;
+    outcome_ = {};
+    steps_ = 0;
+    time_ = time;
+    time_low_ = 0;
+    end_time_ = end_time;
+    previous_step_ = largest_step_ = 0;
+    arc_start_ = true;
+    served_ = no_event;
+    pending_.reset();
+    together_.clear();
+    chattering_ = {};
+    contacts_now_ = 0;
+    tangents_.reset();
+    probes_->start(state_);
+}
+
+void Trajectory::extend(double end_time) {
+    if (outcome_.ending == Ending::end_time || outcome_.ending == Ending::stopped) {
+        outcome_ = {};
+        end_time_ = end_time;
+    }
+}
+
+void Trajectory::carry_tangents(std::span<const double> seeds, std::size_t directions) {
+    if (seeds.size() != directions * (states_ + parameters_.size()))
+        throw InputError("the directions of derivatives do not fit the model",
+                         fmt::format("give {} numbers for each", states_ + parameters_.size()));
+    tangents_ = std::make_unique<Tangents>(*simulation_, parameters_, seeds, directions);
+}
+
+std::span<const double> Trajectory::tangents() const {
+    return tangents_ ? tangents_->matrix() : std::span<const double>{};
+}
+
+bool Trajectory::tangents_valid() const { return tangents_ && tangents_->valid(); }
+
+void Trajectory::load(const Jet& jet, std::size_t lane) {
+    const std::size_t outputs = simulation_->compiled().mode(mode_).watched.size() + simulation_->compiled().observed();
+    const auto width = static_cast<std::size_t>(jet.width());
+    const auto size = static_cast<std::size_t>(order_) + 1;
+    if (width > 1 && lanes_.size() < series_.size() * size)
+        lanes_.resize(series_.size() * size);
+    for (std::size_t i = 0; i < states_ + outputs; ++i) {
+        const double* from = i < states_ ? jet.state(i) : jet.output(i - states_);
+        if (width == 1) {
+            series_[i] = from;
+            continue;
+        }
+        double* to = &lanes_[i * size];
+        for (std::size_t k = 0; k < size; ++k)
+            to[k] = from[k * width + lane];
+        series_[i] = to;
+    }
+}
+
+void Trajectory::advance(const Jet& jet, std::size_t lane) {
+    if (finished())
+        return;
+    load(jet, lane);
+    double step = step_size_(series_.data(), states_, previous_step_);
+    if (std::isnan(step))
+        return finish_undefined();
+    const double remaining = (end_time_ - time_) - time_low_;
+    const double proposed = !std::isinf(step) ? step : std::isinf(remaining) ? 1.0 : std::max(remaining, 1.0);
+    largest_step_ = std::max(largest_step_, std::min(proposed, remaining));
+    constexpr double epsilon = std::numeric_limits<double>::epsilon();
+    if (proposed < 32 * epsilon * std::max(std::abs(time_), largest_step_)) {
+        pending_.reset();
+        return finish(Ending::singular, time_ + step_size_.radius(series_.data(), states_));
+    }
+    previous_step_ = proposed;
+    step = proposed;
+    if (simulation_->options().largest_step > 0)
+        step = std::min(step, simulation_->options().largest_step);
+
+    if (arc_start_) {
+        begin_arc(step);
+        if (finished() || arc_start_)
+            return;
+        if (observer_->stop())
+            return finish(Ending::stopped, time_);
+    }
+    if (remaining <= 0)
+        return finish(Ending::end_time, time_);
+    if (steps_ >= simulation_->options().step_limit)
+        return finish(Ending::step_limit, time_,
+                      fmt::format("{} steps were not enough; ask for a shorter time or raise the limit", steps_));
+    bool last = step >= remaining;
+    step = last ? remaining : step;
+    std::size_t watched = find_contact(step);
+    if (make_step(step)) {
+        watched = no_event;
+        last = false;
+    }
+    if (watched != no_event) {
+        make_contact(watched, step);
+    } else {
+        update_sides(step);
+        if (tangents_)
+            tangents_->advance(mode_, state_, step);
+        for (std::size_t i = 0; i < states_; ++i)
+            before_[i] = evaluate_state(i, step);
+        state_.swap(before_);
+        if (last) {
+            time_ = end_time_;
+            time_low_ = 0;
+        } else {
+            add_time(step);
+        }
+        wrap_cyclic_states(false);
+    }
+    if (!finished() && observer_->stop())
+        finish(Ending::stopped, time_);
+    // An arc that begins exactly at the end still has its contact to announce: one more call does it.
+    if (!finished() && !arc_start_ && time_ >= end_time_)
+        finish(Ending::end_time, time_);
+}
+
+/// Tells the observer what happens within the step. Returns true when the observer stops the trajectory at a
+/// passage: the step then ends there.
+bool Trajectory::make_step(double& length) {
+    ++steps_;
+    if (length > 0)
+        contacts_now_ = 0;
+    const std::size_t watched = simulation_->compiled().mode(mode_).watched.size();
+    const std::span<const double* const> all(series_);
+    Step step;
+    step.start = time_;
+    step.length = length;
+    step.mode = mode_;
+    step.order = order_;
+    step.states = all.first(states_);
+    step.events = all.subspan(states_, watched);
+    step.observed = all.subspan(states_ + watched, simulation_->compiled().observed());
+    report_touches(length);
+    bool stopped = false;
+    if (!simulation_->probes().empty()) {
+        for (const ProbeTracker::Found& found : probes_->search(step)) {
+            report_passage(found.probe, found.at, found.direction, found.at_contact);
+            stopped = observer_->stop();
+            if (stopped) {
+                length = step.length = found.at;
+                probes_->search_again(step);
+                break;
+            }
+        }
+    }
+    observer_->step(step);
+    if (simulation_->options().minima)
+        report_minima(length);
+    return stopped;
+}
+
+void Trajectory::report_passage(std::size_t index, double at, int direction, bool at_contact) {
+    const Probe& probe = simulation_->probes()[index];
+    for (std::size_t i = 0; i < states_; ++i) {
+        before_[i] = evaluate_state(i, at);
+        if (!simulation_->model().states[i].period)
+            continue;
+        const double period = periods_[i];
+        before_[i] -= std::floor(before_[i] / period) * period;
+        if (probe.kind == Probe::Kind::phase && probe.state == i && period - before_[i] < roundoff * period)
+            before_[i] = 0;
+    }
+    observer_->passage({index, time_ + (at + time_low_), direction, mode_, at_contact, before_});
+}
+
+void Trajectory::report_touches(double length) {
+    const auto& mode = simulation_->compiled().mode(mode_);
+    for (const Touch& touch : touches_) {
+        if (touch.root.at > length)
+            continue;
+        Contact contact;
+        contact.kind = ContactKind::touch;
+        contact.time = time_ + (touch.root.at + time_low_);
+        contact.event = mode.watched[touch.watched];
+        contact.transition = mode.transitions[touch.watched];
+        contact.mode_before = contact.mode_after = mode_;
+        contact.value = touch.root.value;
+        for (std::size_t i = 0; i < states_; ++i)
+            before_[i] = evaluate_state(i, touch.root.at);
+        contact.before = contact.after = before_;
+        observer_->contact(contact);
+    }
+    touches_.clear();
+}
+
+void Trajectory::report_minima(double length) {
+    const auto& mode = simulation_->compiled().mode(mode_);
+    for (std::size_t w = 0; w < mode.watched.size(); ++w) {
+        StepMinimum report;
+        report.event = mode.watched[w];
+        report.minimum = roots_.minimum(event_series(w), length);
+        report.time = time_ + (report.minimum.at + time_low_);
+        observer_->minimum(report);
+    }
+}
+
+void Trajectory::wrap_cyclic_states(bool snap) {
+    const Model& model = simulation_->model();
+    if (!simulation_->compiled().has_cyclic_states())
+        return;
+    for (std::size_t i = 0; i < states_; ++i) {
+        if (!model.states[i].period)
+            continue;
+        const double period = periods_[i];
+        const double turns = std::floor(state_[i] / period);
+        if (turns != 0) {
+            state_[i] -= turns * period;
+            probes_->shift(i, -turns * period);
+        }
+        // At a contact that belongs to the end of the period, what follows must see the beginning of the next.
+        if ((snap && period - state_[i] <= roundoff * period) || state_[i] >= period) {
+            state_[i] = 0;
+            probes_->shift(i, -period);
+        }
+    }
+}
+
+void Trajectory::add_time(double step) {
+    // Knuth's two-sum keeps the part of each step that time_ alone would lose over many steps.
+    const double increment = step + time_low_;
+    const double sum = time_ + increment;
+    const double part = sum - time_;
+    time_low_ = (time_ - (sum - part)) + (increment - part);
+    time_ = sum;
+}
+
+void Trajectory::finish(Ending ending, double time, std::string detail) {
+    outcome_.ending = ending;
+    outcome_.time = time;
+    outcome_.detail = std::move(detail);
+}
+
+std::string Trajectory::where() const {
+    return fmt::format("in mode '{}' at time {:.15g}", simulation_->model().modes[mode_].name, time_);
+}
+
+void Trajectory::finish_undefined() {
+    const Model& model = simulation_->model();
+    std::vector<double> rates(states_);
+    std::copy(state_.begin(), state_.end(), inputs_.begin());
+    simulation_->compiled().mode(mode_).rates.evaluate(inputs_, rates, work_);
+    std::string culprit = "a derivative of the vector field";
+    for (std::size_t i = states_; i-- > 0;)
+        if (!std::isfinite(rates[i]))
+            culprit = fmt::format("the rate of state '{}'", model.states[i].name);
+    finish(Ending::undefined, time_,
+           fmt::format("{} is not finite {}: look for a division by zero, or a root or logarithm of a number that is "
+                       "not positive",
+                       culprit, where()));
+}
+
+} // namespace graze
