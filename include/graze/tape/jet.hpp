@@ -58,7 +58,6 @@ int lanes_of(LaneKind kind, InstructionSet set);
 
 /// @param order 1 .. highest_order
 /// @throws std::invalid_argument when the instruction set is not supported or the order out of range
-std::unique_ptr<Jet> make_jet(const Tape& tape, int order, LaneKind kind,
-                              InstructionSet set = best_instruction_set());
+std::unique_ptr<Jet> make_jet(const Tape& tape, int order, LaneKind kind, InstructionSet set = best_instruction_set());
 
 } // namespace graze

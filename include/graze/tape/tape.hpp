@@ -8,24 +8,20 @@
 
 namespace graze {
 
-/// An elementary operation on power series in time. "c" marks an operand that does not depend on time.
+/// An elementary operation on power series in time. Unless said otherwise operands are registers.
 enum class SeriesOperation : std::uint8_t {
-    add,               ///< a + b
-    subtract,          ///< a - b
-    multiply,          ///< a b
-    divide,            ///< a / b
-    square,            ///< a^2
-    negate,            ///< -a
-    add_constant,      ///< a + c
-    subtract_constant, ///< a - c
-    constant_subtract, ///< c - a
-    multiply_constant, ///< a c
-    divide_constant,   ///< a / c
-    constant_divide,   ///< c / a
-    sqrt,
-    power_constant, ///< a^c, c not an integer
-    derivative,     ///< k a_k: the series of t a'(t)
-    // y' = a' w with w already a register; operands: derivative of a, w, and a for the value at order 0.
+    /// c + c1 a1 + c2 a2 + ...: left, right: first and one past the last of `Tape::terms`; third: the constant c.
+    /// All sums, differences and products with constants are of this kind.
+    linear_combination,
+    multiply,       ///< left * right
+    divide,         ///< left / right
+    square,         ///< left^2
+    reciprocal,     ///< 1 / left
+    sqrt,           ///< of left
+    power_constant, ///< left^c; right: the constant c, which is not an integer (nor a half-integer) known beforehand
+    derivative,     ///< k a_k with a = left: the series of t a'(t)
+    // y(a) with y' = a' w (cos: -a' w). left: the `derivative` of a (unused where a has degree 1 or less); right: w,
+    // which may be a register computed later, since w_k is not needed for y_k; third: a.
     exp,
     sin,
     cos,
@@ -33,16 +29,22 @@ enum class SeriesOperation : std::uint8_t {
     cosh,
     tan,
     tanh,
-    // y' = a'/w; operands likewise.
+    // y(a) with y' = a'/w (acos: -a'/w). left: derivative(a) / w; third: a.
     log,
     asin,
-    acos,
     atan,
+    acos,
 };
 
 struct Instruction {
-    SeriesOperation operation;
-    std::uint32_t result, left, right, third; ///< registers (or constants, for operands marked c)
+    SeriesOperation operation = SeriesOperation::linear_combination;
+    std::uint32_t result = 0, left = 0, right = 0, third = 0;
+};
+
+/// One product of a linear combination.
+struct Term {
+    std::uint32_t series;      ///< a register
+    std::uint32_t coefficient; ///< a constant
 };
 
 /// An operation on numbers that do not depend on time (parameters), done once per change of parameters.
@@ -60,6 +62,11 @@ struct Tape {
     std::vector<std::pair<std::uint32_t, double>> literals; ///< constant, value
     std::vector<ConstantInstruction> constant_code;
     std::vector<Instruction> code;
+    std::vector<Term> terms; ///< of the linear combinations
+    /// For each register, the degree of the polynomial in time that it is known to be, or `unbounded`: coefficients
+    /// above it are 0. A phase, whose rate is constant, has degree 1.
+    std::vector<std::uint32_t> degrees;
+    static constexpr std::uint32_t unbounded = 0xffffffff;
     /// Where a rate or output is found: in a register, or in a constant (then its higher coefficients are 0).
     struct Location {
         bool constant = false;
@@ -69,6 +76,9 @@ struct Tape {
     std::vector<Location> outputs; ///< event functions and whatever else is wanted along the flow
 };
 
+/// Equal subexpressions are computed once, those of parameters only once per change of parameters, and what nothing
+/// needs not at all. Sums are gathered into linear combinations; integer powers become products (finite at 0), other
+/// constant powers obey a y' = c a' y (at a = 0 not finite, even if c happens to be a parameter equal to an integer).
 /// @param states, parameters symbols; rates and outputs may contain no others
 /// @throws std::invalid_argument when they do
 Tape compile_tape(std::span<const Expression> states, std::span<const Expression> parameters,

@@ -1,0 +1,441 @@
+#include "graze/tape/jet.hpp"
+
+#include "tape/kernel_table.hpp"
+#include "tape/tape_analysis.hpp"
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+const KernelTable& table_of(LaneKind kind, [[maybe_unused]] InstructionSet set) {
+#if defined(__x86_64__)
+    if (set == InstructionSet::avx2)
+        return avx2::kernels(kind);
+    if (set == InstructionSet::avx512)
+        return avx512::kernels(kind);
+#endif
+    return baseline::kernels(kind);
+}
+
+/// Numbers aligned to cache lines, all 0 at first.
+class AlignedNumbers {
+public:
+    explicit AlignedNumbers(std::size_t count)
+        : numbers_(static_cast<double*>(::operator new(count * sizeof(double), alignment))) {
+        std::fill_n(numbers_, count, 0.0);
+    }
+    AlignedNumbers(const AlignedNumbers&) = delete;
+    AlignedNumbers& operator=(const AlignedNumbers&) = delete;
+    ~AlignedNumbers() { ::operator delete(numbers_, alignment); }
+
+    double* data() const { return numbers_; }
+
+private:
+    static constexpr std::align_val_t alignment{64};
+    double* numbers_;
+};
+
+/// Where everything is, in doubles from the start of the jet's memory.
+struct Layout {
+    Layout(const Tape& tape, int order, int width) : number(static_cast<std::size_t>(width)) {
+        series = (static_cast<std::size_t>(order) + 1) * number;
+        registers = (tape.constants * number + 7) / 8 * 8;
+        reciprocals = registers + tape.registers * series;
+        const auto keeps_reciprocal = [](const Instruction& instruction) {
+            return instruction.operation == SeriesOperation::divide || instruction.operation == SeriesOperation::sqrt ||
+                   instruction.operation == SeriesOperation::power_constant;
+        };
+        constant_outputs =
+            reciprocals + static_cast<std::size_t>(std::ranges::count_if(tape.code, keeps_reciprocal)) * number;
+        const auto is_constant = [](const Tape::Location& location) { return location.constant; };
+        size = constant_outputs + static_cast<std::size_t>(std::ranges::count_if(tape.outputs, is_constant)) * series;
+    }
+
+    std::size_t number; ///< size of a number
+    std::size_t series; ///< size of a series
+    std::size_t registers, reciprocals, constant_outputs;
+    std::size_t size;
+};
+
+struct Step {
+    Kernel kernel;
+    KernelOperands operands;
+};
+
+bool same_operands(const Step& one, const Step& other) {
+    const KernelOperands& a = one.operands;
+    const KernelOperands& b = other.operands;
+    return a.result == b.result && a.left == b.left && a.right == b.right && a.third == b.third && a.terms == b.terms;
+}
+
+/// Finds the kernels and operands of the steps to be taken at each order.
+class StepFinder {
+public:
+    StepFinder(const Tape& tape, const KernelTable& table, const Layout& layout, double* memory,
+               const std::vector<TermOperands>& terms)
+        : tape_(tape), table_(table), layout_(layout), memory_(memory), terms_(terms) {
+        find_private_rates();
+    }
+
+    std::vector<Step> steps(int order) const {
+        std::vector<Step> steps;
+        if (order > 0)
+            add_states(order, steps);
+        add_instructions(order, std::vector<bool>(tape_.registers, true), steps);
+        return steps;
+    }
+
+    /// What is needed for the values of outputs, and then for the rates.
+    std::vector<Step> value_steps() const {
+        std::vector<Step> steps;
+        add_instructions(0, needed_registers(tape_, true), steps);
+        return steps;
+    }
+    std::vector<Step> rate_steps() const {
+        std::vector<Step> steps;
+        add_states(1, steps);
+        return steps;
+    }
+
+private:
+    static constexpr std::uint32_t none = 0xffffffff;
+
+    double* register_at(std::uint32_t index) const { return memory_ + layout_.registers + index * layout_.series; }
+    double* constant_at(std::uint32_t index) const { return memory_ + index * layout_.number; }
+
+    /// Linear combinations that are needed for the rate of one state only are computed with that state.
+    void find_private_rates() {
+        std::vector<std::uint32_t> uses(tape_.registers, 0);
+        const auto use = [&](std::uint32_t reg) { ++uses[reg]; };
+        for (const auto* locations : {&tape_.rates, &tape_.outputs})
+            for (const Tape::Location& location : *locations)
+                if (!location.constant)
+                    use(location.index);
+        for (const Instruction& instruction : tape_.code)
+            visit_operands(tape_, instruction, false, use);
+        combination_of_.assign(tape_.registers, none);
+        for (std::uint32_t i = 0; i < tape_.code.size(); ++i) {
+            const Instruction& instruction = tape_.code[i];
+            const auto is_rate = [&](const Tape::Location& rate) {
+                return !rate.constant && rate.index == instruction.result;
+            };
+            if (instruction.operation == SeriesOperation::linear_combination && uses[instruction.result] == 1 &&
+                std::ranges::any_of(tape_.rates, is_rate))
+                combination_of_[instruction.result] = i;
+        }
+    }
+
+    void add_states(int order, std::vector<Step>& steps) const {
+        for (std::uint32_t i = 0; i < tape_.states; ++i) {
+            const Tape::Location& rate = tape_.rates[i];
+            if (rate.constant || static_cast<std::uint32_t>(order) > tape_.degrees[i])
+                continue;
+            const std::uint32_t combination = combination_of_[rate.index];
+            if (combination == none) {
+                steps.push_back({table_.state, {register_at(i), register_at(rate.index), {}, {}, {}, {}}});
+                continue;
+            }
+            KernelOperands operands = combination_operands(tape_.code[combination]);
+            operands.result = register_at(i);
+            const Kernel kernel = order == 1 ? table_.state_combination_value
+                                             : table_.state_combination[combination_row(tape_.code[combination])];
+            steps.push_back({kernel, operands});
+        }
+    }
+
+    void add_instructions(int order, const std::vector<bool>& needed, std::vector<Step>& steps) const {
+        std::uint32_t reciprocals = 0;
+        for (const Instruction& instruction : tape_.code) {
+            Step step{nullptr, operands_of(instruction, reciprocals)};
+            if (!needed[instruction.result] || combination_of_[instruction.result] != none ||
+                static_cast<std::uint32_t>(order) > tape_.degrees[instruction.result])
+                continue;
+            step.kernel = kernel_of(instruction, order, step.operands);
+            steps.push_back(step);
+        }
+    }
+
+    KernelOperands combination_operands(const Instruction& instruction) const {
+        return {register_at(instruction.result),  {},
+                constant_at(instruction.third),   {},
+                terms_.data() + instruction.left, terms_.data() + instruction.right};
+    }
+
+    KernelOperands operands_of(const Instruction& instruction, std::uint32_t& reciprocals) const {
+        const auto reciprocal = [&] { return memory_ + layout_.reciprocals + reciprocals++ * layout_.number; };
+        KernelOperands operands{register_at(instruction.result), register_at(instruction.left), {}, {}, {}, {}};
+        switch (instruction.operation) {
+        case SeriesOperation::linear_combination:
+            return combination_operands(instruction);
+        case SeriesOperation::divide:
+            operands.right = register_at(instruction.right);
+            operands.third = reciprocal();
+            break;
+        case SeriesOperation::sqrt:
+            operands.third = reciprocal();
+            break;
+        case SeriesOperation::power_constant:
+            operands.right = constant_at(instruction.right);
+            operands.third = reciprocal();
+            break;
+        default:
+            operands.right = register_at(instruction.right);
+            operands.third = register_at(instruction.third);
+        }
+        return operands;
+    }
+
+    static std::size_t combination_row(const Instruction& instruction) {
+        const std::uint32_t count = instruction.right - instruction.left;
+        return count < combination_kernels ? count : 0;
+    }
+
+    /// May exchange operands where the kernel wants them in a certain order.
+    Kernel kernel_of(const Instruction& instruction, int order, KernelOperands& operands) const {
+        switch (instruction.operation) {
+        case SeriesOperation::linear_combination:
+            return order == 0 ? table_.combination_value : table_.combination[combination_row(instruction)];
+        case SeriesOperation::multiply:
+            if (order > 0 && std::min(tape_.degrees[instruction.left], tape_.degrees[instruction.right]) <= 1) {
+                if (tape_.degrees[instruction.left] > 1)
+                    operands = {operands.result, operands.right, operands.left, {}, {}, {}};
+                return table_.multiply_linear;
+            }
+            break;
+        case SeriesOperation::exp:
+        case SeriesOperation::sin:
+        case SeriesOperation::cos:
+        case SeriesOperation::sinh:
+        case SeriesOperation::cosh:
+        case SeriesOperation::tan:
+        case SeriesOperation::tanh:
+            if (order > 0 && tape_.degrees[instruction.third] <= 1)
+                return instruction.operation == SeriesOperation::cos ? table_.minus_function_of_linear
+                                                                     : table_.function_of_linear;
+            break;
+        default:
+            break;
+        }
+        return table_.series[static_cast<int>(instruction.operation)][order];
+    }
+
+    const Tape& tape_;
+    const KernelTable& table_;
+    const Layout& layout_;
+    double* memory_;
+    const std::vector<TermOperands>& terms_;
+    /// For registers that are computed with a state, the instruction.
+    std::vector<std::uint32_t> combination_of_;
+};
+
+class TapeJet final : public Jet {
+public:
+    TapeJet(const Tape& tape, int order, const KernelTable& table);
+
+    int order() const override { return order_; }
+    int width() const override { return static_cast<int>(layout_.number); }
+    void set_parameters(std::span<const double> parameters) override;
+    void compute(std::span<const double> states) override;
+    void compute_values(std::span<const double> states) override;
+    const double* state(std::size_t index) const override {
+        return memory_.data() + layout_.registers + index * layout_.series;
+    }
+    const double* output(std::size_t index) const override { return outputs_[index]; }
+
+private:
+    /// Steps at one order; operands are shared by orders that take the same steps.
+    struct Segment {
+        std::size_t kernels, operands, count;
+    };
+    struct Copy {
+        const double* from;
+        double* to;
+    };
+
+    void add_segment(const std::vector<Step>& steps);
+    void find_constants(const Tape& tape, const KernelTable& table);
+    void compute_constants();
+    void set_states(std::span<const double> states);
+    void run(const Segment& segment, int order) const {
+        const Kernel* kernel = kernels_.data() + segment.kernels;
+        const KernelOperands* operands = operands_.data() + segment.operands;
+        for (const Kernel* end = kernel + segment.count; kernel != end; ++kernel, ++operands)
+            (*kernel)(*operands, order);
+    }
+
+    int order_;
+    std::size_t states_;
+    std::size_t parameters_;
+    Layout layout_;
+    AlignedNumbers memory_;
+    std::vector<TermOperands> terms_;
+    std::vector<Kernel> kernels_;
+    std::vector<KernelOperands> operands_;
+    std::vector<Segment> segments_; ///< by order, then those of values and of rates
+    std::vector<Step> constant_code_;
+    std::vector<Copy> constant_copies_; ///< to rates and outputs that are constants
+    std::vector<const double*> outputs_;
+};
+
+TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
+    : order_(order), states_(tape.states), parameters_(tape.parameters), layout_(tape, order, table.width),
+      memory_(layout_.size) {
+    const auto register_at = [&](std::uint32_t index) {
+        return memory_.data() + layout_.registers + index * layout_.series;
+    };
+    terms_.reserve(tape.terms.size());
+    for (const Term& term : tape.terms)
+        terms_.push_back({register_at(term.series), memory_.data() + term.coefficient * layout_.number});
+
+    const StepFinder finder(tape, table, layout_, memory_.data(), terms_);
+    for (int k = 0; k <= order; ++k)
+        add_segment(finder.steps(k));
+    add_segment(finder.value_steps());
+    add_segment(finder.rate_steps());
+
+    std::size_t constant_outputs = 0;
+    for (const Tape::Location& location : tape.outputs) {
+        if (!location.constant) {
+            outputs_.push_back(register_at(location.index));
+            continue;
+        }
+        double* series = memory_.data() + layout_.constant_outputs + constant_outputs++ * layout_.series;
+        constant_copies_.push_back({memory_.data() + location.index * layout_.number, series});
+        outputs_.push_back(series);
+    }
+    find_constants(tape, table);
+    compute_constants();
+}
+
+void TapeJet::add_segment(const std::vector<Step>& steps) {
+    if (!segments_.empty()) {
+        const Segment& last = segments_.back();
+        bool same = last.count == steps.size();
+        for (std::size_t i = 0; same && i < steps.size(); ++i)
+            same = same_operands({nullptr, operands_[last.operands + i]}, steps[i]);
+        segments_.push_back({kernels_.size(), same ? last.operands : operands_.size(), steps.size()});
+    } else {
+        segments_.push_back({0, 0, steps.size()});
+    }
+    const bool new_operands = segments_.back().operands == operands_.size();
+    for (const Step& step : steps) {
+        kernels_.push_back(step.kernel);
+        if (new_operands)
+            operands_.push_back(step.operands);
+    }
+}
+
+void TapeJet::find_constants(const Tape& tape, const KernelTable& table) {
+    const auto constant_at = [&](std::uint32_t index) { return memory_.data() + index * layout_.number; };
+    for (const auto& [index, value] : tape.literals)
+        table.literal(constant_at(index), value);
+    for (const ConstantInstruction& instruction : tape.constant_code)
+        constant_code_.push_back({table.constant[static_cast<int>(instruction.operation)],
+                                  {constant_at(instruction.result),
+                                   constant_at(instruction.left),
+                                   constant_at(instruction.right),
+                                   {},
+                                   {},
+                                   {}}});
+    for (std::uint32_t i = 0; i < tape.states; ++i)
+        if (tape.rates[i].constant)
+            constant_copies_.push_back({constant_at(tape.rates[i].index),
+                                        memory_.data() + layout_.registers + i * layout_.series + layout_.number});
+}
+
+void TapeJet::compute_constants() {
+    for (const Step& step : constant_code_)
+        step.kernel(step.operands, 0);
+    for (const Copy& copy : constant_copies_)
+        std::copy_n(copy.from, layout_.number, copy.to);
+}
+
+void TapeJet::set_parameters(std::span<const double> parameters) {
+    if (parameters.size() != parameters_ * layout_.number)
+        throw std::invalid_argument("wrong number of parameters for a jet");
+    std::ranges::copy(parameters, memory_.data());
+    compute_constants();
+}
+
+void TapeJet::set_states(std::span<const double> states) {
+    if (states.size() != states_ * layout_.number)
+        throw std::invalid_argument("wrong number of states for a jet");
+    double* to = memory_.data() + layout_.registers;
+    for (const double* from = states.data(); from != states.data() + states.size(); from += layout_.number) {
+        std::copy_n(from, layout_.number, to);
+        to += layout_.series;
+    }
+}
+
+void TapeJet::compute(std::span<const double> states) {
+    set_states(states);
+    for (int k = 0; k <= order_; ++k)
+        run(segments_[static_cast<std::size_t>(k)], k);
+}
+
+void TapeJet::compute_values(std::span<const double> states) {
+    set_states(states);
+    run(segments_[static_cast<std::size_t>(order_) + 1], 0);
+    run(segments_[static_cast<std::size_t>(order_) + 2], 1);
+}
+
+} // namespace
+
+bool is_supported(InstructionSet set) {
+#if defined(__x86_64__)
+    const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                          __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+    const bool has_avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                            __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+                            __builtin_cpu_supports("avx512vl");
+    switch (set) {
+    case InstructionSet::avx2:
+        return has_avx2;
+    case InstructionSet::avx512:
+        return has_avx2 && has_avx512;
+    default:
+        return true;
+    }
+#else
+    return set == InstructionSet::baseline;
+#endif
+}
+
+InstructionSet best_instruction_set() {
+    for (const InstructionSet set : {InstructionSet::avx512, InstructionSet::avx2})
+        if (is_supported(set))
+            return set;
+    return InstructionSet::baseline;
+}
+
+std::string_view name_of(InstructionSet set) {
+    switch (set) {
+    case InstructionSet::avx2:
+        return "avx2";
+    case InstructionSet::avx512:
+        return "avx512";
+    default:
+        return "baseline";
+    }
+}
+
+int lanes_of(LaneKind kind, InstructionSet set) {
+    const int width = table_of(kind, set).width;
+    return kind == LaneKind::tangent ? width - 1 : width;
+}
+
+std::unique_ptr<Jet> make_jet(const Tape& tape, int order, LaneKind kind, InstructionSet set) {
+    if (order < 1 || order > highest_order)
+        throw std::invalid_argument("the order of a jet must be between 1 and " + std::to_string(highest_order));
+    if (!is_supported(set))
+        throw std::invalid_argument("this processor does not have the instruction set " + std::string(name_of(set)));
+    return std::make_unique<TapeJet>(tape, order, table_of(kind, set));
+}
+
+} // namespace graze

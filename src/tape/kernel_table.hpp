@@ -1,0 +1,66 @@
+#pragma once
+
+// What the translation units of the instruction sets offer to the rest: tables of kernels. Nothing here may contain
+// inline functions, since code compiled for a wide instruction set must not be what the linker keeps for all.
+
+#include "graze/symbolic/expression.hpp"
+#include "graze/tape/jet.hpp"
+#include "graze/tape/tape.hpp"
+
+namespace graze {
+
+inline constexpr int operation_count = static_cast<int>(Operation::tanh) + 1;
+inline constexpr int series_operation_count = static_cast<int>(SeriesOperation::acos) + 1;
+
+/// One product of a linear combination.
+struct TermOperands {
+    const double* series;
+    const double* coefficient;
+};
+
+/// Where a kernel finds its series. `third` is written to by the operations that keep a reciprocal.
+struct KernelOperands {
+    double* result;
+    const double* left;
+    const double* right;
+    double* third;
+    const TermOperands* terms;
+    const TermOperands* terms_end;
+};
+
+/// Computes the coefficient of one order of one series.
+using Kernel = void (*)(const KernelOperands& operands, int order);
+
+/// Linear combinations of fewer terms than this have kernels of their own; row 0 is for all others.
+inline constexpr int combination_kernels = 5;
+
+struct KernelTable {
+    int width; ///< doubles for each number
+    /// Row `linear_combination` is empty.
+    Kernel series[series_operation_count][highest_order + 1];
+    /// By number of terms; for orders above 0.
+    Kernel combination[combination_kernels];
+    Kernel combination_value; ///< at order 0, where the constant is added
+    /// Coefficients of a state from those of its rate, which is a series ...
+    Kernel state;
+    /// ... or a linear combination that nothing else needs.
+    Kernel state_combination[combination_kernels];
+    Kernel state_combination_value;  ///< for coefficient 1 of the state
+    Kernel multiply_linear;          ///< left operand of degree 1; orders above 0
+    Kernel function_of_linear;       ///< y' = a' w, a of degree 1; orders above 0
+    Kernel minus_function_of_linear; ///< y' = -a' w
+    void (*literal)(double* result, double value);
+    Kernel constant[operation_count]; ///< on numbers; row `number` and `symbol` are empty
+};
+
+namespace baseline {
+const KernelTable& kernels(LaneKind kind);
+}
+namespace avx2 {
+const KernelTable& kernels(LaneKind kind);
+}
+namespace avx512 {
+const KernelTable& kernels(LaneKind kind);
+}
+
+} // namespace graze

@@ -1,0 +1,331 @@
+#pragma once
+
+// The kernels: recurrences for the coefficients of power series (Griewank and Walther 2008, table 13.2), one source
+// for all kinds of lanes and all instruction sets. To be included only by the translation unit of an instruction
+// set. Loops over coefficients are unrolled, as templates on the order.
+//
+// What limits a jet of one lane is latency: each coefficient waits for those of the same order that it is made of.
+// Kernels are therefore written such that all that is known from lower orders is summed first, and a coefficient of
+// the same order needs one or two operations more.
+
+#include "tape/kernel_table.hpp"
+#include "tape/lane_numbers.hpp"
+
+#include <utility>
+
+namespace graze::GRAZE_INSTRUCTION_SET {
+
+template <int... j>
+using Indices = std::integer_sequence<int, j...>;
+
+/// 1/k: multiplying is quicker than dividing.
+struct Inverses {
+    double of[highest_order + 1] = {};
+    constexpr Inverses() {
+        for (int k = 1; k <= highest_order; ++k)
+            of[k] = 1.0 / k;
+    }
+};
+inline constexpr Inverses inverse;
+
+/// Adds term j of a sum; four partial sums hide the latency of additions.
+template <int j, class V>
+inline void accumulate(V (&sums)[4], V a, V b) {
+    if constexpr (j < 4)
+        sums[j] = a * b;
+    else
+        sums[j % 4] = multiply_add(a, b, sums[j % 4]);
+}
+template <int terms, class V>
+inline V total(const V (&sums)[4]) {
+    if constexpr (terms == 1)
+        return sums[0];
+    else if constexpr (terms == 2)
+        return sums[0] + sums[1];
+    else if constexpr (terms == 3)
+        return (sums[0] + sums[1]) + sums[2];
+    else
+        return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+/// Sum of a[j] b[k-j], 0 < j <= terms.
+template <class V, int k, int terms = k - 1>
+inline V convolution(const double* a, const double* b) {
+    V sums[4];
+    [&]<int... j>(Indices<j...>) {
+        (accumulate<j>(sums, at<V>(a, j + 1), at<V>(b, k - 1 - j)), ...);
+    }
+    (std::make_integer_sequence<int, terms>{});
+    return total<terms>(sums);
+}
+
+/// Sum of a[j] a[k-j], 0 < j < k; k >= 2.
+template <class V, int k>
+inline V self_convolution(const double* a) {
+    if constexpr (k == 2) {
+        const V middle = at<V>(a, 1);
+        return middle * middle;
+    } else {
+        const V half = convolution<V, k, (k - 1) / 2>(a, a);
+        if constexpr (k % 2 == 1) {
+            return half + half;
+        } else {
+            const V middle = at<V>(a, k / 2);
+            return multiply_add(middle, middle, half + half);
+        }
+    }
+}
+
+template <class V>
+struct Multiply {
+    template <int k>
+    static void run(const KernelOperands& o, int) {
+        const V a0 = at<V>(o.left, 0);
+        const V b = at<V>(o.right, k);
+        if constexpr (k == 0) {
+            put(o.result, 0, a0 * b);
+        } else {
+            const V a = at<V>(o.left, k);
+            const V b0 = at<V>(o.right, 0);
+            if constexpr (k == 1)
+                put(o.result, k, multiply_add(a0, b, a * b0));
+            else
+                put(o.result, k, multiply_add(a0, b, multiply_add(a, b0, convolution<V, k>(o.left, o.right))));
+        }
+    }
+};
+
+template <class V>
+struct Square {
+    template <int k>
+    static void run(const KernelOperands& o, int) {
+        const V a = at<V>(o.left, k);
+        if constexpr (k == 0) {
+            put(o.result, 0, a * a);
+        } else {
+            const V a0 = at<V>(o.left, 0);
+            const V twice = a0 + a0;
+            if constexpr (k == 1)
+                put(o.result, k, twice * a);
+            else
+                put(o.result, k, multiply_add(twice, a, self_convolution<V, k>(o.left)));
+        }
+    }
+};
+
+/// q b = a; the reciprocal of b at order 0 is kept in `third`.
+template <class V>
+struct Divide {
+    template <int k>
+    static void run(const KernelOperands& o, int) {
+        const V a = at<V>(o.left, k);
+        if constexpr (k == 0) {
+            const V b0 = at<V>(o.right, 0);
+            put(o.third, 0, Numbers<V>::of(1) / b0);
+            put(o.result, 0, a / b0);
+        } else {
+            const V reciprocal = at<V>(o.third, 0);
+            const V slope = -(at<V>(o.result, 0) * reciprocal);
+            V known = slope * at<V>(o.right, k);
+            if constexpr (k > 1)
+                known = multiply_add(slope, at<V>(o.right, k), -(convolution<V, k>(o.right, o.result) * reciprocal));
+            put(o.result, k, multiply_add(a, reciprocal, known));
+        }
+    }
+};
+
+template <class V>
+struct Reciprocal {
+    template <int k>
+    static void run(const KernelOperands& o, int) {
+        const V a = at<V>(o.left, k);
+        if constexpr (k == 0) {
+            put(o.result, 0, Numbers<V>::of(1) / a);
+        } else {
+            const V reciprocal = at<V>(o.result, 0);
+            const V slope = -(reciprocal * reciprocal);
+            if constexpr (k == 1)
+                put(o.result, k, slope * a);
+            else
+                put(o.result, k, multiply_add(slope, a, -(convolution<V, k>(o.left, o.result) * reciprocal)));
+        }
+    }
+};
+
+/// y y = a; 1/(2 y) at order 0 is kept in `third`.
+template <class V>
+struct SquareRoot {
+    template <int k>
+    static void run(const KernelOperands& o, int) {
+        const V a = at<V>(o.left, k);
+        if constexpr (k == 0) {
+            const V root = evaluate<Operation::sqrt>(a);
+            put(o.third, 0, Numbers<V>::of(0.5) / root);
+            put(o.result, 0, root);
+        } else {
+            const V slope = at<V>(o.third, 0);
+            if constexpr (k == 1)
+                put(o.result, k, a * slope);
+            else
+                put(o.result, k, multiply_add(a, slope, -(self_convolution<V, k>(o.result) * slope)));
+        }
+    }
+};
+
+/// a y' = c a' y; the reciprocal of a at order 0 is kept in `third`.
+template <class V>
+struct Power {
+    template <int k>
+    static void run(const KernelOperands& o, int) {
+        const V a = at<V>(o.left, k);
+        const V exponent = at<V>(o.right, 0);
+        if constexpr (k == 0) {
+            put(o.third, 0, Numbers<V>::of(1) / a);
+            put(o.result, 0, power(a, exponent));
+        } else {
+            const V reciprocal = at<V>(o.third, 0);
+            const V slope = exponent * at<V>(o.result, 0) * reciprocal;
+            if constexpr (k == 1) {
+                put(o.result, k, slope * a);
+            } else {
+                const V more = exponent + Numbers<V>::of(1);
+                V sums[4];
+                [&]<int... j>(Indices<j...>) {
+                    (accumulate<j>(sums,
+                                   multiply_add(more, Numbers<V>::of(j + 1), Numbers<V>::of(-k)) * at<V>(o.left, j + 1),
+                                   at<V>(o.result, k - 1 - j)),
+                     ...);
+                }
+                (std::make_integer_sequence<int, k - 1>{});
+                put(o.result, k, multiply_add(a, slope, total<k - 1>(sums) * reciprocal * inverse.of[k]));
+            }
+        }
+    }
+};
+
+/// k y_k = sum of (j a_j) w_{k-j}, with the sign of the derivative; (j a_j) in `left`, w in `right`, a in `third`.
+template <class V, bool negative>
+struct FunctionByProduct {
+    template <int k>
+    static void run(const KernelOperands& o, int) {
+        const V a = at<V>(o.third, k);
+        const V w0 = negative ? -at<V>(o.right, 0) : at<V>(o.right, 0);
+        if constexpr (k == 1)
+            put(o.result, k, a * w0);
+        else
+            put(o.result, k,
+                multiply_add(a, w0, convolution<V, k>(o.left, o.right) * (negative ? -inverse.of[k] : inverse.of[k])));
+    }
+};
+
+/// The same where a_j = 0 for j > 1.
+template <class V, bool negative>
+void function_of_linear(const KernelOperands& o, int k) {
+    put(o.result, k, at<V>(o.right, k - 1) * (at<V>(o.third, 1) * (negative ? -inverse.of[k] : inverse.of[k])));
+}
+
+/// k y_k = (k y_k), found in `left`, with a sign.
+template <class V, bool negative>
+struct FunctionByQuotient {
+    template <int k>
+    static void run(const KernelOperands& o, int) {
+        put(o.result, k, at<V>(o.left, k) * (negative ? -inverse.of[k] : inverse.of[k]));
+    }
+};
+
+template <class V>
+struct Derivative {
+    template <int k>
+    static void run(const KernelOperands& o, int) {
+        put(o.result, k, k == 0 ? Numbers<V>::of(0) : at<V>(o.left, k) * double(k));
+    }
+};
+
+template <class V, Operation function>
+void function_value(const KernelOperands& o, int) {
+    put(o.result, 0, evaluate<function>(at<V>(o.third, 0)));
+}
+
+template <class V>
+void multiply_linear(const KernelOperands& o, int k) {
+    put(o.result, k, multiply_add(at<V>(o.left, 0), at<V>(o.right, k), at<V>(o.left, 1) * at<V>(o.right, k - 1)));
+}
+
+/// Sum of coefficient times series at one order; the terms that are ready last come last.
+template <class V, int count>
+inline V combination(const TermOperands* terms, int k) {
+    V sum = at<V>(terms[0].coefficient, 0) * at<V>(terms[0].series, k);
+    for (int i = 1; i < count; ++i)
+        sum = multiply_add(at<V>(terms[i].coefficient, 0), at<V>(terms[i].series, k), sum);
+    return sum;
+}
+template <class V>
+inline V combination(const TermOperands* terms, const TermOperands* end, int k) {
+    V sums[4] = {Numbers<V>::of(0), Numbers<V>::of(0), Numbers<V>::of(0), Numbers<V>::of(0)};
+    for (; end - terms >= 4; terms += 4)
+        for (int i = 0; i < 4; ++i)
+            sums[i] = multiply_add(at<V>(terms[i].coefficient, 0), at<V>(terms[i].series, k), sums[i]);
+    V sum = total<4>(sums);
+    for (; terms != end; ++terms)
+        sum = multiply_add(at<V>(terms->coefficient, 0), at<V>(terms->series, k), sum);
+    return sum;
+}
+template <class V, int count>
+inline V combination(const KernelOperands& o, int k) {
+    if constexpr (count == 0)
+        return combination<V>(o.terms, o.terms_end, k);
+    else
+        return combination<V, count>(o.terms, k);
+}
+
+template <class V>
+struct Combination {
+    template <int count>
+    static void run(const KernelOperands& o, int k) {
+        put(o.result, k, combination<V, count>(o, k));
+    }
+    static void run_value(const KernelOperands& o, int) {
+        put(o.result, 0, combination<V, 0>(o, 0) + at<V>(o.right, 0));
+    }
+};
+
+template <class V>
+struct StateCombination {
+    template <int count>
+    static void run(const KernelOperands& o, int k) {
+        put(o.result, k, combination<V, count>(o, k - 1) * inverse.of[k]);
+    }
+    static void run_value(const KernelOperands& o, int) {
+        put(o.result, 1, combination<V, 0>(o, 0) + at<V>(o.right, 0));
+    }
+};
+
+template <class V>
+void state(const KernelOperands& o, int k) {
+    put(o.result, k, at<V>(o.left, k - 1) * inverse.of[k]);
+}
+
+template <class V>
+void literal(double* result, double value) {
+    put(result, 0, Numbers<V>::of(value));
+}
+
+/// Arithmetic on numbers.
+template <class V, Operation operation>
+void constant(const KernelOperands& o, int) {
+    const V a = at<V>(o.left, 0);
+    if constexpr (operation == Operation::add)
+        put(o.result, 0, a + at<V>(o.right, 0));
+    else if constexpr (operation == Operation::subtract)
+        put(o.result, 0, a - at<V>(o.right, 0));
+    else if constexpr (operation == Operation::multiply)
+        put(o.result, 0, a * at<V>(o.right, 0));
+    else if constexpr (operation == Operation::divide)
+        put(o.result, 0, a / at<V>(o.right, 0));
+    else if constexpr (operation == Operation::power)
+        put(o.result, 0, power(a, at<V>(o.right, 0)));
+    else
+        put(o.result, 0, evaluate<operation>(a));
+}
+
+} // namespace graze::GRAZE_INSTRUCTION_SET

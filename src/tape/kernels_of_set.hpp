@@ -1,0 +1,95 @@
+#pragma once
+
+// Collects the kernels of one instruction set in tables. To be included only by its translation unit.
+
+#include "tape/kernels.hpp"
+
+namespace graze::GRAZE_INSTRUCTION_SET {
+
+template <class Family, int... k>
+constexpr void fill(Kernel (&row)[highest_order + 1], Indices<k...>) {
+    ((row[k] = &Family::template run<k>), ...);
+}
+template <class Family>
+constexpr void fill(KernelTable& table, SeriesOperation operation) {
+    fill<Family>(table.series[static_cast<int>(operation)], std::make_integer_sequence<int, highest_order + 1>{});
+}
+
+template <class Family, int... k>
+constexpr void fill_above_zero(Kernel (&row)[highest_order + 1], Indices<k...>) {
+    ((row[k + 1] = &Family::template run<k + 1>), ...);
+}
+template <class V, Operation function, class Family>
+constexpr void fill_function(KernelTable& table, SeriesOperation operation) {
+    Kernel(&row)[highest_order + 1] = table.series[static_cast<int>(operation)];
+    row[0] = &function_value<V, function>;
+    fill_above_zero<Family>(row, std::make_integer_sequence<int, highest_order>{});
+}
+
+template <class V, Operation... operation>
+constexpr void fill_constants(KernelTable& table) {
+    ((table.constant[static_cast<int>(operation)] = &constant<V, operation>), ...);
+}
+
+template <class Family, int... count>
+constexpr void fill_combinations(Kernel (&row)[combination_kernels], Indices<count...>) {
+    ((row[count] = &Family::template run<count>), ...);
+}
+
+template <class V>
+constexpr KernelTable make_table() {
+    KernelTable table{};
+    table.width = Numbers<V>::width;
+    fill<Multiply<V>>(table, SeriesOperation::multiply);
+    fill<Divide<V>>(table, SeriesOperation::divide);
+    fill<Square<V>>(table, SeriesOperation::square);
+    fill<Reciprocal<V>>(table, SeriesOperation::reciprocal);
+    fill<SquareRoot<V>>(table, SeriesOperation::sqrt);
+    fill<Power<V>>(table, SeriesOperation::power_constant);
+    fill<Derivative<V>>(table, SeriesOperation::derivative);
+    using Product = FunctionByProduct<V, false>;
+    fill_function<V, Operation::exp, Product>(table, SeriesOperation::exp);
+    fill_function<V, Operation::sin, Product>(table, SeriesOperation::sin);
+    fill_function<V, Operation::cos, FunctionByProduct<V, true>>(table, SeriesOperation::cos);
+    fill_function<V, Operation::sinh, Product>(table, SeriesOperation::sinh);
+    fill_function<V, Operation::cosh, Product>(table, SeriesOperation::cosh);
+    fill_function<V, Operation::tan, Product>(table, SeriesOperation::tan);
+    fill_function<V, Operation::tanh, Product>(table, SeriesOperation::tanh);
+    using Quotient = FunctionByQuotient<V, false>;
+    fill_function<V, Operation::log, Quotient>(table, SeriesOperation::log);
+    fill_function<V, Operation::asin, Quotient>(table, SeriesOperation::asin);
+    fill_function<V, Operation::atan, Quotient>(table, SeriesOperation::atan);
+    fill_function<V, Operation::acos, FunctionByQuotient<V, true>>(table, SeriesOperation::acos);
+    fill_combinations<Combination<V>>(table.combination, std::make_integer_sequence<int, combination_kernels>{});
+    table.combination_value = &Combination<V>::run_value;
+    table.state = &state<V>;
+    fill_combinations<StateCombination<V>>(table.state_combination,
+                                           std::make_integer_sequence<int, combination_kernels>{});
+    table.state_combination_value = &StateCombination<V>::run_value;
+    table.multiply_linear = &multiply_linear<V>;
+    table.function_of_linear = &function_of_linear<V, false>;
+    table.minus_function_of_linear = &function_of_linear<V, true>;
+    table.literal = &literal<V>;
+    fill_constants<V, Operation::add, Operation::subtract, Operation::multiply, Operation::divide, Operation::power,
+                   Operation::negate, Operation::sqrt, Operation::exp, Operation::log, Operation::sin, Operation::cos,
+                   Operation::tan, Operation::asin, Operation::acos, Operation::atan, Operation::sinh, Operation::cosh,
+                   Operation::tanh>(table);
+    return table;
+}
+
+inline constexpr KernelTable single_table = make_table<double>();
+inline constexpr KernelTable ensemble_table = make_table<Ensemble>();
+inline constexpr KernelTable tangent_table = make_table<Tangent>();
+
+const KernelTable& kernels(LaneKind kind) {
+    switch (kind) {
+    case LaneKind::ensemble:
+        return ensemble_table;
+    case LaneKind::tangent:
+        return tangent_table;
+    default:
+        return single_table;
+    }
+}
+
+} // namespace graze::GRAZE_INSTRUCTION_SET

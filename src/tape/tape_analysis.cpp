@@ -1,0 +1,136 @@
+#include "tape/tape_analysis.hpp"
+
+#include <algorithm>
+
+namespace graze {
+
+namespace {
+
+constexpr std::uint32_t highest_degree = 4;
+
+std::uint32_t limited(std::uint32_t degree) {
+    return degree > highest_degree ? Tape::unbounded : degree;
+}
+
+std::uint32_t degree_of(const Tape& tape, const Instruction& instruction) {
+    const auto& degrees = tape.degrees;
+    switch (instruction.operation) {
+    case SeriesOperation::linear_combination: {
+        std::uint32_t degree = 0;
+        for (std::uint32_t i = instruction.left; i != instruction.right; ++i)
+            degree = std::max(degree, degrees[tape.terms[i].series]);
+        return degree;
+    }
+    case SeriesOperation::multiply:
+        if (degrees[instruction.left] == Tape::unbounded || degrees[instruction.right] == Tape::unbounded)
+            return Tape::unbounded;
+        return limited(degrees[instruction.left] + degrees[instruction.right]);
+    case SeriesOperation::square:
+        return degrees[instruction.left] == Tape::unbounded ? Tape::unbounded : limited(2 * degrees[instruction.left]);
+    case SeriesOperation::derivative:
+        return degrees[instruction.left];
+    case SeriesOperation::divide:
+        return degrees[instruction.left] == 0 && degrees[instruction.right] == 0 ? 0 : Tape::unbounded;
+    case SeriesOperation::reciprocal:
+    case SeriesOperation::sqrt:
+    case SeriesOperation::power_constant:
+        return degrees[instruction.left] == 0 ? 0 : Tape::unbounded;
+    default: // functions of `third`
+        return degrees[instruction.third] == 0 ? 0 : Tape::unbounded;
+    }
+}
+
+std::uint32_t degree_of_state(const Tape& tape, std::uint32_t state, bool rate_is_zero) {
+    const Tape::Location& rate = tape.rates[state];
+    if (rate.constant)
+        return rate_is_zero ? 0 : 1;
+    return tape.degrees[rate.index] == Tape::unbounded ? Tape::unbounded : limited(tape.degrees[rate.index] + 1);
+}
+
+} // namespace
+
+void find_degrees(Tape& tape, const std::vector<bool>& rate_is_zero) {
+    tape.degrees.assign(tape.registers, 0);
+    // Degrees only grow, and not beyond unbounded, so that this ends.
+    for (bool changed = true; changed;) {
+        changed = false;
+        const auto set = [&](std::uint32_t reg, std::uint32_t degree) {
+            changed |= tape.degrees[reg] != degree;
+            tape.degrees[reg] = degree;
+        };
+        for (std::uint32_t i = 0; i < tape.states; ++i)
+            set(i, degree_of_state(tape, i, rate_is_zero[i]));
+        for (const Instruction& instruction : tape.code)
+            set(instruction.result, degree_of(tape, instruction));
+    }
+}
+
+std::vector<bool> needed_registers(const Tape& tape, bool only_values) {
+    constexpr std::uint32_t none = 0xffffffff;
+    std::vector<std::uint32_t> definition(tape.registers, none);
+    for (std::uint32_t i = 0; i < tape.code.size(); ++i)
+        definition[tape.code[i].result] = i;
+    std::vector<bool> needed(tape.registers, false);
+    std::vector<std::uint32_t> pending;
+    const auto need = [&](std::uint32_t reg) {
+        if (!needed[reg])
+            pending.push_back(reg);
+        needed[reg] = true;
+    };
+    for (std::uint32_t i = 0; i < tape.states; ++i)
+        need(i);
+    for (const auto* locations : {&tape.rates, &tape.outputs})
+        for (const Tape::Location& location : *locations)
+            if (!location.constant)
+                need(location.index);
+    while (!pending.empty()) {
+        const std::uint32_t index = definition[pending.back()];
+        pending.pop_back();
+        if (index != none)
+            visit_operands(tape, tape.code[index], only_values, need);
+    }
+    return needed;
+}
+
+void remove_unneeded(Tape& tape) {
+    const std::vector<bool> needed = needed_registers(tape, false);
+    std::vector<std::uint32_t> number(tape.registers, 0);
+    std::vector<std::uint32_t> degrees;
+    for (std::uint32_t i = 0; i < tape.registers; ++i) {
+        if (!needed[i])
+            continue;
+        number[i] = static_cast<std::uint32_t>(degrees.size());
+        degrees.push_back(tape.degrees[i]);
+    }
+    std::vector<Instruction> code;
+    std::vector<Term> terms;
+    for (Instruction instruction : tape.code) {
+        if (!needed[instruction.result])
+            continue;
+        instruction.result = number[instruction.result];
+        if (instruction.operation == SeriesOperation::linear_combination) {
+            const auto first = static_cast<std::uint32_t>(terms.size());
+            for (std::uint32_t i = instruction.left; i != instruction.right; ++i)
+                terms.push_back({number[tape.terms[i].series], tape.terms[i].coefficient});
+            instruction.left = first;
+            instruction.right = static_cast<std::uint32_t>(terms.size());
+        } else {
+            // Operands that are not read become register 0.
+            instruction.left = number[instruction.left];
+            if (instruction.operation != SeriesOperation::power_constant)
+                instruction.right = number[instruction.right];
+            instruction.third = number[instruction.third];
+        }
+        code.push_back(instruction);
+    }
+    for (auto* locations : {&tape.rates, &tape.outputs})
+        for (Tape::Location& location : *locations)
+            if (!location.constant)
+                location.index = number[location.index];
+    tape.registers = static_cast<std::uint32_t>(degrees.size());
+    tape.degrees = std::move(degrees);
+    tape.code = std::move(code);
+    tape.terms = std::move(terms);
+}
+
+} // namespace graze

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "graze/tape/tape.hpp"
+
+#include <vector>
+
+namespace graze {
+
+/// Applies to each register that an instruction reads: all of them, or only those needed at order 0.
+/// Needs the tape's degrees.
+template <class Visit>
+void visit_operands(const Tape& tape, const Instruction& instruction, bool only_values, Visit&& visit) {
+    switch (instruction.operation) {
+    case SeriesOperation::linear_combination:
+        for (std::uint32_t i = instruction.left; i != instruction.right; ++i)
+            visit(tape.terms[i].series);
+        return;
+    case SeriesOperation::multiply:
+    case SeriesOperation::divide:
+        visit(instruction.left);
+        visit(instruction.right);
+        return;
+    case SeriesOperation::square:
+    case SeriesOperation::reciprocal:
+    case SeriesOperation::sqrt:
+    case SeriesOperation::power_constant:
+    case SeriesOperation::derivative:
+        visit(instruction.left);
+        return;
+    case SeriesOperation::log:
+    case SeriesOperation::asin:
+    case SeriesOperation::atan:
+    case SeriesOperation::acos:
+        visit(instruction.third);
+        if (!only_values && tape.degrees[instruction.third] > 0)
+            visit(instruction.left);
+        return;
+    default: // y' = a' w
+        visit(instruction.third);
+        if (only_values || tape.degrees[instruction.third] == 0)
+            return;
+        visit(instruction.right);
+        if (tape.degrees[instruction.third] > 1)
+            visit(instruction.left);
+    }
+}
+
+/// Fills in `degrees`: the smallest that are consistent with the rates. Degrees above 4 are not told from unbounded.
+void find_degrees(Tape& tape, const std::vector<bool>& rate_is_zero);
+
+/// The registers that rates and outputs depend on; states are always among them.
+std::vector<bool> needed_registers(const Tape& tape, bool only_values);
+
+/// Removes instructions that nothing needs and renumbers registers.
+void remove_unneeded(Tape& tape);
+
+} // namespace graze
