@@ -23,6 +23,8 @@ foreach(folder IN LISTS GRAZE_FOLDERS ITEMS program)
         endforeach()
     endif()
     target_compile_definitions(test_${folder} PRIVATE GRAZE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    # What is tested is fast enough already; tests are compiled more often than they are run.
+    target_compile_options(test_${folder} PRIVATE $<$<CONFIG:Release>:-O1>)
     gtest_discover_tests(
         test_${folder} TEST_PREFIX ${folder}. TEST_FILTER "-*Slow.*" DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600
     )
