@@ -48,6 +48,7 @@ void CompiledModel::compile_modes(std::span<const Expression> observed) {
             const Transition* transition = model_.find_transition(m, event);
             compiled.transitions.push_back(static_cast<std::size_t>(transition - model_.transitions.data()));
         }
+        compiled.events = function_of(outputs);
         outputs.insert(outputs.end(), observed.begin(), observed.end());
         compiled.tape = compile_tape(states, parameters, model_.expand(mode.rates), model_.expand(outputs));
         compiled.rates = function_of(mode.rates);

@@ -69,6 +69,8 @@ std::size_t Trajectory::find_contact(double& step) {
         first = w;
         step = root.at;
     }
+    if (first != no_event && step > 0)
+        step = on_surface(first, step);
     std::stable_sort(touches_.begin(), touches_.end(),
                      [](const Touch& a, const Touch& b) { return a.root.at < b.root.at; });
     return first;
@@ -112,17 +114,19 @@ bool Trajectory::classify(std::size_t w, double step) {
     const double size = series_size(c, step);
     const double noise = roundoff * size;
     const bool served = event == served_;
+    const double at_surface = std::max(served_roundoff, 1000 * simulation_->options().tolerance);
     const bool due = std::find(together_.begin(), together_.end(), event) != together_.end();
     Watch& watch = watches_[w];
     watch = {};
-    if (std::abs(c[0]) > (served || due ? served_roundoff * size : noise)) {
+    if (std::abs(c[0]) > (served || due ? at_surface * size : noise)) {
         watch.side = c[0] > 0 ? 1 : -1;
         if (watch.side > 0 || definition.kind == EventKind::section)
             return true;
-        finish(Ending::inadmissible, time_,
-               fmt::format("barrier '{}' is already violated ({:.6g} < 0) {}: choose an initial state on its admissible "
-                           "side, or a jump that does not lead beyond it",
-                           definition.name, c[0], where()));
+        finish(
+            Ending::inadmissible, time_,
+            fmt::format("barrier '{}' is already violated ({:.6g} < 0) {}: choose an initial state on its admissible "
+                        "side, or a jump that does not lead beyond it",
+                        definition.name, c[0], where()));
         return false;
     }
     const std::size_t leading = leading_index(c, step, noise);
@@ -162,6 +166,25 @@ void Trajectory::announce_contact() {
     pending_.reset();
 }
 
+/// Moves a root of the event polynomial onto the surface itself, from which the truncation of the polynomials of
+/// event and states may keep it by something like the tolerance.
+double Trajectory::on_surface(std::size_t w, double s) {
+    const auto c = event_series(w);
+    const auto& events = simulation_->compiled().mode(mode_).events;
+    values_.resize(events.outputs());
+    for (int sweep = 0; sweep < 2; ++sweep) {
+        for (std::size_t i = 0; i < states_; ++i)
+            inputs_[i] = evaluate_state(i, s);
+        events.evaluate(inputs_, values_, work_);
+        const double rate = evaluate_derivative(c, s);
+        // Newton's method is safe only well away from the double root of a tangential contact.
+        if (!(4 * std::abs(values_[w] * c[2]) < rate * rate))
+            return s;
+        s = std::max(0.0, s - values_[w] / rate);
+    }
+    return s;
+}
+
 void Trajectory::make_contact(std::size_t w, double s) {
     const auto& mode = simulation_->compiled().mode(mode_);
     const std::size_t event = mode.watched[w];
@@ -183,12 +206,7 @@ void Trajectory::make_contact(std::size_t w, double s) {
                 shift /= -rate;
     }
     add_time(s);
-    if (event == chattering_.event)
-        ++chattering_.count;
-    else if (simulation_->compiled().transition(transition).jump != 0)
-        chattering_ = {event, 1, 0};
-    if (event == chattering_.event)
-        chattering_.rate = rate;
+    remember_contact(event, rate);
     Contact contact;
     contact.kind = ContactKind::crossing;
     contact.event = event;
@@ -219,11 +237,12 @@ void Trajectory::apply_transition(std::size_t transition, double rate) {
         state_ = after_;
         if (ends)
             return finish(Ending::terminal, time_);
-        return finish(Ending::no_transition, time_,
-                      fmt::format("no condition of transition '{}' (mode '{}', event '{}') holds at time {:.15g}: add an "
-                                  "alternative without a condition, or one that covers this state",
-                                  definition.label, model.modes[definition.mode].name,
-                                  model.events[definition.event].name, time_));
+        return finish(
+            Ending::no_transition, time_,
+            fmt::format("no condition of transition '{}' (mode '{}', event '{}') holds at time {:.15g}: add an "
+                        "alternative without a condition, or one that covers this state",
+                        definition.label, model.modes[definition.mode].name, model.events[definition.event].name,
+                        time_));
     }
     enter(compiled.jump, *next);
 }
@@ -266,10 +285,11 @@ void Trajectory::enter(std::size_t jump, std::size_t mode) {
     pending_->mode_after = mode;
     for (std::size_t i = 0; i < states_; ++i)
         if (!std::isfinite(after_[i]))
-            return finish(Ending::undefined, time_,
-                          fmt::format("jump '{}' gives state '{}' no finite value {}: look for a division by zero, or a "
-                                      "root or logarithm of a number that is not positive",
-                                      compiled.model().jumps[jump].name, compiled.model().states[i].name, where()));
+            return finish(
+                Ending::undefined, time_,
+                fmt::format("jump '{}' gives state '{}' no finite value {}: look for a division by zero, or a "
+                            "root or logarithm of a number that is not positive",
+                            compiled.model().jumps[jump].name, compiled.model().states[i].name, where()));
     for (std::size_t i = 0; i < states_; ++i)
         if (periods_[i] > 0 && after_[i] != before_[i])
             probes_->relocate(i, before_[i], after_[i]);
@@ -283,21 +303,35 @@ void Trajectory::enter(std::size_t jump, std::size_t mode) {
                            contacts_now_, where()));
 }
 
+void Trajectory::remember_contact(std::size_t event, double rate) {
+    ContactHistory& history = histories_[event];
+    ++contacts_;
+    history.count = history.count > 0 && rate > history.rate ? history.count + 1 : 1;
+    history.interrupted = contacts_ != history.serial + 1;
+    history.serial = contacts_;
+    history.flight = time_ - history.time;
+    history.time = time_;
+    history.rate = rate;
+    history.previous_speed = history.speed;
+    history.speed = 0;
+}
+
 /// Contacts at one barrier that follow each other ever faster come to an end in finite time (Budd and Dux 1994).
 /// With speed u and deceleration a after a contact, and speeds that fall by a factor r each, what remains takes
-/// 2u / (a (1 - r)). It is taken at once when that is so short that all else is constant to within tolerance.
+/// 2u / (a (1 - r)); when other events come in between, the flights themselves tell it. It is taken at once when it
+/// is so short that all else is constant to within tolerance.
 bool Trajectory::complete_chatter(std::size_t w, double step) {
-    const std::size_t event = simulation_->compiled().mode(mode_).watched[w];
-    if (chattering_.event != event || chattering_.count < fewest_contacts_of_chatter)
-        return false;
+    ContactHistory& history = histories_[simulation_->compiled().mode(mode_).watched[w]];
     const auto c = event_series(w);
     const double speed = c[1], deceleration = -2 * c[2];
-    if (!(deceleration > 0) || !(chattering_.rate < 0))
+    history.speed = speed;
+    if (history.count < fewest_contacts_of_chatter || !(deceleration > 0))
         return false;
-    const double ratio = speed / -chattering_.rate;
+    const double ratio = history.interrupted ? speed / history.previous_speed : speed / -history.rate;
     if (!(ratio < 1))
         return false;
-    const double remaining = 2 * speed / (deceleration * (1 - ratio));
+    const double flight = history.interrupted ? ratio * history.flight : 2 * speed / deceleration;
+    const double remaining = flight / (1 - ratio);
     const double allowed = std::max(4 * epsilon, 0.01 * simulation_->options().tolerance);
     const double height = deceleration * remaining * remaining;
     const double change = std::abs(c[3] / c[2]) * remaining;
@@ -315,25 +349,25 @@ void Trajectory::stick(std::size_t w, double remaining, double impulse) {
     const std::size_t event = mode.watched[w];
     const Transition& transition = simulation_->model().transitions[mode.transitions[w]];
     const auto c = event_series(w);
-    const double last_impulse = c[1] - chattering_.rate;
+    const double last_impulse = c[1] - histories_[event].rate;
     const double share = remaining > 0 && last_impulse > 0 ? impulse / last_impulse : 0;
     fields_.resize(2 * states_);
     if (tangents_)
-        carry_tangents_to_rest(w, remaining, share);
+        carry_tangents_to_rest(w, remaining, share > 0 ? 1 / last_impulse : 0);
     for (std::size_t i = 0; i < states_; ++i) {
         const double kick = share * (after_[i] - before_[i]);
         fields_[i] = series(i)[1];
         before_[i] = state_[i] + remaining * fields_[i] + (periods_[i] > 0 ? 0 : kick);
     }
     add_time(remaining);
-    chattering_ = {};
+    histories_[event] = {};
     if (!transition.chatter) {
         state_ = before_;
-        return finish(Ending::chatter, time_,
-                      fmt::format("contacts at barrier '{}' accumulate in mode '{}' at time {:.15g}, and its transition "
-                                  "does not say what follows: give it `chatter = {{ jump = ..., mode = ... }}`",
-                                  simulation_->model().events[event].name, simulation_->model().modes[mode_].name,
-                                  time_));
+        return finish(
+            Ending::chatter, time_,
+            fmt::format("contacts at barrier '{}' accumulate in mode '{}' at time {:.15g}, and its transition "
+                        "does not say what follows: give it `chatter = {{ jump = ..., mode = ... }}`",
+                        simulation_->model().events[event].name, simulation_->model().modes[mode_].name, time_));
     }
     Contact contact;
     contact.kind = ContactKind::sticking;
@@ -349,7 +383,7 @@ void Trajectory::stick(std::size_t w, double remaining, double impulse) {
 }
 
 /// Derivatives of the state and time of accumulation: its time changes with the speed after the last contact.
-void Trajectory::carry_tangents_to_rest(std::size_t w, double remaining, double share) {
+void Trajectory::carry_tangents_to_rest(std::size_t w, double remaining, double per_impulse) {
     const auto c = event_series(w);
     row_.assign(tangents_->directions(), 0.0);
     if (!(remaining > 0))
@@ -357,7 +391,7 @@ void Trajectory::carry_tangents_to_rest(std::size_t w, double remaining, double 
     tangents_->coefficient(mode_, state_, w, 1, row_);
     // d(remaining)/d(speed), and the impulse a (remaining) - u that goes with it
     const double per_speed = remaining / c[1];
-    const double kicks = share == 0 ? 0 : (-2 * c[2] * per_speed - 1) / (c[1] - chattering_.rate);
+    const double kicks = per_impulse * (-2 * c[2] * per_speed - 1);
     kick_.resize(states_);
     for (std::size_t i = 0; i < states_; ++i)
         kick_[i] = periods_[i] > 0 ? 0 : kicks * (after_[i] - before_[i]);

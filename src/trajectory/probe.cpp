@@ -15,9 +15,9 @@ Probe section_probe(const Model& model, std::string_view name) {
             names.push_back(section.name);
         const std::string nearest = nearest_name(name, names);
         throw InputError(fmt::format("model '{}' has no section '{}'", model.name, name),
-                         names.empty()      ? "declare one under [sections] in the model file"
+                         names.empty()     ? "declare one under [sections] in the model file"
                          : nearest.empty() ? fmt::format("its sections are: {}", fmt::join(names, ", "))
-                                            : fmt::format("did you mean '{}'?", nearest));
+                                           : fmt::format("did you mean '{}'?", nearest));
     }
     const Section& section = model.sections[*index];
     Probe probe;

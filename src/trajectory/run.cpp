@@ -3,10 +3,9 @@
 namespace graze {
 
 JetSet::JetSet(const Simulation& simulation, LaneKind kind, InstructionSet set)
-    : simulation_(&simulation), kind_(kind), set_(set),
-      width_(kind == LaneKind::single     ? 1
-             : kind == LaneKind::ensemble ? lanes_of(kind, set)
-                                          : 1 + lanes_of(kind, set)),
+    : simulation_(&simulation), kind_(kind), set_(set), width_(kind == LaneKind::single     ? 1
+                                                               : kind == LaneKind::ensemble ? lanes_of(kind, set)
+                                                                                            : 1 + lanes_of(kind, set)),
       jets_(simulation.model().modes.size()) {}
 
 Jet& JetSet::operator()(std::size_t mode) {

@@ -31,8 +31,7 @@ public:
     void evaluate(std::size_t mode, std::span<const double> state, double s, std::span<double> matrix,
                   std::size_t series, std::span<double> row);
     /// Derivatives of coefficient k of an output at the start of the arc.
-    void coefficient(std::size_t mode, std::span<const double> state, std::size_t series, int k,
-                     std::span<double> row);
+    void coefficient(std::size_t mode, std::span<const double> state, std::size_t series, int k, std::span<double> row);
 
     /// Moves along the arc.
     void advance(std::size_t mode, std::span<const double> state, double s);

@@ -76,7 +76,8 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     served_ = no_event;
     pending_.reset();
     together_.clear();
-    chattering_ = {};
+    histories_.assign(simulation_->model().events.size(), {});
+    contacts_ = 0;
     contacts_now_ = 0;
     tangents_.reset();
     probes_->start(state_);
@@ -100,7 +101,9 @@ std::span<const double> Trajectory::tangents() const {
     return tangents_ ? tangents_->matrix() : std::span<const double>{};
 }
 
-bool Trajectory::tangents_valid() const { return tangents_ && tangents_->valid(); }
+bool Trajectory::tangents_valid() const {
+    return tangents_ && tangents_->valid();
+}
 
 void Trajectory::load(const Jet& jet, std::size_t lane) {
     const std::size_t outputs = simulation_->compiled().mode(mode_).watched.size() + simulation_->compiled().observed();
@@ -108,7 +111,8 @@ void Trajectory::load(const Jet& jet, std::size_t lane) {
     const auto size = static_cast<std::size_t>(order_) + 1;
     if (width > 1 && lanes_.size() < series_.size() * size)
         lanes_.resize(series_.size() * size);
-    for (std::size_t i = 0; i < states_ + outputs; ++i) {
+    loaded_ = states_ + outputs;
+    for (std::size_t i = 0; i < loaded_; ++i) {
         const double* from = i < states_ ? jet.state(i) : jet.output(i - states_);
         if (width == 1) {
             series_[i] = from;
@@ -125,7 +129,8 @@ void Trajectory::advance(const Jet& jet, std::size_t lane) {
     if (finished())
         return;
     load(jet, lane);
-    double step = step_size_(series_.data(), states_, previous_step_);
+    // Event functions and whatever else is observed must be as accurate as the states.
+    double step = step_size_(series_.data(), loaded_, previous_step_);
     if (std::isnan(step))
         return finish_undefined();
     const double remaining = (end_time_ - time_) - time_low_;

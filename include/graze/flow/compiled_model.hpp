@@ -23,8 +23,9 @@ public:
     explicit CompiledModel(const Model& model, std::span<const Expression> observed = {});
 
     struct CompiledMode {
-        Tape tape;      ///< outputs: the watched events in their order, then the observed expressions
-        Function rates; ///< the vector field alone
+        Tape tape;       ///< outputs: the watched events in their order, then the observed expressions
+        Function rates;  ///< the vector field alone
+        Function events; ///< the watched event functions alone
         std::vector<std::size_t> watched;
         std::vector<std::size_t> transitions; ///< of each watched event
     };

@@ -33,12 +33,12 @@ struct Contact {
     ContactKind kind = ContactKind::crossing;
     double time = 0;
     std::size_t event = 0;
-    std::size_t transition = 0;   ///< index in Model::transitions
+    std::size_t transition = 0; ///< index in Model::transitions
     std::size_t mode_before = 0, mode_after = 0;
-    double rate_before = 0;       ///< of the event function along the flow: minus the approach speed
-    double rate_after = 0;        ///< of the same function just after, by the flow of the next mode
-    double value = 0;             ///< of the event function (least value, for a touch)
-    bool simultaneous = false;    ///< at the same time as the contact before
+    double rate_before = 0;                ///< of the event function along the flow: minus the approach speed
+    double rate_after = 0;                 ///< of the same function just after, by the flow of the next mode
+    double value = 0;                      ///< of the event function (least value, for a touch)
+    bool simultaneous = false;             ///< at the same time as the contact before
     std::span<const double> before, after; ///< states; valid during the call
 };
 
@@ -48,7 +48,7 @@ struct Passage {
     double time = 0;
     int direction = 0; ///< +1 rising (or a minimum), -1 falling (or a maximum)
     std::size_t mode = 0;
-    bool at_contact = false; ///< an extremum made by a jump or a change of mode
+    bool at_contact = false;       ///< an extremum made by a jump or a change of mode
     std::span<const double> state; ///< valid during the call
 };
 

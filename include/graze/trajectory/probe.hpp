@@ -17,10 +17,10 @@ struct Probe {
     };
     std::string name;
     Kind kind = Kind::crossing;
-    Expression expression;              ///< of crossing and extremum
+    Expression expression;                 ///< of crossing and extremum
     Direction direction = Direction::both; ///< extremum: falling = maxima, rising = minima
-    std::size_t state = 0;              ///< of phase
-    Expression value;                   ///< of phase, in terms of parameters
+    std::size_t state = 0;                 ///< of phase
+    Expression value;                      ///< of phase, in terms of parameters
 };
 
 /// The probe of a section declared in the model. @throws InputError for an unknown name, with the nearest one

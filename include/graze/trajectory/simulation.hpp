@@ -11,9 +11,9 @@
 namespace graze {
 
 struct SimulationOptions {
-    double tolerance = 1e-12;   ///< of each step, relative to the size of each state; 1e-16 .. 1e-2
-    int order = 0;              ///< of the Taylor polynomials; 0 chooses by tolerance
-    double largest_step = 0;    ///< 0: no bound
+    double tolerance = 1e-12; ///< of each step, relative to the size of each state; 1e-16 .. 1e-2
+    int order = 0;            ///< of the Taylor polynomials; 0 chooses by tolerance
+    double largest_step = 0;  ///< 0: no bound
     std::size_t step_limit = 100'000'000;
     int contacts_at_once = 100; ///< more events than this at one time end in Ending::no_progress
     double touch = 0;           ///< minima of barriers between 0 and this are reported as touches; 0: 100 tolerances

@@ -63,10 +63,16 @@ private:
         std::size_t watched;
         Root root;
     };
-    struct Chattering {
-        std::size_t event = no_event;
-        int count = 0;
-        double rate = 0; ///< of the event function, just before the last contact
+    /// The last contacts at one event, for telling when they accumulate.
+    struct ContactHistory {
+        int count = 0;             ///< in a row, each slower than the one before
+        bool interrupted = false;  ///< something else happened between the last two
+        std::size_t serial = 0;    ///< of the last, among all contacts
+        double time = 0;           ///< of the last
+        double flight = 0;         ///< time between the last two
+        double rate = 0;           ///< of the event function just before the last
+        double speed = 0;          ///< of separation after the last
+        double previous_speed = 0; ///< and after the one before
     };
     static constexpr std::size_t no_event = static_cast<std::size_t>(-1);
 
@@ -74,10 +80,12 @@ private:
     void begin_arc(double step);
     bool classify(std::size_t watched, double step);
     void announce_contact();
+    void remember_contact(std::size_t event, double rate);
     bool complete_chatter(std::size_t watched, double step);
     void stick(std::size_t watched, double remaining, double impulse);
-    void carry_tangents_to_rest(std::size_t watched, double remaining, double share);
+    void carry_tangents_to_rest(std::size_t watched, double remaining, double per_impulse);
     std::size_t find_contact(double& step);
+    double on_surface(std::size_t watched, double s);
     void make_contact(std::size_t watched, double s);
     void apply_transition(std::size_t transition, double rate);
     void jump(std::size_t index);
@@ -106,11 +114,11 @@ private:
     RootFinder roots_;
     std::unique_ptr<ProbeTracker> probes_;
     std::unique_ptr<Tangents> tangents_;
-    std::size_t states_ = 0;
+    std::size_t states_ = 0, loaded_ = 0; ///< series of states; of states, events and observed expressions
     int order_ = 0;
 
-    std::vector<double> state_, inputs_, work_, periods_, fields_, jacobian_, row_, kick_, conditions_, before_,
-        after_;
+    std::vector<double> state_, inputs_, work_, periods_, fields_, jacobian_, row_, kick_, conditions_, before_, after_,
+        values_;
     std::vector<const double*> series_;
     std::vector<double> lanes_; ///< coefficients gathered from an ensemble jet
     std::vector<Watch> watches_;
@@ -123,9 +131,10 @@ private:
     double time_ = 0, time_low_ = 0, end_time_ = 0;
     double previous_step_ = 0, largest_step_ = 0;
     bool arc_start_ = true;
-    std::size_t served_ = no_event; ///< event of the contact at which the present arc began
-    std::optional<Contact> pending_; ///< contact still to be announced, when the next jet is known
-    Chattering chattering_;
+    std::size_t served_ = no_event;         ///< event of the contact at which the present arc began
+    std::optional<Contact> pending_;        ///< contact still to be announced, when the next jet is known
+    std::vector<ContactHistory> histories_; ///< for each event
+    std::size_t contacts_ = 0;
     int contacts_now_ = 0;
 };
 
