@@ -111,12 +111,7 @@ private:
 
     /// The place of an error in the value of a string, found as if the string were a file of its own.
     InputError inside(const TomlEntry& entry, const std::string& text, const InputError& error) const {
-        std::size_t offset = 0;
-        for (int line = 1; line < error.place().line; ++line) {
-            const std::size_t end = text.find('\n', offset);
-            offset = end == std::string::npos ? text.size() : end + 1;
-        }
-        offset += static_cast<std::size_t>(std::max(error.place().column, 1) - 1);
+        const std::size_t offset = SourceText(text, "").position(error.place());
         return {source_.inside_string(reader_.place(*entry.node), offset), error.problem(), error.remedy()};
     }
 

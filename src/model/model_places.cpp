@@ -85,7 +85,8 @@ Place SourceText::inside_string(const Place& begin, std::size_t offset) const {
     }
     for (std::size_t value = 0; at < text.size();) {
         const bool escaped = quote == '"' && text[at] == '\\';
-        const Escape piece = escaped ? escape_at(text, at) : Escape{1, 1};
+        const bool line_end = text.substr(at, 2) == "\r\n"; // read as one character
+        const Escape piece = escaped ? escape_at(text, at) : Escape{line_end ? 2U : 1U, 1};
         if (value + piece.value_length > offset)
             break;
         value += piece.value_length;

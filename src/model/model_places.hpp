@@ -16,12 +16,13 @@ public:
     SourceText(std::string_view text, std::string file);
 
     const std::string& file() const { return file_; }
+    /// Index of the byte at this line and column.
+    std::size_t position(const Place& place) const;
     /// Place of one byte of the value of the string literal that begins (with its quote) at `begin`: escapes
     /// and the lines of multi-line strings are followed.
     Place inside_string(const Place& begin, std::size_t offset) const;
 
 private:
-    std::size_t position(const Place& place) const;
     Place place(std::size_t position) const;
 
     std::string text_;
