@@ -6,7 +6,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
     set(entries "")
     set(index 0)
     foreach(model IN LISTS MODELS)
-        get_filename_component(name "${model}" NAME_WE)
+        get_filename_component(name "${model}" NAME_WLE)
         file(READ "${model}" bytes HEX)
         string(REGEX REPLACE "(..)" "'\\\\x\\1'," bytes "${bytes}")
         string(REPLACE "'\\x0a'," "'\\n',\n" bytes "${bytes}") # a line for each line of the file
@@ -38,7 +38,10 @@ endif()
 
 if(TARGET graze_model)
     file(GLOB models CONFIGURE_DEPENDS models/*.toml)
+    # By name alone: with its ending, "a-b.toml" would come before "a.toml".
+    list(TRANSFORM models REPLACE "\\.toml$" "")
     list(SORT models)
+    list(TRANSFORM models APPEND ".toml")
     set(catalogue_source ${CMAKE_CURRENT_BINARY_DIR}/generated/catalogue_data.cpp)
     add_custom_command(
         OUTPUT ${catalogue_source}

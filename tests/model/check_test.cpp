@@ -1,0 +1,131 @@
+#include "graze/model/check.hpp"
+
+#include "graze/model/model_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace graze {
+namespace {
+
+const char* const ball = R"toml(
+name = "ball \"on\" table"
+[parameters]
+g = 9.81
+e = 0.8
+[states]
+x = 1.0
+v = 0
+[definitions]
+height = "x"
+[modes.flight]
+rates = { x = "v", v = "-g" }
+watch = ["contact"]
+[modes.rest]
+rates = { x = 0, v = 0 }
+[events]
+contact = "height"
+[jumps.impact]
+v = "-e*v"
+[jumps.land]
+x = 0
+v = 0
+[[transitions]]
+mode = "flight"
+event = "contact"
+label = "J1"
+jump = "impact"
+next = [{ when = "v > 0", mode = "flight" }, { mode = "end" }]
+chatter = { jump = "land", mode = "rest" }
+[initial]
+mode = "flight"
+)toml";
+
+/// The warnings for the ball with one piece of its text replaced.
+std::vector<std::string> warnings(const std::string& piece = "", const std::string& replacement = "") {
+    std::string text = ball;
+    const std::size_t at = text.find(piece);
+    EXPECT_NE(at, std::string::npos) << piece;
+    return model_warnings(parse_model(text.replace(at, piece.size(), replacement), "ball.toml"));
+}
+
+void expect_warning(const std::vector<std::string>& found, const std::string& words) {
+    const bool there = std::any_of(found.begin(), found.end(), [&](const std::string& warning) {
+        return warning.find(words) != std::string::npos;
+    });
+    std::string all;
+    for (const std::string& warning : found)
+        all += warning + "\n";
+    EXPECT_TRUE(there) << "expected: " << words << "\nfound:\n" << all;
+}
+
+TEST(Check, HasNothingToSayOfAGoodModel) {
+    const std::vector<std::string> found = warnings();
+    EXPECT_TRUE(found.empty()) << found.front();
+}
+
+TEST(Check, WarnsOfWhatIsNeverUsed) {
+    expect_warning(warnings("e = 0.8", "e = 0.8\nmass = 1"), "nothing uses the parameter 'mass'");
+    expect_warning(warnings("height = \"x\"", "height = \"x\"\ndepth = \"-x\""), "nothing uses the definition 'depth'");
+    expect_warning(warnings("contact = \"height\"", "contact = \"height\"\ntop = \"v\""),
+                   "no mode watches the event 'top'");
+    expect_warning(warnings("[jumps.land]", "[jumps.other]\nx = 1\n[jumps.land]"),
+                   "no transition uses the jump 'other'");
+    expect_warning(warnings("[events]", "[modes.far]\nrates = { x = 0, v = 0 }\n[events]"),
+                   "no transition leads from the initial mode 'flight' to the mode 'far'");
+    const std::string second =
+        "[[transitions]]\nmode = \"rest\"\nevent = \"contact\"\nlabel = \"J1\"\nnext = \"flight\"\n[initial]";
+    expect_warning(warnings("[initial]", second), "mode 'rest' does not watch the event 'contact'");
+    expect_warning(warnings("[initial]", second), "two transitions have the label 'J1'");
+}
+
+TEST(Check, WarnsOfConditionsThatFailOrNeverMatter) {
+    expect_warning(warnings(", { mode = \"end\" }", ""), "the conditions of the transition 'J1' may all fail");
+    expect_warning(warnings("{ mode = \"end\" }", "{ mode = \"end\" }, { when = \"x > 1\", mode = \"rest\" }"),
+                   "alternative 3 of the transition 'J1' is never taken");
+    expect_warning(warnings("{ mode = \"end\" }", "{ when = \"0 < v\", mode = \"end\" }, { mode = \"end\" }"),
+                   "alternative 2 of the transition 'J1' is never taken");
+}
+
+TEST(Check, WarnsOfSectionsUsedAsBarriers) {
+    const std::string section = "contact = { function = \"height\", kind = \"section\" }";
+    expect_warning(warnings("contact = \"height\"", section), "'contact' is not a barrier");
+    const std::string top = "watch = [\"contact\", \"top\"]\n[events.top]\nfunction = \"v\"\nkind = \"section\"";
+    expect_warning(warnings("watch = [\"contact\"]", top), "watches the section 'top' but has no transition");
+}
+
+TEST(Check, WarnsOfABadStart) {
+    expect_warning(warnings("x = 1.0", "x = -0.5"), "the barrier 'contact' is -0.5");
+    expect_warning(warnings("v = \"-g\"", "v = \"-g/v\""), "the rate of 'v' is -inf");
+    EXPECT_TRUE(warnings("x = 1.0", "x = 0.0").empty());
+}
+
+TEST(Check, NamesTheDefinitionThatIsNotFinite) {
+    std::string text = ball;
+    text.replace(text.find("v = \"-g\""), 8, "v = \"-outer\"");
+    text.replace(text.find("height = \"x\""), 12,
+                 "height = \"x\"\nouter = \"2*inner + height\"\ninner = \"log(v - 1)\"");
+    const std::vector<std::string> found = model_warnings(parse_model(text, "ball.toml"));
+    expect_warning(found, "the rate of 'v' is");
+    expect_warning(found, "because 'inner' is");
+}
+
+TEST(Check, DrawsTheConnectivityGraph) {
+    const std::string graph = connectivity_graph(parse_model(ball, "ball.toml"));
+    const auto expect_line = [&](const std::string& line) {
+        EXPECT_NE(graph.find(line), std::string::npos) << line << "\n" << graph;
+    };
+    expect_line("digraph \"ball \\\"on\\\" table\" {");
+    expect_line("mode0 [label = \"flight\"];");
+    expect_line("mode1 [label = \"rest\"];");
+    expect_line("start -> mode0;");
+    expect_line("mode0 -> mode0 [label = \"J1: contact / impact [v > 0]\"];");
+    expect_line("mode0 -> end [label = \"J1: contact / impact\"];");
+    expect_line("mode0 -> mode1 [label = \"J1: contact / land [chatter]\", style = dashed];");
+    expect_line("end [shape = doublecircle");
+}
+
+} // namespace
+} // namespace graze
