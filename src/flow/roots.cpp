@@ -1,0 +1,572 @@
+#include "graze/flow/roots.hpp"
+
+#include "bernstein.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace graze {
+
+using bernstein::unit_roundoff;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Parts that begin at 0 are halved this often (roots as close to 0 as 2^-64 of the step can be told apart), others
+/// until few numbers are left inside; together they never need more rows than this.
+constexpr double least_leading_width = 0x1p-64;
+constexpr double least_relative_width = 4 * unit_roundoff;
+constexpr std::size_t stack_rows = 120;
+constexpr int parts_per_degree = 64; ///< bounds the work on polynomials that round-off makes unanswerable
+constexpr int refinement_steps = 200;
+
+struct PointValue {
+    double value, slope;
+    double size;        ///< sum |c_k| s^k
+    double value_error; ///< error(s)
+    double slope_error;
+
+    int sign() const { return (value > value_error) - (value < -value_error); }
+    int slope_sign() const { return (slope > slope_error) - (slope < -slope_error); }
+};
+
+PointValue evaluate(std::span<const double> c, double s) {
+    double value = 0, slope = 0, size = 0, size_slope = 0;
+    for (std::size_t k = c.size(); k-- > 0;) {
+        slope = slope * s + value;
+        value = value * s + c[k];
+        size_slope = size_slope * s + size;
+        size = size * s + std::abs(c[k]);
+    }
+    const double degree = static_cast<double>(c.size());
+    return {value, slope, size, unit_roundoff * (4 * size + 2 * s * size_slope),
+            unit_roundoff * (2 * degree + 4) * size_slope};
+}
+
+/// Newton's iteration kept inside a bracket at whose ends c has opposite signs, until round-off decides.
+double refine(std::span<const double> c, double low, double high, int sign_low, double guess) {
+    double s = guess > low && guess < high ? guess : 0.5 * (low + high);
+    double last_step = high - low;
+    for (int i = 0; i < refinement_steps; ++i) {
+        const PointValue point = evaluate(c, s);
+        const double newton = s - point.value / point.slope;
+        const bool inside = newton > low && newton < high;
+        if (std::abs(point.value) <= unit_roundoff * point.size) // a longer step would be led by round-off
+            return inside && std::abs(newton - s) <= 4 * unit_roundoff * s ? newton : s;
+        ((point.value > 0) == (sign_low > 0) ? low : high) = s;
+        double next = newton;
+        if (!(next > low && next < high) || std::abs(next - s) > 0.5 * last_step) {
+            // Halve the exponent of a wide bracket rather than its length: a small root wants relative accuracy.
+            next = high > 4 * low && low > 0 ? std::sqrt(low * high) : 0.5 * (low + high);
+            if (!(next > low && next < high))
+                return s;
+        }
+        last_step = std::abs(next - s);
+        s = next;
+        if (last_step <= unit_roundoff * s)
+            return s;
+    }
+    return s;
+}
+
+/// Puts the samples that isolation takes from left to right together into crossings and touches. Between two
+/// samples of opposite certain signs lies one crossing; uncertain samples between equal signs are a touch.
+class Tracker {
+public:
+    Tracker(std::span<const double> power, std::span<const double> quotient, int sign_at_start)
+        : power_(power), quotient_(quotient), sign_(sign_at_start) {}
+
+    bool only_first_falling = false;
+    double touch = 0;
+    std::vector<Root>* touches = nullptr;
+    std::vector<Root>* crossings = nullptr;
+    Root first{};
+
+    /// @param guess where a crossing before `at` might be
+    /// @return whether to go on
+    bool certain(double at, int sign, double guess) {
+        if (sign == sign_)
+            report_pending_touch();
+        else if (!report_crossing(refine(quotient_, at_, at, sign_, guess)))
+            return false;
+        pending_ = false;
+        at_ = at;
+        sign_ = sign;
+        return true;
+    }
+
+    bool sample(double at, const PointValue& point, bool minimum, double guess) {
+        const int sign = point.sign();
+        if (sign == 0) {
+            if (!pending_ || point.value < pending_touch_.value)
+                pending_touch_ = {RootKind::touch, at, point.value};
+            pending_ = true;
+            return true;
+        }
+        if (!certain(at, sign, guess))
+            return false;
+        if (minimum && sign > 0 && point.value <= touch)
+            report_touch({RootKind::touch, at, point.value});
+        return true;
+    }
+
+    /// The rule for the end of the interval (see the class RootFinder). @return false if a falling root ends the search
+    bool finish(double length) {
+        const PointValue end = evaluate(power_, length);
+        if (end.sign() != 0) {
+            if (end.sign() > 0 && end.value <= touch && end.slope_sign() == 0 && ends_in_minimum(length))
+                report_touch({RootKind::touch, length, end.value});
+            return true;
+        }
+        if (end.slope_sign() != -sign_) {
+            report_pending_touch();
+            return true;
+        }
+        const bool passed = end.value * sign_ < 0;
+        return report_crossing(passed ? refine(quotient_, at_, length, sign_, length) : length);
+    }
+
+private:
+    std::span<const double> power_, quotient_;
+    double at_ = 0; ///< the last sample with a certain sign
+    int sign_;
+    bool pending_ = false; ///< uncertain samples came after it
+    double last_touch_ = 0;
+    Root pending_touch_{};
+
+    bool report_crossing(double at) {
+        const Root root{sign_ > 0 ? RootKind::falling : RootKind::rising, at, evaluate_polynomial(power_, at)};
+        if (crossings)
+            crossings->push_back(root);
+        if (only_first_falling && root.kind == RootKind::falling) {
+            first = root;
+            return false;
+        }
+        return true;
+    }
+
+    void report_pending_touch() {
+        if (pending_ && sign_ > 0)
+            report_touch(pending_touch_);
+    }
+
+    void report_touch(const Root& root) {
+        if (touches)
+            touches->push_back(root);
+        last_touch_ = root.at;
+    }
+
+    /// Whether a minimum that has not been reported lies at the end, where the slope is zero up to round-off.
+    bool ends_in_minimum(double length) const {
+        double curvature = 0;
+        for (std::size_t k = power_.size(); k-- > 2;)
+            curvature = curvature * length + static_cast<double>(k * (k - 1)) * power_[k];
+        return curvature > 0 && evaluate(power_, 0.5 * (last_touch_ + length)).slope_sign() != 0;
+    }
+};
+
+/// Moves a root of a polynomial whose c[0] was taken for 0 to where the true one puts it, if it is that well defined.
+void restore_start(std::span<const double> c, double length, Root& root) {
+    const PointValue before = evaluate(c, root.at);
+    const double step = before.value / before.slope;
+    if (c[0] == 0 || !(std::abs(step) < 0.1 * root.at))
+        return;
+    const double at = std::min(root.at - step, length);
+    const double value = evaluate_polynomial(c, at);
+    if (std::abs(value) < std::abs(before.value))
+        root = {root.kind, at, value};
+}
+
+} // namespace
+
+/// The work on one polynomial: its scaled Bernstein form, subdivided depth first, left part first.
+class RootFinder::Isolation {
+public:
+    Isolation(RootFinder& finder, std::span<const double> c, double length, RootStart start)
+        : finder_(finder), length_(length) {
+        if (c.size() > finder.power_.size())
+            throw InputError("polynomial of degree " + std::to_string(c.size() - 1) +
+                                 " given to a root finder for degree " + std::to_string(finder.highest_degree_),
+                             "construct it for the highest degree that occurs");
+        if (!(length > 0) || !(length < infinity) || c.empty())
+            return;
+        std::copy(c.begin(), c.end(), finder.power_.begin());
+        if (start == RootStart::deflate)
+            finder.power_[0] = 0;
+        load(c.size());
+    }
+
+    /// Whether the polynomial is finite and not identically zero.
+    bool usable() const { return usable_; }
+    std::span<const double> power() const { return power_; }
+    /// The polynomial with its roots at 0 divided out.
+    std::span<const double> quotient() const { return power_.subspan(zeros_); }
+    int sign_at_start() const { return quotient()[0] > 0 ? 1 : -1; }
+
+    bool scan(Tracker& tracker);
+    Minimum minimum();
+
+private:
+    RootFinder& finder_;
+    double length_;
+    std::span<const double> power_, slope_, reciprocals_;
+    std::size_t zeros_ = 0;       ///< leading zero coefficients of the polynomial
+    std::size_t slope_zeros_ = 0; ///< and of its derivative
+    bool slope_ready_ = false, usable_ = false;
+    double first_scale_ = 0;
+
+    std::span<BernsteinCoefficient> row(std::size_t i) {
+        return {finder_.coefficients_.data() + i * finder_.power_.size(), power_.size()};
+    }
+    bool is_fresh(const Node& node) const { return node.floor > 0 && node.scale <= first_scale_; }
+    double place(double t) const { return length_ * t; }
+    double round_off(int halvings_and_conversion) const {
+        return unit_roundoff * halvings_and_conversion * static_cast<double>(power_.size());
+    }
+
+    void load(std::size_t size);
+    void prepare_slope();
+    bool locate_extremum(const Node& node, std::span<const BernsteinCoefficient> b, double& at, bool& is_minimum);
+    bool leaf(Tracker& tracker, const Node& node, std::span<const BernsteinCoefficient> b, bool extremum);
+    bool definite(Tracker& tracker, const Node& node, int sign);
+    double control_polygon_root(const Node& node, std::span<const BernsteinCoefficient> b) const;
+    double slope_polygon_root(const Node& node, std::span<const BernsteinCoefficient> b) const;
+    bool split(const bernstein::Range& range);
+    bool renew(Node& node, std::span<BernsteinCoefficient> b);
+    double lower_bound_near(double at, const PointValue& point, double left, double right);
+};
+
+void RootFinder::Isolation::load(std::size_t size) {
+    std::span<BernsteinCoefficient> b{finder_.coefficients_.data(), size};
+    double power = 1, sum = 0;
+    std::size_t used = 0;
+    zeros_ = size;
+    for (std::size_t k = 0; k < size; ++k) {
+        const double scaled = finder_.power_[k] == 0 ? 0 : finder_.power_[k] * power;
+        b[k] = {scaled, std::abs(scaled)};
+        sum += b[k].bound;
+        power *= length_;
+        if (scaled != 0) {
+            used = k + 1;
+            zeros_ = std::min(zeros_, k);
+        }
+    }
+    if (!(sum > 0) || !(sum < infinity))
+        return;
+    usable_ = true;
+    power_ = {finder_.power_.data(), used};
+    reciprocals_ = {finder_.reciprocals_.data() + used * (used - 1) / 2, used};
+    bernstein::from_power(row(0), reciprocals_);
+    // Powers k u, coefficients 4 u, conversion (n + 2) u: together no more than 2 n + 8.
+    first_scale_ = round_off(2) + 6 * unit_roundoff;
+    finder_.stack_.clear();
+    finder_.stack_.push_back({0, 1, first_scale_, 0});
+}
+
+void RootFinder::Isolation::prepare_slope() {
+    if (slope_ready_)
+        return;
+    slope_ready_ = true;
+    for (std::size_t k = 1; k < power_.size(); ++k)
+        finder_.slope_[k - 1] = static_cast<double>(k) * power_[k];
+    slope_ = {finder_.slope_.data(), power_.size() - 1};
+    while (slope_zeros_ + 1 < slope_.size() && slope_[slope_zeros_] == 0)
+        ++slope_zeros_;
+    slope_ = slope_.subspan(slope_zeros_);
+}
+
+/// @return whether the derivative (its roots at 0 divided out) changes sign between the ends
+bool RootFinder::Isolation::locate_extremum(const Node& node, std::span<const BernsteinCoefficient> b, double& at,
+                                            bool& is_minimum) {
+    prepare_slope();
+    const double left = place(node.left), right = place(node.left + node.width);
+    const double at_left = evaluate_polynomial(slope_, left), at_right = evaluate_polynomial(slope_, right);
+    if (!((at_left < 0 && at_right >= 0) || (at_left > 0 && at_right <= 0)))
+        return false;
+    is_minimum = at_left < 0;
+    at = at_right == 0 ? right : refine(slope_, left, right, is_minimum ? -1 : 1, slope_polygon_root(node, b));
+    return true;
+}
+
+/// Where the control polygon first changes sign: a guess for the root of a part that has one.
+double RootFinder::Isolation::control_polygon_root(const Node& node, std::span<const BernsteinCoefficient> b) const {
+    std::size_t i = zeros_ > 0 && node.left == 0 ? 1 : 0;
+    while (i + 1 < b.size() && (b[i].value > 0) == (b[i + 1].value > 0))
+        ++i;
+    if (i + 1 >= b.size())
+        return place(node.left + 0.5 * node.width);
+    const double fraction = b[i].value / (b[i].value - b[i + 1].value);
+    return place(node.left + node.width * (static_cast<double>(i) + fraction) / static_cast<double>(b.size() - 1));
+}
+
+double RootFinder::Isolation::slope_polygon_root(const Node& node, std::span<const BernsteinCoefficient> b) const {
+    if (b.size() < 3)
+        return place(node.left + 0.5 * node.width);
+    double last = b[1].value - b[0].value;
+    for (std::size_t i = 1; i + 1 < b.size(); ++i) {
+        const double next = b[i + 1].value - b[i].value;
+        if ((last > 0) != (next > 0))
+            return place(node.left + node.width * (static_cast<double>(i) - 1 + last / (last - next)) /
+                                         static_cast<double>(b.size() - 2));
+        last = next;
+    }
+    return place(node.left + 0.5 * node.width);
+}
+
+/// A part with at most one root, or (if `extremum`) at most one extremum, or none that can be told from round-off.
+bool RootFinder::Isolation::leaf(Tracker& tracker, const Node& node, std::span<const BernsteinCoefficient> b,
+                                 bool extremum) {
+    const double left = place(node.left), right = place(node.left + node.width);
+    // A coefficient at an end is the value there; where its sign is certain it must not be doubted again.
+    const auto sample_end = [&](double s, const BernsteinCoefficient& value, double guess) {
+        const double uncertainty = node.scale * value.bound + node.floor;
+        return std::abs(value.value) > uncertainty ? tracker.certain(s, value.value > 0 ? 1 : -1, guess)
+                                                   : tracker.sample(s, evaluate(power_, s), false, guess);
+    };
+    if (left > 0 && !sample_end(left, b.front(), 0.5 * left))
+        return false;
+    double at = 0;
+    bool is_minimum = false;
+    if (!extremum || !locate_extremum(node, b, at, is_minimum))
+        return sample_end(right, b.back(), control_polygon_root(node, b));
+    // Close to a double root at `at` the parabola there knows where the roots are.
+    const PointValue point = evaluate(power_, at);
+    double curvature = evaluate_derivative(slope_, at);
+    for (std::size_t k = 0; k < slope_zeros_; ++k)
+        curvature *= at;
+    const double distance = std::sqrt(std::abs(2 * point.value / curvature));
+    return tracker.sample(at, point, is_minimum, at - distance) && sample_end(right, b.back(), at + distance);
+}
+
+bool RootFinder::Isolation::definite(Tracker& tracker, const Node& node, int sign) {
+    const double left = place(node.left);
+    return (left == 0 || tracker.certain(left, sign, 0.5 * left)) &&
+           tracker.certain(place(node.left + node.width), sign, left);
+}
+
+/// Computes the coefficients of a part afresh if that can sharpen them. @return whether it has
+bool RootFinder::Isolation::renew(Node& node, std::span<BernsteinCoefficient> b) {
+    if (is_fresh(node))
+        return false;
+    const double left = place(node.left), right = place(node.left + node.width);
+    const double error = evaluate(power_, right).value_error;
+    bernstein::expand(power_, left, right - left, error, reciprocals_, b);
+    node.scale = first_scale_;
+    node.floor = error;
+    return true;
+}
+
+/// Replaces the part on top of the stack by its halves, or by itself with sharper coefficients.
+/// @return false if it is too short or nothing more can be known about it
+bool RootFinder::Isolation::split(const bernstein::Range& range) {
+    const std::size_t top = finder_.stack_.size() - 1;
+    Node& node = finder_.stack_.back();
+    const bool leading = node.left == 0 && zeros_ > 0; // bounds are relative there, nothing is sharper
+    // Values that differ by little more than their uncertainty are renewed; fresh ones that differ by less are left.
+    const double flat = is_fresh(node) ? 3 : 16;
+    if (range.high - range.low <= flat * range.uncertainty && !leading)
+        return renew(node, row(top));
+    const double half = 0.5 * node.width;
+    const bool room =
+        node.left == 0 ? half >= least_leading_width : half > least_relative_width * (node.left + node.width);
+    if (!room || finder_.stack_.size() + 1 >= stack_rows)
+        return false;
+    bernstein::halve(row(top), row(top + 1));
+    node.scale += round_off(1);
+    Node left = node;
+    left.width = half;
+    node.left += half;
+    node.width = half;
+    finder_.stack_.push_back(left);
+    return true;
+}
+
+bool RootFinder::Isolation::scan(Tracker& tracker) {
+    int parts_left = parts_per_degree * static_cast<int>(power_.size());
+    const bool wants_minima = tracker.touches && tracker.touch > 0;
+    const double above = wants_minima ? tracker.touch : 0;
+    while (!finder_.stack_.empty()) {
+        const std::size_t top = finder_.stack_.size() - 1;
+        const Node node = finder_.stack_[top];
+        const std::span<const BernsteinCoefficient> b = row(top);
+        const bernstein::Range range = bernstein::range(b, node.scale, node.floor);
+        bool go_on = true;
+        if (range.low > above || range.high < 0)
+            go_on = definite(tracker, node, range.low > above ? 1 : -1);
+        else if (!wants_minima && bernstein::root_variations(b, node.scale, node.floor) < 2)
+            go_on = leaf(tracker, node, b, false);
+        else if (bernstein::extremum_variations(b, node.scale) < 2)
+            go_on = leaf(tracker, node, b, true);
+        else if (--parts_left > 0 && split(range))
+            continue;
+        else
+            go_on = leaf(tracker, node, b, true);
+        if (!go_on)
+            return false;
+        finder_.stack_.pop_back();
+    }
+    return tracker.finish(length_);
+}
+
+/// A lower bound around a place where a part with at most one extremum is sampled, valid as far as the derivative's
+/// sign is uncertain; beyond, the part is monotone towards its next sample.
+double RootFinder::Isolation::lower_bound_near(double at, const PointValue& point, double left, double right) {
+    if (point.slope_sign() != 0)
+        return point.value - point.value_error;
+    const auto reach = [&](double direction, double limit) {
+        double width = 8 * unit_roundoff * std::max(at, right - left);
+        while (width < std::abs(limit - at)) {
+            if (evaluate(power_, at + direction * width).slope_sign() != 0)
+                return at + direction * width;
+            width *= 8;
+        }
+        return limit;
+    };
+    const double from = reach(-1, left), to = reach(1, right);
+    const double error = evaluate(power_, to).value_error;
+    const std::span<BernsteinCoefficient> spare = row(stack_rows);
+    // The width is rounded up: the window may only grow.
+    bernstein::expand(power_, from, (to - from) * (1 + 4 * unit_roundoff), error, reciprocals_, spare);
+    return std::min(point.value - point.value_error, bernstein::range(spare, first_scale_, error).low);
+}
+
+Minimum RootFinder::Isolation::minimum() {
+    int parts_left = parts_per_degree * static_cast<int>(power_.size());
+    Minimum best{0, infinity, infinity};
+    const auto add = [&](double at, const PointValue& point, double bound) {
+        if (point.value < best.value) {
+            best.at = at;
+            best.value = point.value;
+        }
+        best.lower_bound = std::min(best.lower_bound, bound);
+    };
+    for (const double end : {0.0, length_}) {
+        const PointValue point = evaluate(power_, end);
+        add(end, point, point.value - point.value_error);
+    }
+    while (!finder_.stack_.empty()) {
+        const std::size_t top = finder_.stack_.size() - 1;
+        const Node node = finder_.stack_[top];
+        const std::span<const BernsteinCoefficient> b = row(top);
+        const bernstein::Range range = bernstein::range(b, node.scale, node.floor);
+        const double left = place(node.left), right = place(node.left + node.width);
+        if (range.low >= best.value) {
+            finder_.stack_.pop_back();
+            continue;
+        }
+        const bool one_extremum = bernstein::extremum_variations(b, node.scale) < 2;
+        if (!one_extremum && --parts_left > 0 && split(range))
+            continue;
+        double at = 0;
+        bool is_minimum = false;
+        const auto add_sample = [&](double s) {
+            const PointValue point = evaluate(power_, s);
+            add(s, point, one_extremum ? lower_bound_near(s, point, left, right) : range.low);
+        };
+        add_sample(left);
+        if (locate_extremum(node, b, at, is_minimum))
+            add_sample(at);
+        add_sample(right);
+        finder_.stack_.pop_back();
+    }
+    return best;
+}
+
+RootFinder::RootFinder(int highest_degree) : highest_degree_(std::max(highest_degree, 0)) {
+    const std::size_t size = static_cast<std::size_t>(highest_degree_) + 1;
+    reciprocals_.reserve(size * (size + 1) / 2);
+    for (std::size_t n = 0; n < size; ++n) {
+        double binomial = 1;
+        for (std::size_t k = 0; k <= n; ++k) {
+            reciprocals_.push_back(1 / binomial);
+            binomial = binomial * static_cast<double>(n - k) / static_cast<double>(k + 1);
+        }
+    }
+    power_.resize(size);
+    slope_.resize(size);
+    coefficients_.resize((stack_rows + 1) * size);
+    stack_.reserve(stack_rows);
+}
+
+bool RootFinder::surely_positive(std::span<const double> c, double length, RootStart start) {
+    // With S_m = c_0 + ... + c_m h^m and x = s / h, summation by parts gives
+    //   p(s) = sum_{m<n} S_m (x^m - x^{m+1}) + S_n x^n,
+    // a convex combination: p is at least the least partial sum at h. (It is also what the nested bound
+    // L_k = c_k + h min(L_{k+1}, 0) amounts to.) Each term is reduced by its share of the round-off: k u for the
+    // power, n u for the sums, 4 u for the coefficient itself.
+    const std::size_t first = start == RootStart::deflate ? 1 : 0;
+    const double share = unit_roundoff * static_cast<double>(2 * c.size() + 8);
+    double sum = 0, power = 1, least = infinity;
+    for (std::size_t k = first; k < c.size(); ++k) {
+        const double term = c[k] * power;
+        sum += term - share * std::abs(term);
+        least = std::min(least, sum);
+        power *= length;
+    }
+    return least > 0 && std::abs(sum) < infinity && length > 0;
+}
+
+bool RootFinder::first_falling(std::span<const double> c, double length, RootStart start, Root& root, double touch,
+                               std::vector<Root>* touches) {
+    if (!touches && surely_positive(c, length, start))
+        return false;
+    Isolation isolation(*this, c, length, start);
+    if (!isolation.usable())
+        return false;
+    Tracker tracker(isolation.power(), isolation.quotient(), isolation.sign_at_start());
+    tracker.only_first_falling = true;
+    tracker.touch = touch;
+    tracker.touches = touches;
+    if (isolation.scan(tracker))
+        return false;
+    root = tracker.first;
+    if (start == RootStart::deflate)
+        restore_start(c, length, root);
+    return true;
+}
+
+void RootFinder::crossings(std::span<const double> c, double length, RootStart start, std::vector<Root>& roots) {
+    roots.clear();
+    Isolation isolation(*this, c, length, start);
+    if (!isolation.usable())
+        return;
+    Tracker tracker(isolation.power(), isolation.quotient(), isolation.sign_at_start());
+    tracker.crossings = &roots;
+    isolation.scan(tracker);
+    if (start == RootStart::deflate)
+        for (Root& root : roots)
+            restore_start(c, length, root);
+}
+
+Minimum RootFinder::minimum(std::span<const double> c, double length) {
+    Isolation isolation(*this, c, length, RootStart::as_is);
+    if (isolation.usable())
+        return isolation.minimum();
+    const bool zero = std::all_of(c.begin(), c.end(), [](double x) { return x == 0; });
+    return zero ? Minimum{0, 0, 0} : Minimum{0, -infinity, -infinity};
+}
+
+double RootFinder::resolution(std::span<const double> c, double length) {
+    return evaluate(c, length).value_error;
+}
+
+double evaluate_polynomial(std::span<const double> c, double s) {
+    double value = 0;
+    for (std::size_t k = c.size(); k-- > 0;)
+        value = value * s + c[k];
+    return value;
+}
+
+double evaluate_derivative(std::span<const double> c, double s) {
+    double value = 0, slope = 0;
+    for (std::size_t k = c.size(); k-- > 0;) {
+        slope = slope * s + value;
+        value = value * s + c[k];
+    }
+    return slope;
+}
+
+} // namespace graze
