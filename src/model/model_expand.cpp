@@ -8,104 +8,116 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <stdexcept>
 #include <unordered_map>
 
 namespace graze {
 
 namespace {
 
-/// A definition or dependent parameter, and what it needs of the others.
-struct Abbreviation {
-    Expression symbol, value;
-    std::vector<std::size_t> needs;   ///< indices of abbreviations in `value`
-    std::vector<std::size_t> used_by; ///< the inverse
-};
-
-/// All that stands for something else in a set of expressions, directly or not.
+/// The definitions and dependent parameters on which some expressions depend, directly or not, found in one walk
+/// that visits each node once and does not recurse.
 class Abbreviations {
 public:
-    Abbreviations(const Model& model, std::span<const Expression> expressions) {
+    struct Item {
+        Expression symbol, value;
+        std::uint32_t level; ///< from 1; all that `value` needs is on lower levels
+    };
+
+    Abbreviations(const Model& model, std::span<const Expression> expressions)
+        : graph_(*model.graph), levels_(model.graph->size(), unvisited) {
+        const auto know = [&](const std::string& name, const Expression& value) {
+            require_graph(value);
+            known_.emplace(model.symbol(name).index(), value);
+        };
         for (const Definition& definition : model.definitions)
-            known_.emplace(model.symbol(definition.name).index(), definition.value);
+            know(definition.name, definition.value);
         for (const Parameter& parameter : model.parameters)
             if (parameter.expression)
-                known_.emplace(model.symbol(parameter.name).index(), *parameter.expression);
-        require(expressions);
-        for (std::size_t i = 0; i < list_.size(); ++i) { // the list grows while it is walked
-            std::vector<std::size_t> needs = require({&list_[i].value, 1});
-            for (const std::size_t need : needs)
-                list_[need].used_by.push_back(i);
-            list_[i].needs = std::move(needs);
-        }
+                know(parameter.name, *parameter.expression);
+        levels_.resize(graph_.size(), unvisited); // a name that was never used before is a new node
+        for (const Expression& expression : expressions)
+            if (circle_.empty())
+                visit(expression);
+        std::stable_sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) { return a.level < b.level; });
     }
 
-    const std::vector<Abbreviation>& list() const { return list_; }
-
-    /// Groups in which each abbreviation needs only those of earlier groups. Members of circles, and what needs
-    /// them, are in none.
-    std::vector<std::vector<std::size_t>> levels() const {
-        std::vector<std::size_t> open(list_.size());
-        std::vector<std::vector<std::size_t>> result(1);
-        for (std::size_t i = 0; i < list_.size(); ++i) {
-            open[i] = list_[i].needs.size();
-            if (open[i] == 0)
-                result.back().push_back(i);
-        }
-        while (!result.back().empty()) {
-            std::vector<std::size_t> next;
-            for (const std::size_t i : result.back())
-                for (const std::size_t user : list_[i].used_by)
-                    if (--open[user] == 0)
-                        next.push_back(user);
-            result.push_back(std::move(next));
-        }
-        result.pop_back();
-        return result;
-    }
-
-    std::vector<std::string> circle() const {
-        std::vector<bool> free(list_.size(), false);
-        for (const auto& level : levels())
-            for (const std::size_t i : level)
-                free[i] = true;
-        const auto start = std::find(free.begin(), free.end(), false);
-        if (start == free.end())
-            return {};
-        // Each that is not free needs another one that is not: following them must come back somewhere.
-        std::vector<std::size_t> path;
-        std::vector<std::size_t> seen(list_.size(), list_.size());
-        auto at = static_cast<std::size_t>(start - free.begin());
-        while (seen[at] == list_.size()) {
-            seen[at] = path.size();
-            path.push_back(at);
-            at = *std::find_if(list_[at].needs.begin(), list_[at].needs.end(), [&](std::size_t i) { return !free[i]; });
-        }
-        std::vector<std::string> names;
-        for (std::size_t i = seen[at]; i < path.size(); ++i)
-            names.push_back(list_[path[i]].symbol.name());
-        names.push_back(list_[at].symbol.name());
-        return names;
-    }
+    /// By level; incomplete when there is a circle.
+    const std::vector<Item>& items() const { return items_; }
+    /// Names of the first circle found, the first repeated at the end.
+    const std::vector<std::string>& circle() const { return circle_; }
 
 private:
-    /// Indices of the abbreviations in the expressions, which are added to the list when they are new.
-    std::vector<std::size_t> require(std::span<const Expression> expressions) {
-        std::vector<std::size_t> result;
-        for (const Expression& symbol : symbols_of(expressions)) {
-            const auto found = known_.find(symbol.index());
-            if (found == known_.end())
-                continue;
-            const auto [place, is_new] = indices_.emplace(symbol.index(), list_.size());
-            if (is_new)
-                list_.push_back({symbol, found->second, {}, {}});
-            result.push_back(place->second);
-        }
-        return result;
+    struct Visit {
+        NodeIndex index;
+        int operands_seen = 0;
+    };
+    static constexpr std::uint32_t unvisited = 0xffffffff;
+    static constexpr std::uint32_t open = 0xfffffffe;
+
+    /// Operands of a node; an abbreviation has what it stands for as its only operand.
+    std::span<const NodeIndex> operands(NodeIndex index, std::array<NodeIndex, 2>& space) const {
+        const Node& node = graph_.node(index);
+        space = {node.left, node.right};
+        if (node.operation != Operation::symbol)
+            return {space.data(), static_cast<std::size_t>(arity(node.operation))};
+        const auto found = known_.find(index);
+        if (found == known_.end())
+            return {};
+        space[0] = found->second.index();
+        return {space.data(), 1};
     }
 
+    void require_graph(const Expression& expression) const {
+        if (expression.graph().get() != &graph_)
+            throw std::invalid_argument("an expression to expand does not belong to the graph of the model");
+    }
+
+    void visit(const Expression& expression) {
+        require_graph(expression);
+        if (levels_[expression.index()] != unvisited)
+            return;
+        std::vector<Visit> stack{{expression.index()}};
+        levels_[expression.index()] = open;
+        std::array<NodeIndex, 2> space{};
+        while (!stack.empty()) {
+            Visit& top = stack.back();
+            const std::span<const NodeIndex> below = operands(top.index, space);
+            if (top.operands_seen < static_cast<int>(below.size())) {
+                const NodeIndex next = below[static_cast<std::size_t>(top.operands_seen++)];
+                if (levels_[next] == open)
+                    return note_circle(stack, next);
+                if (levels_[next] == unvisited) {
+                    levels_[next] = open;
+                    stack.push_back({next});
+                }
+                continue;
+            }
+            std::uint32_t level = 0;
+            for (const NodeIndex operand : below)
+                level = std::max(level, levels_[operand]);
+            if (const auto found = known_.find(top.index); found != known_.end())
+                items_.push_back({{found->second.graph(), top.index}, found->second, ++level});
+            levels_[top.index] = level;
+            stack.pop_back();
+        }
+    }
+
+    void note_circle(const std::vector<Visit>& stack, NodeIndex again) {
+        auto visit = std::find_if(stack.begin(), stack.end(), [&](const Visit& v) { return v.index == again; });
+        for (; visit != stack.end(); ++visit)
+            if (known_.count(visit->index) != 0)
+                circle_.push_back(graph_.symbol_name(graph_.node(visit->index)));
+        circle_.push_back(circle_.front());
+    }
+
+    const Graph& graph_;
+    std::vector<std::uint32_t> levels_; ///< of each node: the highest level below it
     std::unordered_map<NodeIndex, Expression> known_;
-    std::unordered_map<NodeIndex, std::size_t> indices_;
-    std::vector<Abbreviation> list_;
+    std::vector<Item> items_;
+    std::vector<std::string> circle_;
 };
 
 } // namespace
@@ -130,34 +142,29 @@ Expression Model::expand(const Expression& expression) const {
 
 std::vector<Expression> Model::expand(std::span<const Expression> expressions) const {
     const Abbreviations abbreviations(*this, expressions);
-    const std::vector<Abbreviation>& list = abbreviations.list();
-    std::vector<Expression> values(list.size());
-    std::size_t done = 0;
-    for (const auto& level : abbreviations.levels()) {
-        std::vector<Expression> raw;
-        std::vector<Replacement> replacements;
-        std::vector<std::size_t> needed;
-        for (const std::size_t i : level) {
-            raw.push_back(list[i].value);
-            needed.insert(needed.end(), list[i].needs.begin(), list[i].needs.end());
-        }
-        std::sort(needed.begin(), needed.end());
-        needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
-        for (const std::size_t i : needed)
-            replacements.emplace_back(list[i].symbol, values[i]);
-        const std::vector<Expression> expanded = substitute(raw, replacements);
-        for (std::size_t k = 0; k < level.size(); ++k)
-            values[level[k]] = expanded[k];
-        done += level.size();
-    }
-    if (done < list.size())
+    if (!abbreviations.circle().empty())
         throw InputError({name, 0, 0},
                          "definitions refer to one another in a circle: " + circle_text(abbreviations.circle()),
                          "define one of them without the others");
-    std::vector<Replacement> replacements;
-    for (std::size_t i = 0; i < list.size(); ++i)
-        replacements.emplace_back(list[i].symbol, values[i]);
-    return substitute(expressions, replacements);
+    // Level by level, for parts that definitions share to be visited once.
+    std::unordered_map<NodeIndex, Expression> values;
+    const auto replace = [&](std::span<const Expression> wanted) {
+        std::vector<Replacement> replacements;
+        for (const Expression& symbol : symbols_of(wanted))
+            if (const auto found = values.find(symbol.index()); found != values.end())
+                replacements.emplace_back(symbol, found->second);
+        return substitute(wanted, replacements);
+    };
+    const auto& items = abbreviations.items();
+    for (std::size_t begin = 0; begin < items.size();) {
+        std::vector<Expression> level;
+        for (std::size_t i = begin; i < items.size() && items[i].level == items[begin].level; ++i)
+            level.push_back(items[i].value);
+        const std::vector<Expression> replaced = replace(level);
+        for (const Expression& value : replaced)
+            values.emplace(items[begin++].symbol.index(), value);
+    }
+    return replace(expressions);
 }
 
 std::vector<double> evaluate_in_parameters(const Model& model, std::span<const Expression> expressions) {
