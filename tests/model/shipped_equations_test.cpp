@@ -130,7 +130,7 @@ TEST(Microactuator, HasTheConnectivityOfTheDissertation) {
         EXPECT_EQ(transition->label, index.label);
         EXPECT_EQ(model.jumps[transition->jump].name, index.jump) << index.label;
     }
-    EXPECT_EQ(model.transitions.size(), std::size(indices) + 1); // and the release of a held impactor
+    EXPECT_EQ(model.transitions.size(), std::size(indices) + 3); // and those of a held impactor
 }
 
 TEST(Microactuator, ImpactsConserveMomentumAndLoseTheEnergyOfRelativeMotion) {
