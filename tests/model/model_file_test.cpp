@@ -1,5 +1,6 @@
 #include "graze/model/model_file.hpp"
 
+#include "graze/model/check.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/transform.hpp"
 
@@ -547,6 +548,30 @@ TEST(ModelFile, FindsPlacesInsideStrings) {
     expect_addition_refused("[definitions]\nd = \"\"\"x + 1 \\\n  + (x\"\"\"\n", 10, 5, "(");
     expect_addition_refused("[definitions]\nd = \"\"\n", 9, 6, "");
     expect_addition_refused("[definitions]\nd = \"x +\"\n", 9, 8, "");
+}
+
+/// The fenced block of the guide that begins with this line.
+std::string block_of_the_guide(const std::string& fence) {
+    std::ifstream file(GRAZE_SOURCE_DIR "/docs/model-format.md");
+    std::string result;
+    std::string line;
+    while (std::getline(file, line) && line != fence) {
+    }
+    while (std::getline(file, line) && line != "```")
+        result += line + "\n";
+    return result;
+}
+
+TEST(ModelFile, GuideShowsModelsAsTheyAreRead) {
+    const Model model = parse_model(block_of_the_guide("```toml file=ball-on-table.toml"), "ball-on-table.toml");
+    EXPECT_TRUE(model_warnings(model).empty());
+    EXPECT_EQ(contents(parse_model(write_model(model), "again.toml")), contents(model));
+    try {
+        parse_model(block_of_the_guide("```toml file=wrong.toml"), "wrong.toml");
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.what() + std::string("\n"), block_of_the_guide("```text"));
+    }
 }
 
 } // namespace
