@@ -30,14 +30,14 @@ inline constexpr Inverses inverse;
 
 /// Adds term j of a sum; four partial sums hide the latency of additions.
 template <int j, class V>
-inline void accumulate(V (&sums)[4], V a, V b) {
+GRAZE_INLINE void accumulate(V (&sums)[4], V a, V b) {
     if constexpr (j < 4)
         sums[j] = a * b;
     else
         sums[j % 4] = multiply_add(a, b, sums[j % 4]);
 }
 template <int terms, class V>
-inline V total(const V (&sums)[4]) {
+GRAZE_INLINE V total(const V (&sums)[4]) {
     if constexpr (terms == 1)
         return sums[0];
     else if constexpr (terms == 2)
@@ -50,9 +50,9 @@ inline V total(const V (&sums)[4]) {
 
 /// Sum of a[j] b[k-j], 0 < j <= terms.
 template <class V, int k, int terms = k - 1>
-inline V convolution(const double* a, const double* b) {
+GRAZE_INLINE V convolution(const double* a, const double* b) {
     V sums[4];
-    [&]<int... j>(Indices<j...>) {
+    [&]<int... j>(Indices<j...>) __attribute__((always_inline)) {
         (accumulate<j>(sums, at<V>(a, j + 1), at<V>(b, k - 1 - j)), ...);
     }
     (std::make_integer_sequence<int, terms>{});
@@ -61,7 +61,7 @@ inline V convolution(const double* a, const double* b) {
 
 /// Sum of a[j] a[k-j], 0 < j < k; k >= 2.
 template <class V, int k>
-inline V self_convolution(const double* a) {
+GRAZE_INLINE V self_convolution(const double* a) {
     if constexpr (k == 2) {
         const V middle = at<V>(a, 1);
         return middle * middle;
@@ -190,7 +190,7 @@ struct Power {
             } else {
                 const V more = exponent + Numbers<V>::of(1);
                 V sums[4];
-                [&]<int... j>(Indices<j...>) {
+                [&]<int... j>(Indices<j...>) __attribute__((always_inline)) {
                     (accumulate<j>(sums,
                                    multiply_add(more, Numbers<V>::of(j + 1), Numbers<V>::of(-k)) * at<V>(o.left, j + 1),
                                    at<V>(o.result, k - 1 - j)),
@@ -253,14 +253,14 @@ void multiply_linear(const KernelOperands& o, int k) {
 
 /// Sum of coefficient times series at one order; the terms that are ready last come last.
 template <class V, int count>
-inline V combination(const TermOperands* terms, int k) {
+GRAZE_INLINE V combination(const TermOperands* terms, int k) {
     V sum = at<V>(terms[0].coefficient, 0) * at<V>(terms[0].series, k);
     for (int i = 1; i < count; ++i)
         sum = multiply_add(at<V>(terms[i].coefficient, 0), at<V>(terms[i].series, k), sum);
     return sum;
 }
 template <class V>
-inline V combination(const TermOperands* terms, const TermOperands* end, int k) {
+GRAZE_INLINE V combination(const TermOperands* terms, const TermOperands* end, int k) {
     V sums[4] = {Numbers<V>::of(0), Numbers<V>::of(0), Numbers<V>::of(0), Numbers<V>::of(0)};
     for (; end - terms >= 4; terms += 4)
         for (int i = 0; i < 4; ++i)
@@ -271,7 +271,7 @@ inline V combination(const TermOperands* terms, const TermOperands* end, int k) 
     return sum;
 }
 template <class V, int count>
-inline V combination(const KernelOperands& o, int k) {
+GRAZE_INLINE V combination(const KernelOperands& o, int k) {
     if constexpr (count == 0)
         return combination<V>(o.terms, o.terms_end, k);
     else

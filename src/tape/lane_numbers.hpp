@@ -11,6 +11,9 @@
 #include <immintrin.h>
 #endif
 
+// Kernels are long because loops are unrolled; left alone, compilers would not inline what they are made of.
+#define GRAZE_INLINE [[gnu::always_inline]] inline
+
 namespace graze::GRAZE_INSTRUCTION_SET {
 
 inline constexpr int lanes = GRAZE_LANES;
@@ -26,7 +29,7 @@ struct Tangent {
     Pack directions;
 };
 
-inline double multiply_add(double a, double b, double c) {
+GRAZE_INLINE double multiply_add(double a, double b, double c) {
 #if defined(__FMA__)
     return __builtin_fma(a, b, c);
 #else
@@ -34,7 +37,7 @@ inline double multiply_add(double a, double b, double c) {
 #endif
 }
 
-inline Pack multiply_add(Pack a, Pack b, Pack c) {
+GRAZE_INLINE Pack multiply_add(Pack a, Pack b, Pack c) {
 #if defined(__AVX512F__)
     static_assert(lanes == 8);
     return _mm512_fmadd_pd(a, b, c);
@@ -46,52 +49,52 @@ inline Pack multiply_add(Pack a, Pack b, Pack c) {
 #endif
 }
 
-inline Pack splat(double value) {
+GRAZE_INLINE Pack splat(double value) {
     return Pack{} + value;
 }
 
-inline Ensemble operator+(Ensemble a, Ensemble b) {
+GRAZE_INLINE Ensemble operator+(Ensemble a, Ensemble b) {
     return {a.values + b.values};
 }
-inline Ensemble operator-(Ensemble a, Ensemble b) {
+GRAZE_INLINE Ensemble operator-(Ensemble a, Ensemble b) {
     return {a.values - b.values};
 }
-inline Ensemble operator-(Ensemble a) {
+GRAZE_INLINE Ensemble operator-(Ensemble a) {
     return {-a.values};
 }
-inline Ensemble operator*(Ensemble a, Ensemble b) {
+GRAZE_INLINE Ensemble operator*(Ensemble a, Ensemble b) {
     return {a.values * b.values};
 }
-inline Ensemble operator*(Ensemble a, double b) {
+GRAZE_INLINE Ensemble operator*(Ensemble a, double b) {
     return {a.values * b};
 }
-inline Ensemble operator/(Ensemble a, Ensemble b) {
+GRAZE_INLINE Ensemble operator/(Ensemble a, Ensemble b) {
     return {a.values / b.values};
 }
-inline Ensemble multiply_add(Ensemble a, Ensemble b, Ensemble c) {
+GRAZE_INLINE Ensemble multiply_add(Ensemble a, Ensemble b, Ensemble c) {
     return {multiply_add(a.values, b.values, c.values)};
 }
 
-inline Tangent operator+(Tangent a, Tangent b) {
+GRAZE_INLINE Tangent operator+(Tangent a, Tangent b) {
     return {a.value + b.value, a.directions + b.directions};
 }
-inline Tangent operator-(Tangent a, Tangent b) {
+GRAZE_INLINE Tangent operator-(Tangent a, Tangent b) {
     return {a.value - b.value, a.directions - b.directions};
 }
-inline Tangent operator-(Tangent a) {
+GRAZE_INLINE Tangent operator-(Tangent a) {
     return {-a.value, -a.directions};
 }
-inline Tangent operator*(Tangent a, Tangent b) {
+GRAZE_INLINE Tangent operator*(Tangent a, Tangent b) {
     return {a.value * b.value, multiply_add(splat(a.value), b.directions, splat(b.value) * a.directions)};
 }
-inline Tangent operator*(Tangent a, double b) {
+GRAZE_INLINE Tangent operator*(Tangent a, double b) {
     return {a.value * b, a.directions * b};
 }
-inline Tangent operator/(Tangent a, Tangent b) {
+GRAZE_INLINE Tangent operator/(Tangent a, Tangent b) {
     const double quotient = a.value / b.value;
     return {quotient, (a.directions - quotient * b.directions) / b.value};
 }
-inline Tangent multiply_add(Tangent a, Tangent b, Tangent c) {
+GRAZE_INLINE Tangent multiply_add(Tangent a, Tangent b, Tangent c) {
     return {multiply_add(a.value, b.value, c.value),
             multiply_add(splat(a.value), b.directions, multiply_add(a.directions, splat(b.value), c.directions))};
 }
@@ -102,46 +105,46 @@ struct Numbers;
 template <>
 struct Numbers<double> {
     static constexpr int width = 1;
-    static double load(const double* from) { return *from; }
-    static void store(double* to, double number) { *to = number; }
-    static double of(double number) { return number; }
+    GRAZE_INLINE static double load(const double* from) { return *from; }
+    GRAZE_INLINE static void store(double* to, double number) { *to = number; }
+    GRAZE_INLINE static double of(double number) { return number; }
 };
 
 template <>
 struct Numbers<Ensemble> {
     static constexpr int width = lanes;
-    static Ensemble load(const double* from) {
+    GRAZE_INLINE static Ensemble load(const double* from) {
         Ensemble number;
         __builtin_memcpy(&number.values, from, sizeof(Pack));
         return number;
     }
-    static void store(double* to, Ensemble number) { __builtin_memcpy(to, &number.values, sizeof(Pack)); }
-    static Ensemble of(double number) { return {splat(number)}; }
+    GRAZE_INLINE static void store(double* to, Ensemble number) { __builtin_memcpy(to, &number.values, sizeof(Pack)); }
+    GRAZE_INLINE static Ensemble of(double number) { return {splat(number)}; }
 };
 
 template <>
 struct Numbers<Tangent> {
     static constexpr int width = 1 + lanes;
-    static Tangent load(const double* from) {
+    GRAZE_INLINE static Tangent load(const double* from) {
         Tangent number;
         number.value = *from;
         __builtin_memcpy(&number.directions, from + 1, sizeof(Pack));
         return number;
     }
-    static void store(double* to, Tangent number) {
+    GRAZE_INLINE static void store(double* to, Tangent number) {
         *to = number.value;
         __builtin_memcpy(to + 1, &number.directions, sizeof(Pack));
     }
-    static Tangent of(double number) { return {number, Pack{}}; }
+    GRAZE_INLINE static Tangent of(double number) { return {number, Pack{}}; }
 };
 
 /// Coefficient of a series.
 template <class V>
-inline V at(const double* series, int order) {
+GRAZE_INLINE V at(const double* series, int order) {
     return Numbers<V>::load(series + order * Numbers<V>::width);
 }
 template <class V>
-inline void put(double* series, int order, V number) {
+GRAZE_INLINE void put(double* series, int order, V number) {
     Numbers<V>::store(series + order * Numbers<V>::width, number);
 }
 

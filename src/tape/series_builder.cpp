@@ -139,14 +139,14 @@ LinearForm SeriesBuilder::integer_power(Scaled base, double exponent) {
     std::uint32_t bit = 1;
     while (bit <= count / 2)
         bit *= 2;
-    std::uint32_t result = base.reg;
+    // The reciprocal comes first: that of a power, near a pole of high order, loses digits with every coefficient.
+    const std::uint32_t factor = exponent < 0 ? emit(SeriesOperation::reciprocal, base.reg) : base.reg;
+    std::uint32_t result = factor;
     for (bit /= 2; bit != 0; bit /= 2) {
         result = multiply(result, result);
         if ((count & bit) != 0)
-            result = multiply(base.reg, result);
+            result = multiply(factor, result);
     }
-    if (exponent < 0)
-        result = emit(SeriesOperation::reciprocal, result);
     return scaled({constants_.apply(Operation::power, base.coefficient, constants_.literal(exponent)), result});
 }
 
