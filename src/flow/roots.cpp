@@ -2,6 +2,7 @@
 
 #include "bernstein.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "root_tracker.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,10 @@
 namespace graze {
 
 using bernstein::unit_roundoff;
+using roots::evaluate;
+using roots::PointValue;
+using roots::refine;
+using roots::Tracker;
 
 namespace {
 
@@ -21,152 +26,6 @@ constexpr double least_leading_width = 0x1p-64;
 constexpr double least_relative_width = 4 * unit_roundoff;
 constexpr std::size_t stack_rows = 120;
 constexpr int parts_per_degree = 64; ///< bounds the work on polynomials that round-off makes unanswerable
-constexpr int refinement_steps = 200;
-
-struct PointValue {
-    double value, slope;
-    double size;        ///< sum |c_k| s^k
-    double value_error; ///< error(s)
-    double slope_error;
-
-    int sign() const { return (value > value_error) - (value < -value_error); }
-    int slope_sign() const { return (slope > slope_error) - (slope < -slope_error); }
-};
-
-PointValue evaluate(std::span<const double> c, double s) {
-    double value = 0, slope = 0, size = 0, size_slope = 0;
-    for (std::size_t k = c.size(); k-- > 0;) {
-        slope = slope * s + value;
-        value = value * s + c[k];
-        size_slope = size_slope * s + size;
-        size = size * s + std::abs(c[k]);
-    }
-    const double degree = static_cast<double>(c.size());
-    return {value, slope, size, unit_roundoff * (4 * size + 2 * s * size_slope),
-            unit_roundoff * (2 * degree + 4) * size_slope};
-}
-
-/// Newton's iteration kept inside a bracket at whose ends c has opposite signs, until round-off decides.
-double refine(std::span<const double> c, double low, double high, int sign_low, double guess) {
-    double s = guess > low && guess < high ? guess : 0.5 * (low + high);
-    double last_step = high - low;
-    for (int i = 0; i < refinement_steps; ++i) {
-        const PointValue point = evaluate(c, s);
-        const double newton = s - point.value / point.slope;
-        const bool inside = newton > low && newton < high;
-        if (std::abs(point.value) <= unit_roundoff * point.size) // a longer step would be led by round-off
-            return inside && std::abs(newton - s) <= 4 * unit_roundoff * s ? newton : s;
-        ((point.value > 0) == (sign_low > 0) ? low : high) = s;
-        double next = newton;
-        if (!(next > low && next < high) || std::abs(next - s) > 0.5 * last_step) {
-            // Halve the exponent of a wide bracket rather than its length: a small root wants relative accuracy.
-            next = high > 4 * low && low > 0 ? std::sqrt(low * high) : 0.5 * (low + high);
-            if (!(next > low && next < high))
-                return s;
-        }
-        last_step = std::abs(next - s);
-        s = next;
-        if (last_step <= unit_roundoff * s)
-            return s;
-    }
-    return s;
-}
-
-/// Puts the samples that isolation takes from left to right together into crossings and touches. Between two
-/// samples of opposite certain signs lies one crossing; uncertain samples between equal signs are a touch.
-class Tracker {
-public:
-    Tracker(std::span<const double> power, std::span<const double> quotient, int sign_at_start)
-        : power_(power), quotient_(quotient), sign_(sign_at_start) {}
-
-    bool only_first_falling = false;
-    double touch = 0;
-    std::vector<Root>* touches = nullptr;
-    std::vector<Root>* crossings = nullptr;
-    Root first{};
-
-    /// @param guess where a crossing before `at` might be
-    /// @return whether to go on
-    bool certain(double at, int sign, double guess) {
-        if (sign == sign_)
-            report_pending_touch();
-        else if (!report_crossing(refine(quotient_, at_, at, sign_, guess)))
-            return false;
-        pending_ = false;
-        at_ = at;
-        sign_ = sign;
-        return true;
-    }
-
-    bool sample(double at, const PointValue& point, bool minimum, double guess) {
-        const int sign = point.sign();
-        if (sign == 0) {
-            if (!pending_ || point.value < pending_touch_.value)
-                pending_touch_ = {RootKind::touch, at, point.value};
-            pending_ = true;
-            return true;
-        }
-        if (!certain(at, sign, guess))
-            return false;
-        if (minimum && sign > 0 && point.value <= touch)
-            report_touch({RootKind::touch, at, point.value});
-        return true;
-    }
-
-    /// The rule for the end of the interval (see the class RootFinder). @return false if a falling root ends the search
-    bool finish(double length) {
-        const PointValue end = evaluate(power_, length);
-        if (end.sign() != 0) {
-            if (end.sign() > 0 && end.value <= touch && end.slope_sign() == 0 && ends_in_minimum(length))
-                report_touch({RootKind::touch, length, end.value});
-            return true;
-        }
-        if (end.slope_sign() != -sign_) {
-            report_pending_touch();
-            return true;
-        }
-        const bool passed = end.value * sign_ < 0;
-        return report_crossing(passed ? refine(quotient_, at_, length, sign_, length) : length);
-    }
-
-private:
-    std::span<const double> power_, quotient_;
-    double at_ = 0; ///< the last sample with a certain sign
-    int sign_;
-    bool pending_ = false; ///< uncertain samples came after it
-    double last_touch_ = 0;
-    Root pending_touch_{};
-
-    bool report_crossing(double at) {
-        const Root root{sign_ > 0 ? RootKind::falling : RootKind::rising, at, evaluate_polynomial(power_, at)};
-        if (crossings)
-            crossings->push_back(root);
-        if (only_first_falling && root.kind == RootKind::falling) {
-            first = root;
-            return false;
-        }
-        return true;
-    }
-
-    void report_pending_touch() {
-        if (pending_ && sign_ > 0)
-            report_touch(pending_touch_);
-    }
-
-    void report_touch(const Root& root) {
-        if (touches)
-            touches->push_back(root);
-        last_touch_ = root.at;
-    }
-
-    /// Whether a minimum that has not been reported lies at the end, where the slope is zero up to round-off.
-    bool ends_in_minimum(double length) const {
-        double curvature = 0;
-        for (std::size_t k = power_.size(); k-- > 2;)
-            curvature = curvature * length + static_cast<double>(k * (k - 1)) * power_[k];
-        return curvature > 0 && evaluate(power_, 0.5 * (last_touch_ + length)).slope_sign() != 0;
-    }
-};
 
 /// Moves a root of a polynomial whose c[0] was taken for 0 to where the true one puts it, if it is that well defined.
 void restore_start(std::span<const double> c, double length, Root& root) {
@@ -506,7 +365,7 @@ bool RootFinder::surely_positive(std::span<const double> c, double length, RootS
         least = std::min(least, sum);
         power *= length;
     }
-    return least > 0 && std::abs(sum) < infinity && length > 0;
+    return least > 0 && least < infinity && std::abs(sum) < infinity && length > 0;
 }
 
 bool RootFinder::first_falling(std::span<const double> c, double length, RootStart start, Root& root, double touch,

@@ -140,7 +140,8 @@ TEST(RootFinder, FindsTheFirstFallingRootAmongRandomOnes) {
         for (int i = random.integer(0, 8); i > 0; --i)
             roots.push_back(random.integer(0, 2) ? random.uniform(0, 1) : random.uniform(-2, 3));
         const double length = random.logarithmic(1e-6, 1e6);
-        const std::vector<double> c = rounded(product(from_roots(roots), random.decaying(random.integer(0, 20))), length);
+        const std::vector<double> c =
+            rounded(product(from_roots(roots), random.decaying(random.integer(0, 20))), length);
         std::sort(roots.begin(), roots.end());
         std::vector<double> places;
         for (std::size_t i = 0; i + 1 < roots.size(); ++i)
@@ -336,6 +337,52 @@ TEST(RootFinder, DeflatesTheStart) {
     EXPECT_GT(root.at, 0);
 }
 
+TEST(RootFinder, FindsDeflatedRootsOfAllSizesToRelativeAccuracy) {
+    if (!wide_enough)
+        GTEST_SKIP();
+    Random random(10);
+    RootFinder finder(40);
+    std::vector<Root> touches, all;
+    touches.reserve(16);
+    for (int n = 0; n < 20000; ++n) {
+        std::vector<Wide> roots;
+        for (int i = random.integer(1, 5); i > 0; --i)
+            roots.push_back(static_cast<Wide>(random.logarithmic(1e-14, 2)));
+        std::sort(roots.begin(), roots.end());
+        std::vector<double> c =
+            rounded(product(from_roots(roots), random.decaying(random.integer(4, 18))), 1); // q, positive at 0
+        c.insert(c.begin(), 0.0);
+        bool clear = true; // only where the roots are well separated in the sense of the round-off
+        std::size_t inside = 0;
+        for (std::size_t i = 0; i < roots.size(); ++i) {
+            const double at = static_cast<double>(roots[i]);
+            const double margin = error_at(c, at) / std::abs(static_cast<double>(derivative_wide(c, roots[i])));
+            clear &= (i == 0 || roots[i] - roots[i - 1] > 100 * margin) &&
+                     (i + 1 == roots.size() || roots[i + 1] - roots[i] > 100 * margin) &&
+                     std::abs(roots[i] - 1) > 100 * margin;
+            inside += roots[i] < 1 ? 1 : 0;
+        }
+        if (!clear)
+            continue;
+        finder.crossings(c, 1, RootStart::deflate, all);
+        ASSERT_EQ(all.size(), inside) << n;
+        Root root{};
+        touches.clear();
+        ASSERT_EQ(finder.first_falling(c, 1, RootStart::deflate, root, random.logarithmic(1e-12, 1), &touches),
+                  inside > 0);
+        for (std::size_t i = 0; i < inside; ++i) {
+            const double at = static_cast<double>(roots[i]);
+            const double margin = error_at(c, at) / std::abs(static_cast<double>(derivative_wide(c, roots[i])));
+            ASSERT_NEAR(all[i].at, at, 2 * margin + unit * at) << n;
+        }
+        if (inside > 0) {
+            const double at = static_cast<double>(roots[0]);
+            const double margin = error_at(c, at) / std::abs(static_cast<double>(derivative_wide(c, roots[0])));
+            ASSERT_NEAR(root.at, at, 2 * margin + unit * at);
+        }
+    }
+}
+
 TEST(RootFinder, DividesOutMultipleRootsAtTheStart) {
     RootFinder finder(8);
     Root root{};
@@ -374,6 +421,52 @@ TEST(RootFinder, GivesARootAtTheEndToThisStep) {
     // roots at both ends
     ASSERT_TRUE(finder.first_falling(std::vector{0.0, 1.0, -1.0}, 1, RootStart::deflate, root));
     EXPECT_EQ(root.at, 1);
+}
+
+/// Coefficients about `at`, rounded.
+std::vector<double> shifted(const std::vector<double>& c, double at) {
+    std::vector<Wide> b(c.begin(), c.end());
+    for (std::size_t i = 0; i + 1 < b.size(); ++i)
+        for (std::size_t j = b.size() - 1; j-- > i;)
+            b[j] += static_cast<Wide>(at) * b[j + 1];
+    return {b.begin(), b.end()};
+}
+
+TEST(RootFinder, NeitherLosesNorRepeatsRootsWhereStepsMeet) {
+    if (!wide_enough)
+        GTEST_SKIP();
+    Random random(11);
+    RootFinder finder(32);
+    std::vector<Root> touches;
+    int first_step = 0, second_step = 0, touches_seen = 0;
+    for (int n = 0; n < 5000; ++n) {
+        const double middle = random.uniform(0.3, 0.7);
+        const Wide offset = static_cast<Wide>(random.logarithmic(1e-18, 1e-13) * (random.integer(0, 1) ? 1 : -1));
+        const std::vector<double> c =
+            rounded(product({static_cast<Wide>(middle) + offset, -1}, random.decaying(14)), 1);
+        std::vector<double> next = shifted(c, middle);
+        next[0] += random.uniform(-0.5, 0.5) * error_at(c, middle); // the state there has round-off of its own
+        Root root{};
+        if (finder.first_falling(c, middle, RootStart::as_is, root)) {
+            ++first_step;
+            ASSERT_FALSE(finder.first_falling(next, 0.2, RootStart::deflate, root));
+        } else {
+            ++second_step;
+            ASSERT_TRUE(finder.first_falling(next, 0.2, RootStart::as_is, root)) << static_cast<double>(offset);
+        }
+        // a minimum of 1e-9 there, small enough to count
+        const Wide at = static_cast<Wide>(middle) + offset;
+        const std::vector<double> p = rounded({at * at + 1e-9L, -2 * at, 1}, 1);
+        touches.clear();
+        ASSERT_FALSE(finder.first_falling(p, middle, RootStart::as_is, root, 1e-6, &touches));
+        ASSERT_LE(touches.size(), 1u);
+        ASSERT_FALSE(finder.first_falling(shifted(p, middle), 0.2, RootStart::as_is, root, 1e-6, &touches));
+        ASSERT_GE(touches.size(), 1u);
+        touches_seen += static_cast<int>(touches.size());
+    }
+    EXPECT_GT(first_step, 500);
+    EXPECT_GT(second_step, 500);
+    EXPECT_LE(touches_seen, 10000);
 }
 
 TEST(RootFinder, ScalesExactly) {
@@ -433,7 +526,8 @@ TEST(RootFinder, FindsAllCrossings) {
             ASSERT_EQ(found[i].kind, kind);
             kind = kind == RootKind::falling ? RootKind::rising : RootKind::falling;
             const double at = static_cast<double>(inner[i]);
-            ASSERT_NEAR(found[i].at, at, 2 * error_at(c, at) / std::abs(static_cast<double>(derivative_wide(c, at))) + unit);
+            ASSERT_NEAR(found[i].at, at,
+                        2 * error_at(c, at) / std::abs(static_cast<double>(derivative_wide(c, at))) + unit);
         }
     }
 }
@@ -474,8 +568,15 @@ TEST(RootFinder, SurvivesWhatItCannotAnswer) {
     Root root{};
     std::vector<Root> roots, touches;
     const double infinite = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
-    const std::vector<std::vector<double>> useless{{}, {0.0}, {0.0, 0.0, 0.0}, {1.0}, {-1.0, 0.0}, {nan, 1.0}, {1.0, nan},
-                                                   {1.0, -infinite}, {1e308, -1e308, -1e308}};
+    const std::vector<std::vector<double>> useless{{},
+                                                   {0.0},
+                                                   {0.0, 0.0, 0.0},
+                                                   {1.0},
+                                                   {-1.0, 0.0},
+                                                   {nan, 1.0},
+                                                   {1.0, nan},
+                                                   {1.0, -infinite},
+                                                   {1e308, -1e308, -1e308}};
     for (const auto& c : useless) {
         EXPECT_FALSE(finder.first_falling(c, 1, RootStart::as_is, root, 1e-3, &touches));
         EXPECT_FALSE(finder.first_falling(c, 1, RootStart::deflate, root));
@@ -488,9 +589,11 @@ TEST(RootFinder, SurvivesWhatItCannotAnswer) {
         EXPECT_FALSE(finder.first_falling(std::vector{1.0, -2.0}, length, RootStart::as_is, root));
         EXPECT_FALSE(RootFinder::surely_positive(std::vector{1.0, nan}, length, RootStart::as_is));
     }
+    EXPECT_FALSE(RootFinder::surely_positive(std::vector{1.0}, 1, RootStart::deflate));
     EXPECT_FALSE(RootFinder::surely_positive(std::vector{1.0, nan, 1.0}, 1, RootStart::as_is));
     EXPECT_FALSE(RootFinder::surely_positive(std::vector{1.0, infinite}, 1, RootStart::as_is));
-    EXPECT_THROW(RootFinder(3).first_falling(std::vector{1.0, 0.0, 0.0, 0.0, -2.0}, 1, RootStart::as_is, root), InputError);
+    EXPECT_THROW(RootFinder(3).first_falling(std::vector{1.0, 0.0, 0.0, 0.0, -2.0}, 1, RootStart::as_is, root),
+                 InputError);
     // trailing zeros do not matter
     ASSERT_TRUE(finder.first_falling(std::vector{1.0, -2.0, 0.0, 0.0}, 1, RootStart::as_is, root));
     EXPECT_EQ(root.at, 0.5);
@@ -526,9 +629,10 @@ TEST(RootFinder, TakesAdversarialPolynomials) {
         }
         SCOPED_TRACE(degree);
         check_first_falling(finder, rounded(current, 1), 1, {});
-        check_first_falling(finder, rounded(product(current, current), 1).size() <= 65
-                                        ? rounded(product(current, current), 1)
-                                        : rounded(current, 1), 1, {});
+        check_first_falling(finder,
+                            rounded(product(current, current), 1).size() <= 65 ? rounded(product(current, current), 1)
+                                                                               : rounded(current, 1),
+                            1, {});
     }
     Random random(9);
     for (int n = 0; n < 3000; ++n) { // noise of all sizes

@@ -1,0 +1,68 @@
+#pragma once
+
+#include "graze/flow/roots.hpp"
+
+#include <span>
+#include <vector>
+
+namespace graze::roots {
+
+/// A polynomial at one place, with the error bounds of the class RootFinder.
+struct PointValue {
+    double value, slope;
+    double size;        ///< sum |c_k| s^k
+    double value_error; ///< error(s)
+    double slope_error;
+
+    /// 0 where round-off leaves it open.
+    int sign() const { return (value > value_error) - (value < -value_error); }
+    int slope_sign() const { return (slope > slope_error) - (slope < -slope_error); }
+};
+
+PointValue evaluate(std::span<const double> c, double s);
+
+/// Newton's iteration kept inside a bracket at whose ends c has opposite signs, until round-off decides.
+double refine(std::span<const double> c, double low, double high, int sign_low, double guess);
+
+/// Puts the samples that isolation takes from left to right together into crossings and touches. Between two
+/// samples of opposite certain signs lies one crossing; uncertain samples between equal signs are a touch.
+class Tracker {
+public:
+    /// @param quotient the polynomial with its roots at 0 divided out: crossings are refined on that
+    Tracker(std::span<const double> power, std::span<const double> quotient, int sign_at_start)
+        : power_(power), quotient_(quotient), sign_(sign_at_start) {}
+
+    bool only_first_falling = false;
+    double touch = 0;
+    std::vector<Root>* touches = nullptr;
+    std::vector<Root>* crossings = nullptr;
+    Root first{}; ///< the falling root that ended the search
+
+    /// The polynomial has this sign at `at`.
+    /// @param guess where a crossing before `at` might be
+    /// @return whether to go on
+    bool certain(double at, int sign, double guess);
+
+    /// The same, with the sign still to be judged.
+    /// @param minimum whether this is a local minimum
+    bool sample(double at, const PointValue& point, bool minimum, double guess);
+
+    /// The rule for the end of the interval (see the class RootFinder).
+    /// @return false if a falling root ends the search
+    bool finish(double length);
+
+private:
+    std::span<const double> power_, quotient_;
+    double at_ = 0; ///< the last sample with a certain sign
+    int sign_;
+    bool pending_ = false; ///< uncertain samples came after it
+    Root pending_touch_{};
+    double last_touch_ = 0;
+
+    bool report_crossing(double at);
+    void report_pending_touch();
+    void report_touch(const Root& root);
+    bool ends_in_minimum(double length) const;
+};
+
+} // namespace graze::roots
