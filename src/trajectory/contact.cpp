@@ -45,7 +45,12 @@ std::size_t Trajectory::find_contact(double& step) {
         const double length = std::min(whole, step + together);
         bool found = false;
         if (start == RootStart::as_is && watch.side > 0 && c[0] <= 0) {
-            found = true; // fell through zero in the round-off between two steps
+            // It fell through zero in the round-off between two steps, or has touched zero there and rises again.
+            const double noise = roundoff * series_size(c, length);
+            const std::size_t leading = -c[0] <= noise ? leading_index(c, length, noise) : 0;
+            found = leading == 0 || c[leading] < 0;
+            if (!found)
+                found = roots_.first_falling(c.subspan(leading - 1), length, RootStart::deflate, root);
         } else if (watch.side > 0 && RootFinder::surely_positive(c, length, start)) {
             continue;
         } else {
@@ -62,15 +67,12 @@ std::size_t Trajectory::find_contact(double& step) {
             together_.push_back(mode.watched[w]); // the search ended just behind the first
             continue;
         }
-        if (first != no_event && step - root.at <= together)
-            together_.push_back(mode.watched[first]);
-        else
-            together_.clear();
+        together_.clear();
         first = w;
         step = root.at;
     }
     if (first != no_event && step > 0)
-        step = on_surface(first, step);
+        step = std::min(on_surface(first, step), whole);
     std::stable_sort(touches_.begin(), touches_.end(),
                      [](const Touch& a, const Touch& b) { return a.root.at < b.root.at; });
     return first;
@@ -114,11 +116,12 @@ bool Trajectory::classify(std::size_t w, double step) {
     const double size = series_size(c, step);
     const double noise = roundoff * size;
     const bool served = event == served_;
-    const double at_surface = std::max(served_roundoff, 1000 * simulation_->options().tolerance);
     const bool due = std::find(together_.begin(), together_.end(), event) != together_.end();
     Watch& watch = watches_[w];
     watch = {};
-    if (std::abs(c[0]) > (served || due ? at_surface * size : noise)) {
+    const double at_surface =
+        served || due ? std::max(noise, served_roundoff * size + 2 * std::abs(surface_values_[event])) : noise;
+    if (std::abs(c[0]) > at_surface) {
         watch.side = c[0] > 0 ? 1 : -1;
         if (watch.side > 0 || definition.kind == EventKind::section)
             return true;
@@ -159,7 +162,12 @@ void Trajectory::announce_contact() {
     const auto& mode = simulation_->compiled().mode(mode_);
     for (std::size_t w = 0; w < mode.watched.size(); ++w)
         if (mode.watched[w] == pending_->event)
-            pending_->rate_after = event_series(w)[1];
+            pending_->rate_after = std::isfinite(event_series(w)[1]) ? event_series(w)[1] : 0;
+    hand_over_contact();
+}
+
+void Trajectory::hand_over_contact() {
+    reduce_cyclic_states(before_);
     pending_->before = before_;
     pending_->after = after_;
     observer_->contact(*pending_);
@@ -207,9 +215,15 @@ void Trajectory::make_contact(std::size_t w, double s) {
     }
     add_time(s);
     remember_contact(event, rate);
+    std::copy(before_.begin(), before_.end(), inputs_.begin());
+    values_.resize(mode.events.outputs());
+    mode.events.evaluate(inputs_, values_, work_);
+    for (std::size_t other = 0; other < mode.watched.size(); ++other)
+        surface_values_[mode.watched[other]] = values_[other];
     Contact contact;
     contact.kind = ContactKind::crossing;
     contact.event = event;
+    contact.value = values_[w];
     contact.simultaneous = contacts_now_ > 0;
     contact.rate_before = rate;
     pending_ = contact;
@@ -230,10 +244,8 @@ void Trajectory::apply_transition(std::size_t transition, double rate) {
     const auto next = next_mode(transition, ends);
     if (!next) {
         const Transition& definition = model.transitions[transition];
-        pending_->before = before_;
-        pending_->after = after_;
-        observer_->contact(*pending_);
-        pending_.reset();
+        reduce_cyclic_states(after_);
+        hand_over_contact();
         state_ = after_;
         if (ends)
             return finish(Ending::terminal, time_);
@@ -284,12 +296,15 @@ void Trajectory::enter(std::size_t jump, std::size_t mode) {
     }
     pending_->mode_after = mode;
     for (std::size_t i = 0; i < states_; ++i)
-        if (!std::isfinite(after_[i]))
+        if (!std::isfinite(after_[i])) {
+            pending_.reset();
+            state_ = before_;
             return finish(
                 Ending::undefined, time_,
                 fmt::format("jump '{}' gives state '{}' no finite value {}: look for a division by zero, or a "
                             "root or logarithm of a number that is not positive",
                             compiled.model().jumps[jump].name, compiled.model().states[i].name, where()));
+        }
     for (std::size_t i = 0; i < states_; ++i)
         if (periods_[i] > 0 && after_[i] != before_[i])
             probes_->relocate(i, before_[i], after_[i]);
@@ -297,10 +312,12 @@ void Trajectory::enter(std::size_t jump, std::size_t mode) {
     mode_ = mode;
     wrap_cyclic_states(true);
     arc_start_ = true;
-    if (++contacts_now_ > simulation_->options().contacts_at_once)
+    if (++contacts_now_ > simulation_->options().contacts_at_once) {
+        hand_over_contact();
         finish(Ending::no_progress, time_,
                fmt::format("{} events happened at once {}: look for modes that hand over to one another in a circle",
                            contacts_now_, where()));
+    }
 }
 
 void Trajectory::remember_contact(std::size_t event, double rate) {

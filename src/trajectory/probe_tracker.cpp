@@ -13,6 +13,7 @@ ProbeTracker::ProbeTracker(const Simulation& simulation, std::span<const double>
       periods_(periods.begin(), periods.end()), roots_(simulation.order()), tracked_(simulation.probes().size()),
       work_(static_cast<std::size_t>(simulation.order()) + 1) {
     found_.reserve(16);
+    changes_.reserve(16);
     found_roots_.reserve(static_cast<std::size_t>(simulation.order()) + 1);
 }
 
@@ -35,13 +36,31 @@ void ProbeTracker::locate(std::size_t index, double value) {
     tracked.lower = target + std::floor(turns) * period;
     tracked.upper = tracked.lower + period;
     tracked.lower_slack = tracked.upper_slack = 0;
-    // Beginning on the section is not a passage of it, whichever way the phase goes.
-    if (value - tracked.lower <= slack)
-        tracked.lower_slack = slack;
+    tracked.on_section = value - tracked.lower <= slack;
     if (tracked.upper - value <= slack) {
+        tracked.on_section = true;
         tracked.lower = tracked.upper;
         tracked.upper += period;
-        tracked.lower_slack = slack;
+    }
+}
+
+/// Beginning on the section is not a passage of it, whichever way the phase goes.
+void ProbeTracker::leave_section(std::size_t index, const Step& step) {
+    const Probe& probe = simulation_->probes()[index];
+    const double period = periods_[probe.state];
+    const auto size = static_cast<std::size_t>(step.order) + 1;
+    const std::span<const double> c{step.states[probe.state], size};
+    const std::size_t leading = leading_index(c, step.length, roundoff * period);
+    if (leading == 0)
+        return;
+    Tracked& tracked = tracked_[index];
+    tracked.on_section = false;
+    if (c[leading] > 0) {
+        tracked.lower_slack = roundoff * period;
+    } else {
+        tracked.upper = tracked.lower;
+        tracked.lower -= period;
+        tracked.upper_slack = roundoff * period;
     }
 }
 
@@ -64,16 +83,17 @@ void ProbeTracker::relocate(std::size_t state, double before, double after) {
             locate(p, after);
 }
 
-void ProbeTracker::search_again(const Step& step) {
-    tracked_ = tracked_before_;
-    arc_start_ = arc_start_before_;
-    search(step);
+void ProbeTracker::cut(double s) {
+    tracked_ = tracked_at_start_;
+    for (const Change& one : changes_)
+        if (one.at <= s)
+            change(one.probe, one.direction);
 }
 
 std::span<const ProbeTracker::Found> ProbeTracker::search(const Step& step) {
     found_.clear();
-    tracked_before_ = tracked_;
-    arc_start_before_ = arc_start_;
+    changes_.clear();
+    tracked_at_start_ = tracked_;
     const auto& probes = simulation_->probes();
     const auto size = static_cast<std::size_t>(step.order) + 1;
     for (std::size_t p = 0; p < probes.size(); ++p) {
@@ -95,7 +115,23 @@ std::span<const ProbeTracker::Found> ProbeTracker::search(const Step& step) {
     return found_;
 }
 
+void ProbeTracker::change(std::size_t index, int direction) {
+    const Probe& probe = simulation_->probes()[index];
+    Tracked& tracked = tracked_[index];
+    if (probe.kind != Probe::Kind::phase) {
+        tracked.side = direction;
+        return;
+    }
+    const double period = periods_[probe.state];
+    tracked.lower += direction * period;
+    tracked.upper += direction * period;
+    (direction > 0 ? tracked.lower_slack : tracked.upper_slack) = roundoff * period;
+    (direction > 0 ? tracked.upper_slack : tracked.lower_slack) = 0;
+}
+
 void ProbeTracker::note(std::size_t probe, double at, int direction, bool at_contact) {
+    changes_.push_back({probe, at, direction});
+    change(probe, direction);
     const Direction wanted = simulation_->probes()[probe].direction;
     if (simulation_->probes()[probe].kind == Probe::Kind::phase || wanted == Direction::both ||
         (wanted == Direction::rising) == (direction > 0))
@@ -121,21 +157,25 @@ void ProbeTracker::search_series(std::size_t probe, std::span<const double> c, d
     // doing of a jump, which makes an extremum but is no crossing by the motion.
     if (tracked.side != 0 && now != tracked.side && (!arc_start_ || extremum))
         note(probe, 0, now, arc_start_);
-    tracked.side = now;
+    tracked.side = tracked_at_start_[probe].side = now;
     roots_.crossings(c, length, start, found_roots_);
     for (const Root& root : found_roots_) {
         const int direction = root.kind == RootKind::rising ? 1 : -1;
         if (direction == tracked.side)
             continue; // leaves a zero that was already counted
         note(probe, root.at, direction, false);
-        tracked.side = direction;
     }
 }
 
 void ProbeTracker::search_phase(std::size_t index, const Step& step) {
     const Probe& probe = simulation_->probes()[index];
-    Tracked& tracked = tracked_[index];
-    const double period = periods_[probe.state];
+    if (tracked_[index].on_section) {
+        leave_section(index, step);
+        tracked_at_start_[index] = tracked_[index];
+        if (tracked_[index].on_section)
+            return;
+    }
+    const Tracked& tracked = tracked_[index];
     const double* c = step.states[probe.state];
     const auto size = static_cast<std::size_t>(step.order) + 1;
     double reach = 0;
@@ -171,10 +211,6 @@ void ProbeTracker::search_phase(std::size_t index, const Step& step) {
         if (direction == 0)
             break;
         note(index, at, direction, false);
-        tracked.lower += direction * period;
-        tracked.upper += direction * period;
-        (direction > 0 ? tracked.lower_slack : tracked.upper_slack) = roundoff * period;
-        (direction > 0 ? tracked.upper_slack : tracked.lower_slack) = 0;
         from = std::max(at, std::numeric_limits<double>::min());
     }
 }

@@ -33,28 +33,38 @@ public:
     };
     /// All passages in (0, length], in increasing order; valid until the next call.
     std::span<const Found> search(const Step& step);
-    /// The same step again, cut short: as if the search had not been made.
-    void search_again(const Step& step);
+    /// The step just searched ends at s instead: what lies behind is forgotten and will be found again.
+    void cut(double s);
 
 private:
     struct Tracked {
         int side = 0;
         double lower = 0, upper = 0;             ///< next values of a phase, below and above
         double lower_slack = 0, upper_slack = 0; ///< of a value just passed, until it is left behind
+        bool on_section = false;                 ///< begins at `lower`: the motion tells which way it leaves
+    };
+    /// Something that a search has changed in what is known about a probe.
+    struct Change {
+        std::size_t probe;
+        double at;
+        int direction;
     };
     void search_series(std::size_t probe, std::span<const double> c, double length, bool extremum);
     void search_phase(std::size_t probe, const Step& step);
     void note(std::size_t probe, double at, int direction, bool at_contact);
+    void change(std::size_t probe, int direction);
+    void leave_section(std::size_t probe, const Step& step);
     void locate(std::size_t probe, double value);
 
     const Simulation* simulation_;
     std::vector<double> phase_values_, periods_;
     RootFinder roots_;
-    std::vector<Tracked> tracked_, tracked_before_;
+    std::vector<Tracked> tracked_, tracked_at_start_; ///< now, and at the start of the step just searched
+    std::vector<Change> changes_;
     std::vector<double> work_;
     std::vector<Root> found_roots_;
     std::vector<Found> found_;
-    bool arc_start_ = true, arc_start_before_ = true;
+    bool arc_start_ = true;
 };
 
 } // namespace graze

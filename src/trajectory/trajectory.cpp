@@ -77,6 +77,7 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     pending_.reset();
     together_.clear();
     histories_.assign(simulation_->model().events.size(), {});
+    surface_values_.assign(simulation_->model().events.size(), 0.0);
     contacts_ = 0;
     contacts_now_ = 0;
     tangents_.reset();
@@ -84,10 +85,13 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
 }
 
 void Trajectory::extend(double end_time) {
-    if (outcome_.ending == Ending::end_time || outcome_.ending == Ending::stopped) {
-        outcome_ = {};
-        end_time_ = end_time;
-    }
+    if (outcome_.ending != Ending::end_time && outcome_.ending != Ending::stopped)
+        return;
+    if (!(end_time >= time_))
+        throw InputError(fmt::format("a trajectory cannot go on from time {} to {}", time_, end_time),
+                         "give an end that is not before the present time");
+    outcome_ = {};
+    end_time_ = end_time;
 }
 
 void Trajectory::carry_tangents(std::span<const double> seeds, std::size_t directions) {
@@ -131,14 +135,16 @@ void Trajectory::advance(const Jet& jet, std::size_t lane) {
     load(jet, lane);
     // Event functions and whatever else is observed must be as accurate as the states.
     double step = step_size_(series_.data(), loaded_, previous_step_);
-    if (std::isnan(step))
+    if (std::isnan(step)) {
+        announce_contact();
         return finish_undefined();
+    }
     const double remaining = (end_time_ - time_) - time_low_;
     const double proposed = !std::isinf(step) ? step : std::isinf(remaining) ? 1.0 : std::max(remaining, 1.0);
     largest_step_ = std::max(largest_step_, std::min(proposed, remaining));
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
     if (proposed < 32 * epsilon * std::max(std::abs(time_), largest_step_)) {
-        pending_.reset();
+        announce_contact();
         return finish(Ending::singular, time_ + step_size_.radius(series_.data(), states_));
     }
     previous_step_ = proposed;
@@ -161,7 +167,8 @@ void Trajectory::advance(const Jet& jet, std::size_t lane) {
     bool last = step >= remaining;
     step = last ? remaining : step;
     std::size_t watched = find_contact(step);
-    if (make_step(step)) {
+    const bool stopped = make_step(step);
+    if (stopped) {
         watched = no_event;
         last = false;
     }
@@ -182,7 +189,7 @@ void Trajectory::advance(const Jet& jet, std::size_t lane) {
         }
         wrap_cyclic_states(false);
     }
-    if (!finished() && observer_->stop())
+    if (!finished() && (stopped || observer_->stop()))
         finish(Ending::stopped, time_);
     // An arc that begins exactly at the end still has its contact to announce: one more call does it.
     if (!finished() && !arc_start_ && time_ >= end_time_)
@@ -209,14 +216,16 @@ bool Trajectory::make_step(double& length) {
     bool stopped = false;
     if (!simulation_->probes().empty()) {
         for (const ProbeTracker::Found& found : probes_->search(step)) {
-            report_passage(found.probe, found.at, found.direction, found.at_contact);
-            stopped = observer_->stop();
-            if (stopped) {
-                length = step.length = found.at;
-                probes_->search_again(step);
+            if (stopped && found.at > length)
                 break;
+            report_passage(found.probe, found.at, found.direction, found.at_contact);
+            if (!stopped && observer_->stop()) {
+                stopped = true;
+                length = step.length = found.at;
             }
         }
+        if (stopped)
+            probes_->cut(length);
     }
     observer_->step(step);
     if (simulation_->options().minima)
@@ -224,17 +233,24 @@ bool Trajectory::make_step(double& length) {
     return stopped;
 }
 
+/// Cyclic states of a copy of the state brought within their periods.
+void Trajectory::reduce_cyclic_states(std::span<double> state) const {
+    for (std::size_t i = 0; i < states_; ++i) {
+        if (!(periods_[i] > 0))
+            continue;
+        state[i] -= std::floor(state[i] / periods_[i]) * periods_[i];
+        if (state[i] >= periods_[i])
+            state[i] = 0;
+    }
+}
+
 void Trajectory::report_passage(std::size_t index, double at, int direction, bool at_contact) {
     const Probe& probe = simulation_->probes()[index];
-    for (std::size_t i = 0; i < states_; ++i) {
+    for (std::size_t i = 0; i < states_; ++i)
         before_[i] = evaluate_state(i, at);
-        if (!simulation_->model().states[i].period)
-            continue;
-        const double period = periods_[i];
-        before_[i] -= std::floor(before_[i] / period) * period;
-        if (probe.kind == Probe::Kind::phase && probe.state == i && period - before_[i] < roundoff * period)
-            before_[i] = 0;
-    }
+    reduce_cyclic_states(before_);
+    if (probe.kind == Probe::Kind::phase && periods_[probe.state] - before_[probe.state] < roundoff * periods_[probe.state])
+        before_[probe.state] = 0;
     observer_->passage({index, time_ + (at + time_low_), direction, mode_, at_contact, before_});
 }
 
@@ -252,6 +268,7 @@ void Trajectory::report_touches(double length) {
         contact.value = touch.root.value;
         for (std::size_t i = 0; i < states_; ++i)
             before_[i] = evaluate_state(i, touch.root.at);
+        reduce_cyclic_states(before_);
         contact.before = contact.after = before_;
         observer_->contact(contact);
     }

@@ -97,6 +97,8 @@ private:
     void report_passage(std::size_t probe, double at, int direction, bool at_contact);
     void update_sides(double length);
     void wrap_cyclic_states(bool snap);
+    void reduce_cyclic_states(std::span<double> state) const;
+    void hand_over_contact();
     void add_time(double step);
     void finish(Ending ending, double time, std::string detail = {});
     void finish_undefined();
@@ -124,6 +126,7 @@ private:
     std::vector<Watch> watches_;
     std::vector<Touch> touches_;
     std::vector<Root> found_touches_;
+    std::vector<double> surface_values_; ///< of each event's function at the last contact, whichever event's it was
     std::vector<std::size_t> together_; ///< events at the time of the last contact, still to be served
 
     Outcome outcome_;
