@@ -1,16 +1,12 @@
 #include "graze/model/model_file.hpp"
 
 #include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/parser.hpp"
-#include "model/model_file_toml.hpp"
+#include "model/model_file_parts.hpp"
 #include "model/model_validate.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -22,10 +18,10 @@ namespace graze {
 namespace {
 
 /// Reads one model, table by table.
-class ModelReader {
+class ModelReader : private ModelParts {
 public:
     ModelReader(std::string_view text, const std::string& file)
-        : source_(text, file), reader_(file), places_(file, &source_), root_(parse_toml(text, file)) {}
+        : ModelParts(text, file), root_(parse_toml(text, file)) {}
 
     Model read() {
         if (root_.empty())
@@ -71,8 +67,6 @@ public:
     }
 
 private:
-    using Keys = std::initializer_list<std::string_view>;
-
     void read_head(const std::map<std::string, TomlEntry>& top) {
         model_.name = std::filesystem::path(source_.file()).stem().string();
         const std::pair<const char*, std::string*> strings[] = {{"name", &model_.name},
@@ -98,68 +92,6 @@ private:
             item.name = entry.name;
             items.push_back(std::move(item));
         }
-    }
-
-    void make_scope() {
-        for (const Parameter& parameter : model_.parameters)
-            scope_.emplace(parameter.name, model_.symbol(parameter.name));
-        for (const State& state : model_.states)
-            scope_.emplace(state.name, model_.symbol(state.name));
-        for (const Definition& definition : model_.definitions)
-            scope_.emplace(definition.name, model_.symbol(definition.name));
-    }
-
-    /// The place of an error in the value of a string, found as if the string were a file of its own.
-    InputError inside(const TomlEntry& entry, const std::string& text, const InputError& error) const {
-        const std::size_t offset = SourceText(text, "").position(error.place());
-        return {source_.inside_string(reader_.place(*entry.node), offset), error.problem(), error.remedy()};
-    }
-
-    /// Parses a string with `parse(text, place)`, and notes where it is.
-    template <typename Parse>
-    auto parse_string(const TomlEntry& entry, Parse parse) {
-        const std::string text = reader_.string(entry);
-        places_.set_string(entry.path, reader_.place(*entry.node), text);
-        try {
-            return parse(text, Place{source_.file(), 1, 1});
-        } catch (const InputError& error) {
-            throw inside(entry, text, error);
-        }
-    }
-
-    /// A number or the text of an expression.
-    Expression expression(const TomlEntry& entry) {
-        if (entry.node->is_number())
-            return model_.graph->number(number(entry));
-        if (!entry.node->is_string())
-            reader_.fail_type(entry, "a number or an expression");
-        return parse_string(entry, [&](const std::string& text, const Place& place) {
-            return parse_expression(*model_.graph, text, scope_, place);
-        });
-    }
-
-    double number(const TomlEntry& entry) {
-        places_.set(entry.path, reader_.place(*entry.node));
-        const toml::value<std::int64_t>* integer = entry.node->as_integer();
-        const double value =
-            integer != nullptr ? static_cast<double>(integer->get()) : entry.node->as_floating_point()->get();
-        if (!std::isfinite(value))
-            throw InputError(reader_.place(*entry.node), fmt::format("{} is {}", entry.path, value),
-                             "give a finite number");
-        return value;
-    }
-
-    /// The entries of a table, or the short form: a value alone, which stands for `{ key = value }`.
-    std::vector<TomlEntry> short_form(const TomlEntry& entry, const char* key, Keys allowed) {
-        if (entry.node->is_table())
-            return reader_.entries(*entry.node->as_table(), entry.path, allowed);
-        if (!entry.node->is_number() && !entry.node->is_string())
-            reader_.fail_type(entry, "a number, an expression or a table");
-        return {{key, entry.path + "." + key, entry.place, entry.node}};
-    }
-
-    [[noreturn]] void fail_missing(const TomlEntry& entry, const char* what, const char* key) const {
-        throw InputError(entry.place, fmt::format("{} has no {}", entry.path, what), fmt::format("add {} = ...", key));
     }
 
     void read_parameters(const TomlEntry& group) {
@@ -223,8 +155,7 @@ private:
                 if (part.name == "function")
                     event.function = expression(part);
                 else if (part.name == "kind")
-                    event.kind =
-                        choice<EventKind>(part, {{"barrier", EventKind::barrier}, {"section", EventKind::section}});
+                    event.kind = choice(part, {"barrier", "section"}) == 0 ? EventKind::barrier : EventKind::section;
                 else
                     event.text = reader_.string(part);
             }
@@ -232,53 +163,6 @@ private:
                 fail_missing(entry, "function", "function");
             model_.events.push_back(std::move(event));
         }
-    }
-
-    template <typename Value>
-    Value choice(const TomlEntry& entry, const std::vector<std::pair<std::string, Value>>& choices) {
-        const std::string text = reader_.string(entry);
-        std::vector<std::string> names;
-        for (const auto& [name, value] : choices) {
-            if (name == text)
-                return value;
-            names.push_back(name);
-        }
-        throw InputError(reader_.place(*entry.node), fmt::format("{} cannot be '{}'", entry.path, text),
-                         fmt::format("choose from {}", fmt::join(names, ", ")));
-    }
-
-    /// Index of the item that a string names.
-    template <typename Item>
-    std::size_t index(const TomlEntry& entry, const std::vector<Item>& items, const char* kind) {
-        const std::string name = reader_.string(entry);
-        places_.set(entry.path, reader_.place(*entry.node));
-        std::vector<std::string> names;
-        for (const Item& item : items) {
-            if (item.name == name)
-                return names.size();
-            names.push_back(item.name);
-        }
-        throw InputError(reader_.place(*entry.node), fmt::format("there is no {} '{}'", kind, name),
-                         name_remedy(name, names));
-    }
-
-    /// Index of the state that is named by a key.
-    std::size_t state_index(const TomlEntry& entry) const {
-        if (const auto found = model_.find_state(entry.name))
-            return *found;
-        std::vector<std::string> names;
-        for (const State& state : model_.states)
-            names.push_back(state.name);
-        throw InputError(entry.place, fmt::format("{}: there is no state '{}'", entry.path, entry.name),
-                         name_remedy(entry.name, names));
-    }
-
-    /// A map of states; those that are not mentioned stay as they are.
-    std::vector<Expression> state_map(const std::vector<TomlEntry>& entries) {
-        std::vector<Expression> result = model_.state_symbols();
-        for (const TomlEntry& entry : entries)
-            result[state_index(entry)] = expression(entry);
-        return result;
     }
 
     void read_jumps(const TomlEntry& group) {
@@ -319,7 +203,7 @@ private:
                 } else {
                     rates = part.place;
                     for (const TomlEntry& rate : reader_.entries(reader_.table(part), part.path))
-                        mode.rates[state_index(rate)] = expression(rate);
+                        mode.rates[key_index(rate, model_.states, "state")] = expression(rate);
                 }
             }
             for (std::size_t i = 0; i < mode.rates.size(); ++i)
@@ -390,9 +274,7 @@ private:
                     has_mode = true;
                 } else {
                     alternative.when_text = reader_.string(part);
-                    alternative.when = parse_string(part, [&](const std::string& text, const Place& place) {
-                        return parse_conditions(*model_.graph, text, scope_, place);
-                    });
+                    alternative.when = conditions(part);
                 }
             }
             if (!has_mode)
@@ -444,10 +326,9 @@ private:
             if (direction != nullptr && section.state)
                 throw InputError(direction->place, fmt::format("{} cannot have a direction", entry.path),
                                  "a phase section is passed as the phase moves: leave direction out");
+            constexpr std::array directions{Direction::falling, Direction::rising, Direction::both};
             if (direction != nullptr)
-                section.direction = choice<Direction>(
-                    *direction,
-                    {{"falling", Direction::falling}, {"rising", Direction::rising}, {"both", Direction::both}});
+                section.direction = directions[choice(*direction, {"falling", "rising", "both"})];
             model_.sections.push_back(std::move(section));
         }
     }
@@ -467,23 +348,13 @@ private:
                     symmetry.map = state_map(reader_.entries(reader_.table(part), part.path));
                 } else {
                     for (const TomlEntry& mode : reader_.entries(reader_.table(part), part.path)) {
-                        const auto found = model_.find_mode(mode.name);
-                        if (!found)
-                            throw InputError(mode.place, fmt::format("there is no mode '{}'", mode.name),
-                                             name_remedy(mode.name, names_of_modes()));
-                        symmetry.modes[*found] = index(mode, model_.modes, "mode");
+                        const std::size_t from = key_index(mode, model_.modes, "mode");
+                        symmetry.modes[from] = index(mode, model_.modes, "mode");
                     }
                 }
             }
             model_.symmetries.push_back(std::move(symmetry));
         }
-    }
-
-    std::vector<std::string> names_of_modes() const {
-        std::vector<std::string> result;
-        for (const Mode& mode : model_.modes)
-            result.push_back(mode.name);
-        return result;
     }
 
     void read_quantities(const TomlEntry& group) {
@@ -513,12 +384,7 @@ private:
             fail_missing(entry, "mode", "mode");
     }
 
-    SourceText source_;
-    TomlReader reader_;
-    Places places_;
     toml::table root_;
-    Model model_;
-    Scope scope_;
 };
 
 } // namespace

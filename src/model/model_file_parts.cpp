@@ -1,0 +1,103 @@
+#include "model/model_file_parts.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "model/model_validate.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace graze {
+
+void ModelParts::make_scope() {
+    for (const Parameter& parameter : model_.parameters)
+        scope_.emplace(parameter.name, model_.symbol(parameter.name));
+    for (const State& state : model_.states)
+        scope_.emplace(state.name, model_.symbol(state.name));
+    for (const Definition& definition : model_.definitions)
+        scope_.emplace(definition.name, model_.symbol(definition.name));
+}
+
+/// An error in the value of a string, which was parsed as if it were a file of its own, with its place in this file.
+InputError ModelParts::inside(const TomlEntry& entry, const std::string& text, const InputError& error) const {
+    const std::size_t offset = SourceText(text, "").position(error.place());
+    return {source_.inside_string(reader_.place(*entry.node), offset), error.problem(), error.remedy()};
+}
+
+/// Parses a string with `parse(text, place)`, and notes where it is.
+template <typename Parse>
+auto ModelParts::parse_string(const TomlEntry& entry, Parse parse) {
+    const std::string text = reader_.string(entry);
+    places_.set_string(entry.path, reader_.place(*entry.node), text);
+    try {
+        return parse(text, Place{source_.file(), 1, 1});
+    } catch (const InputError& error) {
+        throw inside(entry, text, error);
+    }
+}
+
+Expression ModelParts::expression(const TomlEntry& entry) {
+    if (entry.node->is_number())
+        return model_.graph->number(number(entry));
+    if (!entry.node->is_string())
+        reader_.fail_type(entry, "a number or an expression");
+    return parse_string(entry, [&](const std::string& text, const Place& place) {
+        return parse_expression(*model_.graph, text, scope_, place);
+    });
+}
+
+double ModelParts::number(const TomlEntry& entry) {
+    places_.set(entry.path, reader_.place(*entry.node));
+    const toml::value<std::int64_t>* integer = entry.node->as_integer();
+    const double value =
+        integer != nullptr ? static_cast<double>(integer->get()) : entry.node->as_floating_point()->get();
+    if (!std::isfinite(value))
+        throw InputError(reader_.place(*entry.node), fmt::format("{} is {}", entry.path, value),
+                         "give a finite number");
+    return value;
+}
+
+std::vector<Condition> ModelParts::conditions(const TomlEntry& entry) {
+    return parse_string(entry, [&](const std::string& text, const Place& place) {
+        return parse_conditions(*model_.graph, text, scope_, place);
+    });
+}
+
+std::vector<TomlEntry> ModelParts::short_form(const TomlEntry& entry, const char* key,
+                                              std::initializer_list<std::string_view> allowed) const {
+    if (entry.node->is_table())
+        return reader_.entries(*entry.node->as_table(), entry.path, allowed);
+    if (!entry.node->is_number() && !entry.node->is_string())
+        reader_.fail_type(entry, "a number, an expression or a table");
+    return {{key, entry.path + "." + key, entry.place, entry.node}};
+}
+
+std::vector<Expression> ModelParts::state_map(const std::vector<TomlEntry>& entries) {
+    std::vector<Expression> result = model_.state_symbols();
+    for (const TomlEntry& entry : entries)
+        result[key_index(entry, model_.states, "state")] = expression(entry);
+    return result;
+}
+
+std::size_t ModelParts::choice(const TomlEntry& entry, const std::vector<std::string>& choices) const {
+    const std::string text = reader_.string(entry);
+    const auto found = std::find(choices.begin(), choices.end(), text);
+    if (found == choices.end())
+        throw InputError(reader_.place(*entry.node), fmt::format("{} cannot be '{}'", entry.path, text),
+                         fmt::format("choose from {}", fmt::join(choices, ", ")));
+    return static_cast<std::size_t>(found - choices.begin());
+}
+
+void ModelParts::fail_name(const std::string& name, const Place& place, const std::vector<std::string>& names,
+                           const char* kind) {
+    throw InputError(place, fmt::format("there is no {} '{}'", kind, name), name_remedy(name, names));
+}
+
+void ModelParts::fail_missing(const TomlEntry& entry, const char* what, const char* key) const {
+    throw InputError(entry.place, fmt::format("{} has no {}", entry.path, what), fmt::format("add {} = ...", key));
+}
+
+} // namespace graze

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "graze/model/model.hpp"
+#include "graze/symbolic/parser.hpp"
+#include "model/model_file_toml.hpp"
+#include "model/model_places.hpp"
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace graze {
+
+/// A model that is being read, and how the parts are read of which its tables are made: expressions, conditions,
+/// choices, names of other things. Each notes its place, for mistakes that show only when all has been read.
+class ModelParts {
+protected:
+    ModelParts(std::string_view text, const std::string& file)
+        : source_(text, file), reader_(file), places_(file, &source_) {}
+
+    /// Lets expressions use the names of parameters, states and definitions.
+    void make_scope();
+
+    /// A number or the text of an expression.
+    Expression expression(const TomlEntry& entry);
+    /// A number, which must be finite.
+    double number(const TomlEntry& entry);
+    std::vector<Condition> conditions(const TomlEntry& entry);
+    /// The entries of a table, or the short form: a value alone, which stands for `{ key = value }`.
+    std::vector<TomlEntry> short_form(const TomlEntry& entry, const char* key,
+                                      std::initializer_list<std::string_view> allowed) const;
+    /// A map of states; those that are not mentioned stay as they are.
+    std::vector<Expression> state_map(const std::vector<TomlEntry>& entries);
+
+    /// Index of a string among the choices.
+    std::size_t choice(const TomlEntry& entry, const std::vector<std::string>& choices) const;
+    /// Index of the item that a string names.
+    template <typename Item>
+    std::size_t index(const TomlEntry& entry, const std::vector<Item>& items, const char* kind) {
+        places_.set(entry.path, reader_.place(*entry.node));
+        return find(reader_.string(entry), reader_.place(*entry.node), items, kind);
+    }
+    /// Index of the item that a key names.
+    template <typename Item>
+    std::size_t key_index(const TomlEntry& entry, const std::vector<Item>& items, const char* kind) const {
+        return find(entry.name, entry.place, items, kind);
+    }
+
+    [[noreturn]] void fail_missing(const TomlEntry& entry, const char* what, const char* key) const;
+
+    SourceText source_;
+    TomlReader reader_;
+    Places places_;
+    Model model_;
+
+private:
+    template <typename Item>
+    static std::size_t find(const std::string& name, const Place& place, const std::vector<Item>& items,
+                            const char* kind) {
+        for (const Item& item : items)
+            if (item.name == name)
+                return static_cast<std::size_t>(&item - items.data());
+        std::vector<std::string> names;
+        for (const Item& item : items)
+            names.push_back(item.name);
+        fail_name(name, place, names, kind);
+    }
+    [[noreturn]] static void fail_name(const std::string& name, const Place& place,
+                                       const std::vector<std::string>& names, const char* kind);
+    InputError inside(const TomlEntry& entry, const std::string& text, const InputError& error) const;
+    template <typename Parse>
+    auto parse_string(const TomlEntry& entry, Parse parse);
+
+    Scope scope_;
+};
+
+} // namespace graze
