@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/transform.hpp"
+#include "model/check_symmetry.hpp"
 #include "model/model_validate.hpp"
 
 #include <fmt/format.h>
@@ -28,6 +29,8 @@ public:
         check_jumps();
         check_transitions();
         check_start();
+        for (std::string& warning : symmetry_warnings(model_))
+            warnings_.push_back(std::move(warning));
         return std::move(warnings_);
     }
 

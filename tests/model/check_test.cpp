@@ -112,6 +112,27 @@ TEST(Check, NamesTheDefinitionThatIsNotFinite) {
     expect_warning(found, "because 'inner' is");
 }
 
+TEST(Check, WarnsOfASymmetryThatDoesNotHold) {
+    const auto oscillator = [](const std::string& map, const std::string& modes) {
+        return model_warnings(
+            parse_model("[parameters]\nk = 2e6\n[states]\nx = 1e-3\nv = 0\n"
+                        "theta = { initial = 0, period = \"2*pi\" }\n"
+                        "[modes.a]\nrates = { x = \"v\", v = \"cos(theta) - k*x - x^3\", theta = 1 }\n"
+                        "[modes.b]\nrates = { x = \"v\", v = \"cos(theta) - k*x + 1\", theta = 1 }\n"
+                        "[initial]\nmode = \"a\"\n[symmetries.half]\nmap = " +
+                            map + "\nmodes = " + modes + "\n",
+                        "oscillator.toml"));
+    };
+    const std::string right = "{ x = \"-x\", v = \"-v\", theta = \"theta + pi\" }";
+    const std::vector<std::string> found = oscillator(right, "{}");
+    expect_warning(found, "the symmetry 'half' does not hold: it does not take the rate of 'v' in mode 'b' to that in "
+                          "mode 'b'");
+    EXPECT_EQ(found.size(), 2U) << "the other one says that nothing leads to mode b";
+    expect_warning(oscillator("{ x = \"-x\", theta = \"theta + pi\" }", "{}"), "the rate of 'x' in mode 'a'");
+    expect_warning(oscillator("{ x = \"-x\", v = \"-v\" }", "{}"), "the rate of 'v' in mode 'a'");
+    expect_warning(oscillator(right, "{ a = \"b\", b = \"a\" }"), "in mode 'a' to that in mode 'b'");
+}
+
 TEST(Check, DrawsTheConnectivityGraph) {
     const std::string graph = connectivity_graph(parse_model(ball, "ball.toml"));
     const auto expect_line = [&](const std::string& line) {

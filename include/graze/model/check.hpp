@@ -8,7 +8,9 @@
 namespace graze {
 
 /// Things that are allowed but probably not meant: an event that nobody watches, a mode that nothing leads to,
-/// a watched event without a transition, an unused parameter, definition or jump, overlapping conditions, ...
+/// a watched section without a transition, an unused parameter, definition or jump, conditions that may all fail or
+/// never matter, a start beyond a barrier or where rates are not finite, a symmetry that does not hold, ...
+/// @param model a valid one
 std::vector<std::string> model_warnings(const Model& model);
 
 /// The connectivity graph (modes as nodes, transitions as arrows) in the language of Graphviz.

@@ -1,0 +1,89 @@
+#include "model/check_symmetry.hpp"
+
+#include "graze/symbolic/function.hpp"
+#include "graze/symbolic/transform.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace graze {
+
+namespace {
+
+/// Both sides of DS(x) f(x) = f'(S(x)), where f' is the vector field of the image of the mode: first all
+/// components of the left side, then those of the right.
+Function both_sides(const Model& model, const Symmetry& symmetry, std::size_t mode) {
+    const std::vector<Expression> states = model.state_symbols();
+    const std::vector<Expression> map = model.expand(symmetry.map);
+    const std::vector<Expression> rates = model.expand(model.modes[mode].rates);
+    std::vector<Expression> sides(states.size(), model.graph->number(0));
+    for (std::size_t j = 0; j < states.size(); ++j) {
+        const std::vector<Expression> column = differentiate(map, states[j]);
+        for (std::size_t i = 0; i < states.size(); ++i)
+            sides[i] = sides[i] + column[i] * rates[j];
+    }
+    std::vector<Replacement> replacements;
+    for (std::size_t i = 0; i < states.size(); ++i)
+        replacements.emplace_back(states[i], map[i]);
+    for (const Expression& rate : substitute(model.expand(model.modes[symmetry.modes[mode]].rates), replacements))
+        sides.push_back(rate);
+    std::vector<Expression> inputs = states;
+    for (const Expression& symbol : model.parameter_symbols())
+        inputs.push_back(symbol);
+    return {inputs, sides};
+}
+
+/// States around the initial one, at distances that suit models in any units; always the same ones.
+std::vector<std::vector<double>> probes(const Model& model) {
+    const std::vector<double> initial = model.initial_state();
+    const std::vector<double> parameters = model.parameter_values();
+    std::vector<std::vector<double>> result;
+    double turn = 0;
+    for (const double distance : {1e-6, 1e-4, 1e-2, 1.0}) {
+        std::vector<double> inputs;
+        for (const double value : initial) {
+            turn += 2.4; // the golden angle: values that do not repeat
+            inputs.push_back(value + distance * std::sin(turn));
+        }
+        inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+        result.push_back(std::move(inputs));
+    }
+    return result;
+}
+
+/// The first state whose rate the symmetry does not take where it should.
+std::optional<std::size_t> broken_rate(const Model& model, const Symmetry& symmetry, std::size_t mode) {
+    constexpr double tolerance = 1e-6; // far above round-off, far below a wrong sign
+    const Function sides = both_sides(model, symmetry, mode);
+    const std::size_t count = model.states.size();
+    for (const std::vector<double>& inputs : probes(model)) {
+        const std::vector<double> values = sides(inputs);
+        if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
+            continue; // outside the model's domain
+        for (std::size_t i = 0; i < count; ++i)
+            if (std::abs(values[i] - values[count + i]) >
+                tolerance * std::max(std::abs(values[i]), std::abs(values[count + i])))
+                return i;
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+std::vector<std::string> symmetry_warnings(const Model& model) {
+    std::vector<std::string> result;
+    for (const Symmetry& symmetry : model.symmetries)
+        for (std::size_t mode = 0; mode < model.modes.size(); ++mode)
+            if (const auto state = broken_rate(model, symmetry, mode))
+                result.push_back(
+                    fmt::format("the symmetry '{}' does not hold: it does not take the rate of '{}' in mode "
+                                "'{}' to that in mode '{}'",
+                                symmetry.name, model.states[*state].name, model.modes[mode].name,
+                                model.modes[symmetry.modes[mode]].name));
+    return result;
+}
+
+} // namespace graze
