@@ -1,6 +1,7 @@
 #include "model/model_file_toml.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "model/model_file_guard.hpp"
 #include "model/model_validate.hpp"
 
 #include <fmt/format.h>
@@ -9,72 +10,8 @@
 
 namespace graze {
 
-namespace {
-
-/// Dotted keys nest tables without any limit in the parser, which then recurses through them.
-constexpr int most_parts_of_a_key = 16;
-
-/// Skips the string that starts at `at`; returns the position after it.
-std::size_t skip_string(std::string_view text, std::size_t at) {
-    const char quote = text[at];
-    const bool long_form = text.substr(at, 3) == std::string(3, quote);
-    at += long_form ? 3 : 1;
-    while (at < text.size()) {
-        if (quote == '"' && text[at] == '\\') {
-            at += 2;
-        } else if (!long_form && (text[at] == quote || text[at] == '\n')) {
-            return at + 1;
-        } else if (long_form && text.substr(at, 3) == std::string(3, quote)) {
-            at += 3;
-            // Up to two more quotes belong to the value.
-            for (int extra = 0; extra < 2 && at < text.size() && text[at] == quote; ++extra)
-                ++at;
-            return at;
-        } else {
-            ++at;
-        }
-    }
-    return text.size();
-}
-
-bool is_key_character(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
-           c == ' ' || c == '\t';
-}
-
-/// Refuses keys of very many parts (a.b.c. ...), before the parser sees them.
-void check_keys(std::string_view text, const std::string& file) {
-    int parts = 1;
-    int line = 1;
-    for (std::size_t at = 0; at < text.size();) {
-        const char c = text[at];
-        if (c == '"' || c == '\'') {
-            const std::size_t end = std::min(skip_string(text, at), text.size());
-            line += static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(at),
-                                                text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
-            at = end;
-            continue;
-        }
-        if (c == '#') {
-            at = std::min(text.find('\n', at), text.size());
-            continue;
-        }
-        if (c == '.')
-            ++parts;
-        else if (!is_key_character(c))
-            parts = 1;
-        if (parts > most_parts_of_a_key)
-            throw InputError({file, line, 0}, fmt::format("a key of more than {} parts", most_parts_of_a_key),
-                             "no key of a model has more than three");
-        line += c == '\n' ? 1 : 0;
-        ++at;
-    }
-}
-
-} // namespace
-
 toml::table parse_toml(std::string_view text, const std::string& file) {
-    check_keys(text, file);
+    guard_toml(text, SourceText(text, file));
     try {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {

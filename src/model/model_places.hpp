@@ -18,13 +18,13 @@ public:
     const std::string& file() const { return file_; }
     /// Index of the byte at this line and column.
     std::size_t position(const Place& place) const;
+    /// Its inverse.
+    Place place(std::size_t position) const;
     /// Place of one byte of the value of the string literal that begins (with its quote) at `begin`: escapes
     /// and the lines of multi-line strings are followed.
     Place inside_string(const Place& begin, std::size_t offset) const;
 
 private:
-    Place place(std::size_t position) const;
-
     std::string text_;
     std::string file_;
     std::vector<std::size_t> line_starts_;

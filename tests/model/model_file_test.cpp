@@ -379,12 +379,24 @@ TEST(ModelFile, RefusesNestingThatWouldExhaustTheStack) {
     std::string dots = "a";
     for (int i = 0; i < 100000; ++i)
         dots += ".a";
-    expect_refused("\n" + dots + " = 1", 2, 0, "a key of more than");
-    expect_refused("[" + dots + "]", 1, 0, "a key of more than");
-    expect_refused("x = ''' ]\n\n\"'''\n y = \"''\" # '\nz = { " + dots + " = 1}", 5, 0, "a key of more than");
+    expect_refused("\n" + dots + " = 1", 2, 32, "a key of more than");
+    expect_refused("[" + dots + "]", 1, 33, "a key of more than");
+    expect_refused("x = ''' ]\n\n\"'''\n y = \"''\" # '\nz = { " + dots + " = 1}", 5, 38, "a key of more than");
     EXPECT_THROW(parse_model("a = " + std::string(100000, '['), "deep.toml"), InputError);
     // Dots in values, comments and strings are no keys.
     EXPECT_NO_THROW(parse_model(smooth_with("k = 4.0", "# " + std::string(99, '.') + "\nk = 4.0"), "dots.toml"));
+}
+
+TEST(ModelFile, RefusesCharactersThatTheParserCannotTake) {
+    const auto text = [](const std::string& head) { return head + smooth_with("", ""); };
+    expect_refused(text("n\u00e9 = 1\n"), 1, 2, "a character outside ASCII");
+    expect_refused(text("name = \"x\" \u00e9\n"), 1, 12, "a character outside ASCII");
+    expect_refused(text("text = \"\"\"x \\\n  \u03b8\"\"\"\n"), 2, 3, "begins with a character outside ASCII");
+    expect_refused(text("text = \"\"\"x \\\u00e9\"\"\"\n"), 1, 14, "begins with a character outside ASCII");
+    const Model model = parse_model(
+        "\xef\xbb\xbf" + text("text = \"\"\"\u03b8 \\\n  x\u03b8\"\"\" # \u03b8\nsource = '\u00e9'\n"), "fine.toml");
+    EXPECT_EQ(model.text, "\u03b8 x\u03b8");
+    EXPECT_EQ(model.source, "\u00e9");
 }
 
 TEST(ModelFile, RefusesUnknownKeys) {

@@ -1,0 +1,109 @@
+#include "model/model_file_guard.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+namespace graze {
+
+namespace {
+
+constexpr int most_parts_of_a_key = 16;
+
+bool is_ascii(char c) {
+    return static_cast<unsigned char>(c) < 0x80;
+}
+
+bool is_key_character(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+           c == ' ' || c == '\t';
+}
+
+/// Walks over the text as far as strings, comments and keys can be told apart.
+class Guard {
+public:
+    Guard(std::string_view text, const SourceText& source) : text_(text), source_(source) {}
+
+    void run() {
+        if (text_.substr(0, 3) == "\xef\xbb\xbf") // the mark with which some editors begin a file
+            at_ = 3;
+        int parts = 1;
+        while (at_ < text_.size()) {
+            const char c = text_[at_];
+            if (c == '"' || c == '\'') {
+                skip_string(c);
+                continue;
+            }
+            if (c == '#') {
+                at_ = std::min(text_.find('\n', at_), text_.size());
+                continue;
+            }
+            if (!is_ascii(c))
+                fail("a character outside ASCII", "put texts in quotes; names and keys consist of plain letters");
+            if (c == '.')
+                ++parts;
+            else if (!is_key_character(c))
+                parts = 1;
+            if (parts > most_parts_of_a_key)
+                fail(fmt::format("a key of more than {} parts", most_parts_of_a_key),
+                     "no key of a model has more than four");
+            ++at_;
+        }
+    }
+
+private:
+    [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const {
+        throw InputError(source_.place(at_), problem, remedy);
+    }
+
+    /// Steps over the string that begins here.
+    void skip_string(char quote) {
+        const std::string long_quote(3, quote);
+        const bool is_long = text_.substr(at_, 3) == long_quote;
+        at_ += is_long ? 3 : 1;
+        while (at_ < text_.size()) {
+            if (quote == '"' && text_[at_] == '\\') {
+                skip_escape(is_long);
+            } else if (!is_long && (text_[at_] == quote || text_[at_] == '\n')) {
+                ++at_;
+                return;
+            } else if (is_long && text_.substr(at_, 3) == long_quote) {
+                at_ += 3;
+                // Up to two more quotes belong to the value.
+                for (int extra = 0; extra < 2 && at_ < text_.size() && text_[at_] == quote; ++extra)
+                    ++at_;
+                return;
+            } else {
+                ++at_;
+            }
+        }
+    }
+
+    void skip_escape(bool is_long) {
+        ++at_;
+        const std::size_t next = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size());
+        if (!is_long || (next == at_ && next < text_.size() && is_ascii(text_[next]))) {
+            at_ = std::min(at_ + 1, text_.size());
+            return;
+        }
+        at_ = next; // a backslash at the end of a line swallows the white space that follows
+        if (at_ < text_.size() && !is_ascii(text_[at_]))
+            fail("a line that continues another one begins with a character outside ASCII",
+                 "move the backslash, for the line to begin with a plain letter");
+    }
+
+    std::string_view text_;
+    const SourceText& source_;
+    std::size_t at_ = 0;
+};
+
+} // namespace
+
+void guard_toml(std::string_view text, const SourceText& source) {
+    Guard(text, source).run();
+}
+
+} // namespace graze
