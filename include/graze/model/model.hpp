@@ -14,27 +14,27 @@
 namespace graze {
 
 struct Parameter {
-    std::string name, unit, text;
-    std::optional<double> value;          ///< of an independent parameter
-    std::optional<Expression> expression; ///< of a dependent one, in terms of other parameters
+    std::string name{}, unit{}, text{};
+    std::optional<double> value{};          ///< of an independent parameter
+    std::optional<Expression> expression{}; ///< of a dependent one, in terms of other parameters
 };
 
 struct State {
-    std::string name, unit, text;
-    Expression initial;               ///< in terms of parameters
-    std::optional<Expression> period; ///< of a cyclic state, in terms of parameters; kept in [0, period)
-    bool drifting = false;            ///< orbits are periodic up to a translation of this state
+    std::string name{}, unit{}, text{};
+    Expression initial{};               ///< in terms of parameters
+    std::optional<Expression> period{}; ///< of a cyclic state, in terms of parameters; kept in [0, period)
+    bool drifting = false;              ///< orbits are periodic up to a translation of this state
 };
 
 struct Definition {
-    std::string name, text;
-    Expression value; ///< in terms of states, parameters and other definitions
+    std::string name{}, text{};
+    Expression value{}; ///< in terms of states, parameters and other definitions
 };
 
 struct Mode {
-    std::string name, text;
-    std::vector<Expression> rates;    ///< time derivative of each state
-    std::vector<std::size_t> watched; ///< events, in the order in which simultaneous ones are served
+    std::string name{}, text{};
+    std::vector<Expression> rates{};    ///< time derivative of each state
+    std::vector<std::size_t> watched{}; ///< events, in the order in which simultaneous ones are served
 };
 
 /// A barrier is positive on the admissible side, and must not be crossed; a section may have either sign.
@@ -42,21 +42,21 @@ struct Mode {
 enum class EventKind { barrier, section };
 
 struct Event {
-    std::string name, text;
-    Expression function;
+    std::string name{}, text{};
+    Expression function{};
     EventKind kind = EventKind::barrier;
 };
 
 struct Jump {
-    std::string name, text;
-    std::vector<Expression> map; ///< each state after, in terms of states before
+    std::string name{}, text{};
+    std::vector<Expression> map{}; ///< each state after, in terms of states before
 };
 
 /// One way in which a transition can go on, taken when all conditions hold in the state after the jump.
 struct Alternative {
-    std::vector<Condition> when;
-    std::string when_text;           ///< as the user wrote it; empty when unconditional
-    std::optional<std::size_t> mode; ///< none: the trajectory ends here
+    std::vector<Condition> when{};
+    std::string when_text{};           ///< as the user wrote it; empty when unconditional
+    std::optional<std::size_t> mode{}; ///< none: the trajectory ends here
 };
 
 /// Where the motion goes when contacts accumulate: infinitely many in a finite time (Budd and Dux 1994).
@@ -66,10 +66,10 @@ struct Sticking {
 };
 
 struct Transition {
-    std::string label; ///< for signatures, such as J1; "mode:event" when the user gave none
+    std::string label{}; ///< for signatures, such as J1; "mode:event" when the user gave none
     std::size_t mode = 0, event = 0, jump = 0;
-    std::vector<Alternative> next; ///< the first whose conditions hold is taken
-    std::optional<Sticking> chatter;
+    std::vector<Alternative> next{}; ///< the first whose conditions hold is taken
+    std::optional<Sticking> chatter{};
 };
 
 enum class Direction { falling, rising, both };
@@ -77,23 +77,23 @@ enum class Direction { falling, rising, both };
 /// A surface at which states are recorded without disturbing the motion: a zero of `function`, or a value of
 /// a cyclic state.
 struct Section {
-    std::string name, text;
-    Expression function;              ///< empty for a phase section
-    std::optional<std::size_t> state; ///< cyclic state of a phase section
-    Expression value;                 ///< of that state, in terms of parameters
+    std::string name{}, text{};
+    Expression function{};                 ///< empty for a phase section
+    std::optional<std::size_t> state{};    ///< cyclic state of a phase section
+    Expression value{};                    ///< of that state, in terms of parameters
     Direction direction = Direction::both; ///< of `function`; a phase section is passed as the phase moves
 };
 
 /// A map of states that takes solutions to solutions.
 struct Symmetry {
-    std::string name, text;
-    std::vector<Expression> map;
-    std::vector<std::size_t> modes; ///< image of each mode
+    std::string name{}, text{};
+    std::vector<Expression> map{};
+    std::vector<std::size_t> modes{}; ///< image of each mode
 };
 
 struct Quantity {
-    std::string name, unit, text;
-    Expression value; ///< in terms of states, parameters and definitions
+    std::string name{}, unit{}, text{};
+    Expression value{}; ///< in terms of states, parameters and definitions
 };
 
 /// A hybrid dynamical system, ready to be compiled. Expressions are in terms of the symbols of states,
