@@ -2,8 +2,10 @@
 
 #include "symbolic/evaluate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace graze {
 
@@ -44,10 +46,6 @@ NodeIndex Simplifier::number(double value) {
 
 NodeIndex Simplifier::intern(Operation operation, NodeIndex left, NodeIndex right) {
     return graph_.intern({operation, left, right, 0});
-}
-
-NodeIndex Simplifier::intern_commutative(Operation operation, NodeIndex left, NodeIndex right) {
-    return left <= right ? intern(operation, left, right) : intern(operation, right, left);
 }
 
 NodeIndex Simplifier::function(Operation operation, NodeIndex operand) {
@@ -141,7 +139,8 @@ NodeIndex Simplifier::sum(Signed left, Signed right) {
     }
     const NodeIndex magnitude = left.magnitude == right.magnitude
                                     ? scaled(2, left.magnitude)
-                                    : intern_commutative(Operation::add, left.magnitude, right.magnitude);
+                                    : intern(Operation::add, std::min(left.magnitude, right.magnitude),
+                                             std::max(left.magnitude, right.magnitude));
     return left.negative ? negated(magnitude) : magnitude;
 }
 
@@ -182,7 +181,13 @@ NodeIndex Simplifier::product(NodeIndex left, NodeIndex right) {
         std::swap(left, right);
     if (is_number(left))
         return scaled(node(left).value, right);
-    return intern_commutative(Operation::multiply, left, right);
+    if (left > right)
+        std::swap(left, right);
+    if (has_number_on_left(right, Operation::divide) && is_number(node(right).left, 1))
+        return quotient(left, node(right).right);
+    if (has_number_on_left(left, Operation::divide) && is_number(node(left).left, 1))
+        return quotient(right, node(left).right);
+    return intern(Operation::multiply, left, right);
 }
 
 NodeIndex Simplifier::scaled(double factor, NodeIndex magnitude) {

@@ -35,7 +35,6 @@ private:
 
     NodeIndex number(double value);
     NodeIndex intern(Operation operation, NodeIndex left, NodeIndex right = 0);
-    NodeIndex intern_commutative(Operation operation, NodeIndex left, NodeIndex right);
     Signed split(NodeIndex index);
     NodeIndex negated(NodeIndex magnitude);
     NodeIndex with_sign(Signed value) { return value.negative ? negated(value.magnitude) : value.magnitude; }

@@ -81,12 +81,7 @@ Expression derivative(Operation operation, const Expression& value, const Expres
     default:
         break;
     }
-    const Expression factor = slope(operation, value, left);
-    // rate/divisor has one operation fewer than (1/divisor) * rate
-    const Node& node = factor.node();
-    if (node.operation == Operation::divide && left.graph()->node(node.left).operation == Operation::number)
-        return Expression(left.graph(), node.left) * left_rate / Expression(left.graph(), node.right);
-    return factor * left_rate;
+    return slope(operation, value, left) * left_rate;
 }
 
 } // namespace
