@@ -117,6 +117,7 @@ struct Model {
     std::vector<Quantity> quantities;
     std::size_t initial_mode = 0;
 
+    Expression number(double value) const { return graph->number(value); }
     Expression symbol(std::string_view item) const { return graph->symbol(item); }
     std::vector<Expression> state_symbols() const;
     /// Symbols of the independent parameters, in the order of `parameters`.
