@@ -23,6 +23,11 @@ const KernelTable& table_of(LaneKind kind, [[maybe_unused]] InstructionSet set) 
     return baseline::kernels(kind);
 }
 
+/// Where kernels do not jump but call each other, as without optimisation, this bounds the depth of the stack.
+constexpr std::size_t longest_chain = 64;
+
+void end_of_chain(const KernelOperands*, const KernelLink*, int) {}
+
 /// Numbers aligned to cache lines, all 0 at first.
 class AlignedNumbers {
 public:
@@ -249,7 +254,8 @@ public:
     const double* output(std::size_t index) const override { return outputs_[index]; }
 
 private:
-    /// Steps at one order; operands are shared by orders that take the same steps.
+    /// Steps at one order; operands are shared by orders that take the same steps. The kernels are in chains of at
+    /// most `longest_chain`, each with a last one that only returns.
     struct Segment {
         std::size_t kernels, operands, count;
     };
@@ -263,10 +269,13 @@ private:
     void compute_constants();
     void set_states(std::span<const double> states);
     void run(const Segment& segment, int order) const {
-        const Kernel* kernel = kernels_.data() + segment.kernels;
+        const KernelLink* link = kernels_.data() + segment.kernels;
         const KernelOperands* operands = operands_.data() + segment.operands;
-        for (const Kernel* end = kernel + segment.count; kernel != end; ++kernel, ++operands)
-            (*kernel)(*operands, order);
+        for (std::size_t done = 0; done < segment.count; done += longest_chain) {
+            link->kernel(operands, link + 1, order);
+            link += longest_chain + 1;
+            operands += longest_chain;
+        }
     }
 
     int order_;
@@ -275,7 +284,7 @@ private:
     Layout layout_;
     AlignedNumbers memory_;
     std::vector<TermOperands> terms_;
-    std::vector<Kernel> kernels_;
+    std::vector<KernelLink> kernels_;
     std::vector<KernelOperands> operands_;
     std::vector<Segment> segments_; ///< by order, then those of values and of rates
     std::vector<Step> constant_code_;
@@ -324,11 +333,14 @@ void TapeJet::add_segment(const std::vector<Step>& steps) {
         segments_.push_back({0, 0, steps.size()});
     }
     const bool new_operands = segments_.back().operands == operands_.size();
-    for (const Step& step : steps) {
-        kernels_.push_back(step.kernel);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        if (i > 0 && i % longest_chain == 0)
+            kernels_.push_back({end_of_chain});
+        kernels_.push_back({steps[i].kernel});
         if (new_operands)
-            operands_.push_back(step.operands);
+            operands_.push_back(steps[i].operands);
     }
+    kernels_.push_back({end_of_chain});
 }
 
 void TapeJet::find_constants(const Tape& tape, const KernelTable& table) {
@@ -350,8 +362,9 @@ void TapeJet::find_constants(const Tape& tape, const KernelTable& table) {
 }
 
 void TapeJet::compute_constants() {
+    const KernelLink end{end_of_chain};
     for (const Step& step : constant_code_)
-        step.kernel(step.operands, 0);
+        step.kernel(&step.operands, &end, 0);
     for (const Copy& copy : constant_copies_)
         std::copy_n(copy.from, layout_.number, copy.to);
 }

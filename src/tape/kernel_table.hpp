@@ -28,8 +28,13 @@ struct KernelOperands {
     const TermOperands* terms_end;
 };
 
-/// Computes the coefficient of one order of one series.
-using Kernel = void (*)(const KernelOperands& operands, int order);
+struct KernelLink;
+/// Computes the coefficient of one order of one series, and then calls the next kernel, `next->kernel`, with the next
+/// operands, as its last act: a jump, where compilers optimise. It costs half of a loop that calls one after another.
+using Kernel = void (*)(const KernelOperands* operands, const KernelLink* next, int order);
+struct KernelLink {
+    Kernel kernel;
+};
 
 /// Linear combinations of fewer terms than this have kernels of their own; row 0 is for all others.
 inline constexpr int combination_kernels = 5;

@@ -48,9 +48,41 @@ GRAZE_INLINE V total(const V (&sums)[4]) {
         return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
+#if defined(__FMA__)
+/// The same sum for one lane, with the partial sums side by side in a register: fewer loads, same bits.
+template <int k, int terms>
+GRAZE_INLINE double convolution_by_four(const double* a, const double* b) {
+    const auto term = [&](int j) __attribute__((always_inline)) {
+        return _mm256_permute4x64_pd(_mm256_loadu_pd(b + k - 4 - j), 0x1b);
+    };
+    __m256d sums = _mm256_mul_pd(_mm256_loadu_pd(a + 1), term(0));
+    [&]<int... j>(Indices<j...>) __attribute__((always_inline)) {
+        ((sums = _mm256_fmadd_pd(_mm256_loadu_pd(a + 5 + 4 * j), term(4 + 4 * j), sums)), ...);
+    }
+    (std::make_integer_sequence<int, terms / 4 - 1>{});
+    __m128d low = _mm256_castpd256_pd128(sums);
+    __m128d high = _mm256_extractf128_pd(sums, 1);
+    constexpr int done = terms / 4 * 4;
+    if constexpr (terms - done >= 2) {
+        const __m128d pair = _mm_loadu_pd(b + k - 2 - done);
+        low = _mm_fmadd_pd(_mm_loadu_pd(a + 1 + done), _mm_shuffle_pd(pair, pair, 1), low);
+    }
+    if constexpr ((terms - done) % 2 == 1) {
+        __m128d& sum = terms - done == 1 ? low : high;
+        sum[0] = multiply_add(a[terms], b[k - terms], sum[0]);
+    }
+    const __m128d halves = _mm_hadd_pd(low, high);
+    return halves[0] + halves[1];
+}
+#endif
+
 /// Sum of a[j] b[k-j], 0 < j <= terms.
 template <class V, int k, int terms = k - 1>
 GRAZE_INLINE V convolution(const double* a, const double* b) {
+#if defined(__FMA__)
+    if constexpr (Numbers<V>::width == 1 && terms >= 4)
+        return convolution_by_four<k, terms>(a, b);
+#endif
     V sums[4];
     [&]<int... j>(Indices<j...>) __attribute__((always_inline)) {
         (accumulate<j>(sums, at<V>(a, j + 1), at<V>(b, k - 1 - j)), ...);
@@ -79,7 +111,7 @@ GRAZE_INLINE V self_convolution(const double* a) {
 template <class V>
 struct Multiply {
     template <int k>
-    static void run(const KernelOperands& o, int) {
+    GRAZE_INLINE static void run(const KernelOperands& o, int) {
         const V a0 = at<V>(o.left, 0);
         const V b = at<V>(o.right, k);
         if constexpr (k == 0) {
@@ -98,7 +130,7 @@ struct Multiply {
 template <class V>
 struct Square {
     template <int k>
-    static void run(const KernelOperands& o, int) {
+    GRAZE_INLINE static void run(const KernelOperands& o, int) {
         const V a = at<V>(o.left, k);
         if constexpr (k == 0) {
             put(o.result, 0, a * a);
@@ -117,7 +149,7 @@ struct Square {
 template <class V>
 struct Divide {
     template <int k>
-    static void run(const KernelOperands& o, int) {
+    GRAZE_INLINE static void run(const KernelOperands& o, int) {
         const V a = at<V>(o.left, k);
         if constexpr (k == 0) {
             const V b0 = at<V>(o.right, 0);
@@ -137,7 +169,7 @@ struct Divide {
 template <class V>
 struct Reciprocal {
     template <int k>
-    static void run(const KernelOperands& o, int) {
+    GRAZE_INLINE static void run(const KernelOperands& o, int) {
         const V a = at<V>(o.left, k);
         if constexpr (k == 0) {
             put(o.result, 0, Numbers<V>::of(1) / a);
@@ -156,7 +188,7 @@ struct Reciprocal {
 template <class V>
 struct SquareRoot {
     template <int k>
-    static void run(const KernelOperands& o, int) {
+    GRAZE_INLINE static void run(const KernelOperands& o, int) {
         const V a = at<V>(o.left, k);
         if constexpr (k == 0) {
             const V root = evaluate<Operation::sqrt>(a);
@@ -176,7 +208,7 @@ struct SquareRoot {
 template <class V>
 struct Power {
     template <int k>
-    static void run(const KernelOperands& o, int) {
+    GRAZE_INLINE static void run(const KernelOperands& o, int) {
         const V a = at<V>(o.left, k);
         const V exponent = at<V>(o.right, 0);
         if constexpr (k == 0) {
@@ -207,7 +239,7 @@ struct Power {
 template <class V, bool negative>
 struct FunctionByProduct {
     template <int k>
-    static void run(const KernelOperands& o, int) {
+    GRAZE_INLINE static void run(const KernelOperands& o, int) {
         const V a = at<V>(o.third, k);
         const V w0 = negative ? -at<V>(o.right, 0) : at<V>(o.right, 0);
         if constexpr (k == 1)
@@ -220,7 +252,7 @@ struct FunctionByProduct {
 
 /// The same where a_j = 0 for j > 1.
 template <class V, bool negative>
-void function_of_linear(const KernelOperands& o, int k) {
+GRAZE_INLINE void function_of_linear(const KernelOperands& o, int k) {
     put(o.result, k, at<V>(o.right, k - 1) * (at<V>(o.third, 1) * (negative ? -inverse.of[k] : inverse.of[k])));
 }
 
@@ -228,7 +260,7 @@ void function_of_linear(const KernelOperands& o, int k) {
 template <class V, bool negative>
 struct FunctionByQuotient {
     template <int k>
-    static void run(const KernelOperands& o, int) {
+    GRAZE_INLINE static void run(const KernelOperands& o, int) {
         put(o.result, k, at<V>(o.left, k) * (negative ? -inverse.of[k] : inverse.of[k]));
     }
 };
@@ -236,18 +268,18 @@ struct FunctionByQuotient {
 template <class V>
 struct Derivative {
     template <int k>
-    static void run(const KernelOperands& o, int) {
+    GRAZE_INLINE static void run(const KernelOperands& o, int) {
         put(o.result, k, k == 0 ? Numbers<V>::of(0) : at<V>(o.left, k) * double(k));
     }
 };
 
 template <class V, Operation function>
-void function_value(const KernelOperands& o, int) {
+GRAZE_INLINE void function_value(const KernelOperands& o, int) {
     put(o.result, 0, evaluate<function>(at<V>(o.third, 0)));
 }
 
 template <class V>
-void multiply_linear(const KernelOperands& o, int k) {
+GRAZE_INLINE void multiply_linear(const KernelOperands& o, int k) {
     put(o.result, k, multiply_add(at<V>(o.left, 0), at<V>(o.right, k), at<V>(o.left, 1) * at<V>(o.right, k - 1)));
 }
 
@@ -281,10 +313,10 @@ GRAZE_INLINE V combination(const KernelOperands& o, int k) {
 template <class V>
 struct Combination {
     template <int count>
-    static void run(const KernelOperands& o, int k) {
+    GRAZE_INLINE static void run(const KernelOperands& o, int k) {
         put(o.result, k, combination<V, count>(o, k));
     }
-    static void run_value(const KernelOperands& o, int) {
+    GRAZE_INLINE static void run_value(const KernelOperands& o, int) {
         put(o.result, 0, combination<V, 0>(o, 0) + at<V>(o.right, 0));
     }
 };
@@ -292,16 +324,16 @@ struct Combination {
 template <class V>
 struct StateCombination {
     template <int count>
-    static void run(const KernelOperands& o, int k) {
+    GRAZE_INLINE static void run(const KernelOperands& o, int k) {
         put(o.result, k, combination<V, count>(o, k - 1) * inverse.of[k]);
     }
-    static void run_value(const KernelOperands& o, int) {
+    GRAZE_INLINE static void run_value(const KernelOperands& o, int) {
         put(o.result, 1, combination<V, 0>(o, 0) + at<V>(o.right, 0));
     }
 };
 
 template <class V>
-void state(const KernelOperands& o, int k) {
+GRAZE_INLINE void state(const KernelOperands& o, int k) {
     put(o.result, k, at<V>(o.left, k - 1) * inverse.of[k]);
 }
 
@@ -312,7 +344,7 @@ void literal(double* result, double value) {
 
 /// Arithmetic on numbers.
 template <class V, Operation operation>
-void constant(const KernelOperands& o, int) {
+GRAZE_INLINE void constant(const KernelOperands& o, int) {
     const V a = at<V>(o.left, 0);
     if constexpr (operation == Operation::add)
         put(o.result, 0, a + at<V>(o.right, 0));

@@ -6,9 +6,15 @@
 
 namespace graze::GRAZE_INSTRUCTION_SET {
 
+template <auto step>
+void chained(const KernelOperands* operands, const KernelLink* next, int order) {
+    step(*operands, order);
+    return next->kernel(operands + 1, next + 1, order);
+}
+
 template <class Family, int... k>
 constexpr void fill(Kernel (&row)[highest_order + 1], Indices<k...>) {
-    ((row[k] = &Family::template run<k>), ...);
+    ((row[k] = &chained<&Family::template run<k>>), ...);
 }
 template <class Family>
 constexpr void fill(KernelTable& table, SeriesOperation operation) {
@@ -17,23 +23,23 @@ constexpr void fill(KernelTable& table, SeriesOperation operation) {
 
 template <class Family, int... k>
 constexpr void fill_above_zero(Kernel (&row)[highest_order + 1], Indices<k...>) {
-    ((row[k + 1] = &Family::template run<k + 1>), ...);
+    ((row[k + 1] = &chained<&Family::template run<k + 1>>), ...);
 }
 template <class V, Operation function, class Family>
 constexpr void fill_function(KernelTable& table, SeriesOperation operation) {
     Kernel(&row)[highest_order + 1] = table.series[static_cast<int>(operation)];
-    row[0] = &function_value<V, function>;
+    row[0] = &chained<&function_value<V, function>>;
     fill_above_zero<Family>(row, std::make_integer_sequence<int, highest_order>{});
 }
 
 template <class V, Operation... operation>
 constexpr void fill_constants(KernelTable& table) {
-    ((table.constant[static_cast<int>(operation)] = &constant<V, operation>), ...);
+    ((table.constant[static_cast<int>(operation)] = &chained<&constant<V, operation>>), ...);
 }
 
 template <class Family, int... count>
 constexpr void fill_combinations(Kernel (&row)[combination_kernels], Indices<count...>) {
-    ((row[count] = &Family::template run<count>), ...);
+    ((row[count] = &chained<&Family::template run<count>>), ...);
 }
 
 template <class V>
@@ -61,14 +67,14 @@ constexpr KernelTable make_table() {
     fill_function<V, Operation::atan, Quotient>(table, SeriesOperation::atan);
     fill_function<V, Operation::acos, FunctionByQuotient<V, true>>(table, SeriesOperation::acos);
     fill_combinations<Combination<V>>(table.combination, std::make_integer_sequence<int, combination_kernels>{});
-    table.combination_value = &Combination<V>::run_value;
-    table.state = &state<V>;
+    table.combination_value = &chained<&Combination<V>::run_value>;
+    table.state = &chained<&state<V>>;
     fill_combinations<StateCombination<V>>(table.state_combination,
                                            std::make_integer_sequence<int, combination_kernels>{});
-    table.state_combination_value = &StateCombination<V>::run_value;
-    table.multiply_linear = &multiply_linear<V>;
-    table.function_of_linear = &function_of_linear<V, false>;
-    table.minus_function_of_linear = &function_of_linear<V, true>;
+    table.state_combination_value = &chained<&StateCombination<V>::run_value>;
+    table.multiply_linear = &chained<&multiply_linear<V>>;
+    table.function_of_linear = &chained<&function_of_linear<V, false>>;
+    table.minus_function_of_linear = &chained<&function_of_linear<V, true>>;
     table.literal = &literal<V>;
     fill_constants<V, Operation::add, Operation::subtract, Operation::multiply, Operation::divide, Operation::power,
                    Operation::negate, Operation::sqrt, Operation::exp, Operation::log, Operation::sin, Operation::cos,
