@@ -11,7 +11,8 @@ namespace graze {
 class Function {
 public:
     Function() = default;
-    /// @throws std::invalid_argument when an output contains a symbol that is not among the inputs
+    /// @throws std::invalid_argument when an output contains a symbol that is not among the inputs, or an input is
+    ///         not a symbol, is named twice, or belongs to another graph
     Function(std::span<const Expression> inputs, std::span<const Expression> outputs);
 
     std::size_t inputs() const { return inputs_; }
@@ -21,7 +22,7 @@ public:
 
     /// Evaluates without allocating. The result follows IEEE rules: not finite outside an operation's domain.
     /// @param inputs  as many as inputs()
-    /// @param results as many as outputs()
+    /// @param results as many as outputs(); may be the same memory as the inputs
     /// @param work    at least workspace(); its contents afterwards are unspecified
     void evaluate(std::span<const double> inputs, std::span<double> results, std::span<double> work) const;
     /// Convenience that allocates.
