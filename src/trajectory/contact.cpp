@@ -16,13 +16,26 @@ namespace graze {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A jump that keeps the motion at the surface leaves the event function at round-off, which the sizes of the
 /// terms of the function and of the jump may magnify.
 constexpr double served_roundoff = 1e-10;
 
+/// What rests on a surface and is released when the force that presses it there reaches zero has a force at round-off
+/// left, of either sign. A pressing one is none if it would be outgrown within this share of a step.
+constexpr double instant = 1e-9;
+
 /// Contacts in a row before an accumulation is looked for.
 constexpr int fewest_contacts_of_chatter = 3;
+
+/// How far round-off may have moved a root at s. Only what lies as close is simultaneous, which near the end of an
+/// accumulation is far less than the resolution of time.
+double root_uncertainty(std::span<const double> c, double s, double step) {
+    const double uncertain_value = 4 * epsilon * series_size(c, s), rate = std::abs(evaluate_derivative(c, s));
+    const double most = 8 * epsilon * step;
+    return uncertain_value < most * rate ? uncertain_value / rate : most;
+}
 
 } // namespace
 
@@ -30,7 +43,7 @@ std::size_t Trajectory::find_contact(double& step) {
     const auto& mode = simulation_->compiled().mode(mode_);
     const SimulationOptions& options = simulation_->options();
     const double whole = step;
-    const double together = 8 * epsilon * std::max(std::abs(time_), step);
+    double uncertain = 0; // of the first root
     std::size_t first = no_event;
     together_.clear();
     for (std::size_t w = 0; w < mode.watched.size(); ++w) {
@@ -42,7 +55,7 @@ std::size_t Trajectory::find_contact(double& step) {
         const RootStart start = watch.strip > 0 ? RootStart::deflate : RootStart::as_is;
         if (watch.strip > 0)
             c = c.subspan(static_cast<std::size_t>(watch.strip) - 1);
-        const double length = std::min(whole, step + together);
+        const double length = std::min(whole, step + uncertain);
         bool found = false;
         if (start == RootStart::as_is && watch.side > 0 && c[0] <= 0) {
             // It fell through zero in the round-off between two steps, or has touched zero there and rises again.
@@ -51,10 +64,12 @@ std::size_t Trajectory::find_contact(double& step) {
             found = leading == 0 || c[leading] < 0;
             if (!found)
                 found = roots_.first_falling(c.subspan(leading - 1), length, RootStart::deflate, root);
-        } else if (watch.side > 0 && RootFinder::surely_positive(c, length, start)) {
-            continue;
         } else {
-            const double touch = options.touch > 0 ? options.touch : 100 * options.tolerance * series_size(c, length);
+            const RootFinder::Enclosure enclosure = RootFinder::enclosure(c, length, start);
+            const double touch = options.touch > 0 ? options.touch : 100 * options.tolerance * enclosure.size;
+            // The deflated polynomial is positive where the polynomial itself may be as small as a touch.
+            if (watch.side > 0 && enclosure.least > (start == RootStart::as_is ? touch : infinity))
+                continue;
             found_touches_.clear();
             found = roots_.first_falling(c, length, start, root, touch, &found_touches_);
             if (simulation_->model().events[mode.watched[w]].kind == EventKind::barrier && watch.strip <= 1)
@@ -63,11 +78,13 @@ std::size_t Trajectory::find_contact(double& step) {
         }
         if (!found)
             continue;
-        if (first != no_event && root.at >= step - together) {
+        const double uncertain_too = root_uncertainty(c, root.at, whole);
+        if (first != no_event && root.at >= step - (uncertain + uncertain_too)) {
             together_.push_back(mode.watched[w]); // the search ended just behind the first
             continue;
         }
         together_.clear();
+        uncertain = uncertain_too;
         first = w;
         step = root.at;
     }
@@ -132,7 +149,9 @@ bool Trajectory::classify(std::size_t w, double step) {
                         definition.name, c[0], where()));
         return false;
     }
-    const std::size_t leading = leading_index(c, step, noise);
+    std::size_t leading = leading_index(c, step, noise);
+    while (leading >= 2 && leading + 1 < c.size() && c[leading] < 0 && -c[leading] < instant * step * c[leading + 1])
+        ++leading;
     if (leading == 0)
         return true; // moves along the surface: nothing to watch until it leaves
     watch.side = c[leading] > 0 ? 1 : -1;
@@ -152,7 +171,7 @@ bool Trajectory::classify(std::size_t w, double step) {
                            definition.name, where()));
         return false;
     }
-    stick(w, 0, 0);
+    stick(w, mode.transitions[w], 0, 0);
     return false;
 }
 
@@ -215,6 +234,7 @@ void Trajectory::make_contact(std::size_t w, double s) {
     }
     add_time(s);
     remember_contact(event, rate);
+    histories_[event].transition = transition;
     std::copy(before_.begin(), before_.end(), inputs_.begin());
     values_.resize(mode.events.outputs());
     mode.events.evaluate(inputs_, values_, work_);
@@ -353,18 +373,28 @@ bool Trajectory::complete_chatter(std::size_t w, double step) {
     const double height = deceleration * remaining * remaining;
     const double change = std::abs(c[3] / c[2]) * remaining;
     if (height > allowed * series_size(c, step) || change * remaining > allowed * step ||
-        remaining > (end_time_ - time_) - time_low_)
+        remaining > (end_time_ - time_) - time_low_ || (!history.interrupted && another_event_within(w, remaining)))
         return false;
-    stick(w, remaining, deceleration * remaining - speed);
+    // Where each contact changes the mode, as when it makes a frame slip that soon stops again, the accumulation is
+    // that of the transition by which the contacts are made.
+    stick(w, history.transition, remaining, deceleration * remaining - speed);
     return true;
+}
+
+bool Trajectory::another_event_within(std::size_t w, double time) const {
+    for (std::size_t other = 0; other < simulation_->compiled().mode(mode_).watched.size(); ++other) {
+        const auto c = event_series(other);
+        if (other != w && c[0] > 0 && c[0] + time * c[1] < 0)
+            return true;
+    }
+    return false;
 }
 
 /// Ends an accumulation of contacts `remaining` after the present state: what the contacts still to come do to the
 /// event function's rate, `impulse` in all, they do to the state in the proportions of the last one.
-void Trajectory::stick(std::size_t w, double remaining, double impulse) {
-    const auto& mode = simulation_->compiled().mode(mode_);
-    const std::size_t event = mode.watched[w];
-    const Transition& transition = simulation_->model().transitions[mode.transitions[w]];
+void Trajectory::stick(std::size_t w, std::size_t index, double remaining, double impulse) {
+    const std::size_t event = simulation_->compiled().mode(mode_).watched[w];
+    const Transition& transition = simulation_->model().transitions[index];
     const auto c = event_series(w);
     const double last_impulse = c[1] - histories_[event].rate;
     const double share = remaining > 0 && last_impulse > 0 ? impulse / last_impulse : 0;
@@ -390,7 +420,7 @@ void Trajectory::stick(std::size_t w, double remaining, double impulse) {
     contact.kind = ContactKind::sticking;
     contact.time = time_;
     contact.event = event;
-    contact.transition = mode.transitions[w];
+    contact.transition = index;
     contact.mode_before = mode_;
     contact.rate_before = c[1];
     pending_ = contact;

@@ -68,6 +68,7 @@ private:
         int count = 0;             ///< in a row, each slower than the one before
         bool interrupted = false;  ///< something else happened between the last two
         std::size_t serial = 0;    ///< of the last, among all contacts
+        std::size_t transition = 0; ///< made at the last
         double time = 0;           ///< of the last
         double flight = 0;         ///< time between the last two
         double rate = 0;           ///< of the event function just before the last
@@ -82,7 +83,8 @@ private:
     void announce_contact();
     void remember_contact(std::size_t event, double rate);
     bool complete_chatter(std::size_t watched, double step);
-    void stick(std::size_t watched, double remaining, double impulse);
+    bool another_event_within(std::size_t watched, double time) const;
+    void stick(std::size_t watched, std::size_t transition, double remaining, double impulse);
     void carry_tangents_to_rest(std::size_t watched, double remaining, double per_impulse);
     std::size_t find_contact(double& step);
     double on_surface(std::size_t watched, double s);
