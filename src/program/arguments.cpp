@@ -1,0 +1,276 @@
+#include "program/arguments.hpp"
+
+#include "graze/symbolic/parser.hpp"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <memory>
+#include <sstream>
+
+namespace graze {
+
+namespace {
+
+constexpr const char* general_text =
+    R"(Simulates hybrid dynamical systems: smooth motion interrupted by impacts, switches, stick and slip.
+A model is a text file of equations, or one of those that come with graze.)";
+
+constexpr const char* general_examples = R"(Start here:
+  graze models                                     what comes with graze
+  graze simulate bouncing-ball --plot ball.svg     a picture of one of them
+  graze models bouncing-ball --write my-ball.toml  a model file to change
+  graze check my-ball.toml                         is it right?
+  graze COMMAND --help                             all options of a command)";
+
+constexpr const char* check_text = R"(Check a model and say what is in it.
+Warnings go to standard error: things that are allowed but
+probably not meant, such as an event that nobody watches.)";
+
+constexpr const char* check_examples = R"(Examples:
+  graze check my-model.toml
+  graze check impact-microactuator --graph modes.svg)";
+
+constexpr const char* models_text = R"(List the shipped models, tell about one, or write its file.
+The microbeam is a family:
+--beam-modes chooses how many eigenmodes carry its motion.)";
+
+constexpr const char* models_examples = R"(Examples:
+  graze models
+  graze models mems-switch
+  graze models mems-switch --write my-switch.toml
+  graze models microbeam --beam-modes 9 --write beam9.toml)";
+
+constexpr const char* simulate_text = R"(Compute a trajectory.
+Follows one trajectory from contact to contact, missing none, and prints a table of it: states at equal
+distances of time unless --section, --contacts, --extrema, --minima or --derivatives ask for another.
+Values are numbers or expressions in the model's parameters, such as --time 2*pi/omega.)";
+
+constexpr const char* simulate_examples = R"(Examples:
+  graze simulate bouncing-ball --plot ball.svg
+  graze simulate electromagnetic-testbed --set V0=4.833 --from I=0.1 --periods 20 --section phase0 --format csv
+  graze simulate mems-switch --contacts --event stop --format csv
+  graze simulate impact-oscillator --skip 100 --periods 5 --quantity energy --samples 1000 --output run.csv)";
+
+const std::map<std::string, TableFormat> formats{
+    {"table", TableFormat::table}, {"csv", TableFormat::csv}, {"json", TableFormat::json}};
+
+void declare_output(CLI::App& command, OutputArguments& output, const std::string& file_option) {
+    command.add_option("--format", output.format, "table (default), csv or json")
+        ->type_name("FORMAT")
+        ->transform(CLI::Transformer(formats).description(""))
+        ->group("Output");
+    command.add_option("--digits", output.digits, "Significant digits of numbers; 17 (default) lose nothing")
+        ->type_name("N")
+        ->check(CLI::Range(1, 17).description(""))
+        ->group("Output");
+    if (!file_option.empty())
+        command.add_option(file_option, output.file, "Write the table there instead of to standard output")
+            ->type_name("FILE")
+            ->group("Output");
+}
+
+void declare_check(CLI::App& app, CheckArguments& arguments) {
+    CLI::App& command = *app.add_subcommand("check", check_text);
+    command.footer(check_examples);
+    command.add_option("MODEL", arguments.model, "Name of a shipped model, or a file")->type_name("")->required();
+    command
+        .add_option("--graph", arguments.graph,
+                    "Draw the modes and the transitions between them (svg, png or pdf by Graphviz; dot without it)")
+        ->type_name("FILE");
+    declare_output(command, arguments.output, "--output");
+}
+
+void declare_models(CLI::App& app, ModelsArguments& arguments) {
+    CLI::App& command = *app.add_subcommand("models", models_text);
+    command.footer(models_examples);
+    command.add_option("NAME", arguments.name, "The model to tell about")->type_name("");
+    command.add_flag("--show", arguments.show, "Print the model file");
+    command.add_option("--write", arguments.file, "Write the model file there")->type_name("FILE");
+    command.add_option("--beam-modes", arguments.beam_modes, "Eigenmodes of the microbeam (1)")
+        ->type_name("N")
+        ->group("Microbeam");
+    command
+        .add_option("--quadrature", arguments.quadrature,
+                    "Rule for its electrostatic force: simpson (default) or gauss")
+        ->type_name("RULE")
+        ->group("Microbeam");
+    command.add_option("--points", arguments.points, "Simpson's intervals (even) or Gauss's nodes (20)")
+        ->type_name("N")
+        ->group("Microbeam");
+    declare_output(command, arguments.output, "");
+}
+
+/// In the list of commands only the first line of each one's description is shown.
+class BriefFormatter : public CLI::Formatter {
+public:
+    std::string make_subcommand(const CLI::App* command) const override {
+        const std::string text = command->get_description();
+        std::ostringstream line;
+        CLI::detail::format_help(line, command->get_name(), text.substr(0, text.find('\n')), get_column_width());
+        return line.str();
+    }
+};
+
+template <typename Target>
+CLI::Option* add(CLI::App& command, const char* group, const char* name, Target& target, const char* type,
+                 const char* text) {
+    return command.add_option(name, target, text)->type_name(type)->group(group);
+}
+
+void declare_length(CLI::App& command, SimulateArguments& arguments) {
+    const char* group = "How long (20 periods unless told)";
+    add(command, group, "--time", arguments.time, "T", "For this time");
+    add(command, group, "--periods", arguments.periods, "N", "For so many periods of the cyclic state");
+    add(command, group, "--contacts", arguments.contact_count, "[N]",
+        "With a number: until so many contacts; without: the table of contacts");
+    add(command, group, "--phase", arguments.phase, "STATE",
+        "The cyclic state whose periods count, if there are several");
+    add(command, group, "--skip", arguments.skip, "N", "First let pass so many periods, of which nothing is shown");
+    add(command, group, "--after", arguments.after, "T", "First let pass this time, of which nothing is shown");
+}
+
+void declare_tables(CLI::App& command, SimulateArguments& arguments) {
+    const char* group = "What to show";
+    add(command, group, "--section", arguments.sections, "NAME", "States whenever these sections are passed");
+    add(command, group, "--extrema", arguments.extrema, "EXPR", "States at maxima and minima of these expressions");
+    add(command, group, "--event", arguments.events, "NAME", "Of all contacts, show and count only these events'");
+    add(command, group, "--quantity", arguments.quantities, "EXPR",
+        "More columns: quantities of the model, or any expressions in its names");
+    command
+        .add_flag("--minima", arguments.minima, "Guaranteed least values of the watched event functions in each arc")
+        ->group(group);
+    add(command, group, "--derivatives", arguments.derivatives, "NAME",
+        "Derivatives of the final state with respect to initial states and parameters, or `all`");
+    add(command, group, "--samples", arguments.samples, "N", "Number of rows at equal distances of time (500)");
+    add(command, group, "--every", arguments.every, "DT", "Distance of these rows in time, instead of their number");
+    add(command, group, "--table", arguments.table, "TABLE",
+        "samples, contacts, sections, extrema, minima, derivatives or summary, if the above leaves it open");
+}
+
+void declare_plot(CLI::App& command, SimulateArguments& arguments) {
+    const char* group = "Picture";
+    add(command, group, "--plot", arguments.plot, "FILE",
+        "Time histories and phase portrait as svg, png or pdf, by gnuplot. --quantity chooses what is shown");
+    add(command, group, "--portrait", arguments.portraits, "X,Y", "Phase portraits of these (a state and its velocity)")
+        ->expected(1, -1);
+    add(command, group, "--plot-data", arguments.plot_data, "FILE",
+        "Keep data and commands of the picture, to be changed and drawn by `gnuplot FILE`");
+}
+
+void declare_method(CLI::App& command, SimulateArguments& arguments) {
+    const char* group = "Method";
+    add(command, group, "--tolerance", arguments.tolerance, "TOL", "Relative error of each step (1e-12)");
+    add(command, group, "--order", arguments.order, "N", "Of the Taylor polynomials (chosen by tolerance)");
+    add(command, group, "--largest-step", arguments.largest_step, "T", "Bound on steps (none)");
+    add(command, group, "--steps", arguments.steps, "N", "End after so many steps (100 million)");
+    command.add_flag("--progress", arguments.progress, "Show progress even if standard error is no terminal")
+        ->group(group);
+    command.add_flag("--quiet", arguments.quiet, "Do not say how the trajectory ended, unless it is wrong")
+        ->group(group);
+}
+
+void declare_simulate(CLI::App& app, SimulateArguments& arguments) {
+    CLI::App& command = *app.add_subcommand("simulate", simulate_text);
+    command.footer(simulate_examples);
+    command.add_option("MODEL", arguments.model, "Name of a shipped model, or a file")->type_name("")->required();
+    const char* group = "Where from";
+    add(command, group, "--set", arguments.set, "NAME=VALUE", "Values of parameters");
+    add(command, group, "--from", arguments.from, "NAME=VALUE", "Initial values of states");
+    add(command, group, "--mode", arguments.mode, "NAME", "Initial mode");
+    declare_length(command, arguments);
+    command.add_flag("--contact-table", arguments.contacts)->group(""); // see with_joined_counts
+    declare_tables(command, arguments);
+    declare_plot(command, arguments);
+    declare_output(command, arguments.output, "--output");
+    declare_method(command, arguments);
+}
+
+bool is_integer(const std::string& text) {
+    const std::size_t start = !text.empty() && (text[0] == '-' || text[0] == '+') ? 1 : 0;
+    return text.size() > start && std::all_of(text.begin() + static_cast<std::ptrdiff_t>(start), text.end(),
+                                              [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+/// The command that was being read when things went wrong.
+const CLI::App& innermost(const CLI::App& app) {
+    const auto commands = app.get_subcommands();
+    return commands.empty() ? app : *commands.front();
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames())
+            if (!option->get_group().empty())
+                names.push_back(name);
+    return names;
+}
+
+std::string explain_extra(const std::string& word, const CLI::App& command, const std::string& help) {
+    if (word.starts_with("-")) {
+        const std::string name = word.substr(std::min(word.find_first_not_of('-'), word.size()));
+        const std::string nearest = nearest_name(name.substr(0, name.find('=')), option_names(command));
+        return fmt::format("unknown option '{}'; {}", word,
+                           nearest.empty() ? help : fmt::format("did you mean '--{}'?", nearest));
+    }
+    std::vector<std::string> commands;
+    for (const CLI::App* other : command.get_subcommands({}))
+        commands.push_back(other->get_name());
+    if (commands.empty())
+        return fmt::format("'{}' is one argument too many; {}", word, help);
+    const std::string nearest = nearest_name(word, commands);
+    return fmt::format("unknown command '{}'; {}", word,
+                       nearest.empty() ? help : fmt::format("did you mean '{}'?", nearest));
+}
+
+} // namespace
+
+void declare_arguments(CLI::App& app, Arguments& arguments) {
+    app.description(general_text)->footer(general_examples);
+    app.require_subcommand(1);
+    app.set_help_flag("-h,--help", "Print this help");
+    app.formatter(std::make_shared<BriefFormatter>());
+    app.get_formatter()->column_width(26);
+    declare_check(app, arguments.check);
+    declare_models(app, arguments.models);
+    declare_simulate(app, arguments.simulate);
+}
+
+std::vector<std::string> with_joined_counts(std::vector<std::string> arguments) {
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        if (arguments[i] != "--contacts")
+            continue;
+        if (i + 1 < arguments.size() && is_integer(arguments[i + 1])) {
+            arguments[i] += "=" + arguments[i + 1];
+            arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+        } else {
+            arguments[i] = "--contact-table";
+        }
+    }
+    return arguments;
+}
+
+std::string explain(const CLI::ParseError& error, const CLI::App& app) {
+    const CLI::App& command = innermost(app);
+    const std::string name = &command == &app ? "graze" : "graze " + command.get_name();
+    const std::string help = fmt::format("see {} --help", name);
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
+        if (const std::vector<std::string> extras = app.remaining(true); !extras.empty())
+            return explain_extra(extras.front(), command, help);
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+        // Without a command, or without the model.
+        const std::vector<std::string> extras = app.remaining(true);
+        if (!extras.empty())
+            return explain_extra(extras.front(), command, help);
+        return &command == &app ? "a command is missing; " + help
+                                : fmt::format("the model is missing; write {} MODEL, then the options", name);
+    }
+    return fmt::format("{}; {}", error.what(), help);
+}
+
+} // namespace graze

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "program/table.hpp"
+
+#include <CLI/App.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace graze {
+
+/// What comes with every table.
+struct OutputArguments {
+    TableFormat format = TableFormat::table;
+    int digits = 17;
+    std::string file; ///< empty: standard output
+};
+
+struct CheckArguments {
+    std::string model, graph;
+    OutputArguments output;
+};
+
+struct ModelsArguments {
+    std::string name, file, quadrature;
+    bool show = false;
+    std::optional<int> beam_modes, points;
+    OutputArguments output;
+};
+
+/// Texts are expressions in the model's parameters, still to be evaluated. Empty ones were not given.
+struct SimulateArguments {
+    std::string model, mode;
+    std::vector<std::string> set, from;
+
+    std::string time, after, phase;
+    std::optional<int> periods, skip;
+    std::optional<int> contact_count;
+
+    std::string table;
+    bool contacts = false, minima = false;
+    std::vector<std::string> sections, extrema, events, quantities, derivatives;
+    std::optional<int> samples;
+    std::string every;
+    OutputArguments output;
+
+    std::string plot, plot_data;
+    std::vector<std::string> portraits;
+
+    double tolerance = 1e-12;
+    int order = 0;
+    std::string largest_step;
+    std::size_t steps = 100'000'000;
+    bool progress = false, quiet = false;
+};
+
+struct Arguments {
+    CheckArguments check;
+    ModelsArguments models;
+    SimulateArguments simulate;
+};
+
+/// Declares the command line: one sub-command each for the members of `arguments`.
+void declare_arguments(CLI::App& app, Arguments& arguments);
+
+/// Makes `--contacts 4` one word, since `--contacts` may also stand alone before the model's name.
+std::vector<std::string> with_joined_counts(std::vector<std::string> arguments);
+
+/// One line about what is wrong with a command line, and what to do.
+std::string explain(const CLI::ParseError& error, const CLI::App& app);
+
+} // namespace graze

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "program/arguments.hpp"
+#include "program/program.hpp"
+
+namespace graze {
+
+/// Each command returns the exit code. @throws InputError
+int check_command(const CheckArguments& arguments, const Console& console);
+int models_command(const ModelsArguments& arguments, const Console& console);
+int simulate_command(const SimulateArguments& arguments, const Console& console);
+
+/// Hands a table to the user. @throws InputError when it cannot be written
+void deliver(const Table& table, const OutputArguments& output, const JsonObject& heading, const Console& console);
+/// Throws when standard output has not taken what was written to it.
+void require_delivered(const Console& console);
+
+} // namespace graze

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "graze/model/model.hpp"
+#include "program/table.hpp"
+
+#include <string>
+
+namespace graze {
+
+/// Everything in a model that has a name, one row each: item, name, value, unit, text.
+Table describe_in_table(const Model& model);
+/// The same for people.
+std::string describe(const Model& model);
+
+/// Values of all parameters, the dependent ones too, in the order of the model.
+std::vector<double> all_parameter_values(const Model& model);
+
+} // namespace graze

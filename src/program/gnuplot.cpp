@@ -1,0 +1,367 @@
+#include "program/gnuplot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+// Lengths are pixels of a picture at 96 per inch.
+constexpr double history_width = 480, history_height = 125, history_gap = 14;
+constexpr double smallest_portrait = 230, largest_portrait = 320, portrait_gap = 62;
+constexpr double left_margin = 84, bottom_margin = 52, top_margin = 34, right_margin = 18, column_gap = 96;
+constexpr double label_distance = 62, pixels_of_letter = 6.4, pixels_of_tic = 75;
+constexpr double invisible = 2e-4; ///< of a panel's size
+
+/// What gnuplot's enhanced text would take for markup is taken as it stands; for double quotes.
+std::string plain(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        if (std::string_view("_^{}@&~\\").find(c) != std::string_view::npos)
+            result += c == '\\' ? "\\\\\\" : "\\\\";
+        if (c == '"')
+            result += '\\';
+        result += c == '\n' ? ' ' : c;
+    }
+    return result;
+}
+
+std::string quoted(const std::string& path) {
+    std::string result = "'";
+    for (const char c : path)
+        result += c == '\'' ? "''" : std::string(1, c);
+    return result + "'";
+}
+
+/// A unit such as m/s^2, with raised exponents.
+std::string unit_text(const std::string& unit) {
+    std::string result;
+    for (std::size_t i = 0; i < unit.size(); ++i) {
+        if (unit[i] != '^') {
+            result += plain(std::string(1, unit[i]));
+            continue;
+        }
+        std::size_t end = i + 1;
+        while (end < unit.size() &&
+               (std::isdigit(static_cast<unsigned char>(unit[end])) != 0 || unit[end] == '-' || unit[end] == '.'))
+            ++end;
+        result += "^{" + unit.substr(i + 1, end - i - 1) + '}';
+        i = end - 1;
+    }
+    return result;
+}
+
+/// A name such as x_nd or q1, with its index lowered; expressions stay as they are.
+std::string name_text(const std::string& name) {
+    const bool word =
+        std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+    if (!word)
+        return plain(name);
+    std::size_t index = name.find('_');
+    std::size_t stem = index;
+    if (index == std::string::npos) {
+        stem = index = name.find_last_not_of("0123456789") + 1;
+    } else {
+        ++index;
+    }
+    if (stem == 0 || index >= name.size())
+        return fmt::format("{{/:Italic {}}}", plain(name));
+    return fmt::format("{{/:Italic {}}}_{{{}}}", plain(name.substr(0, stem)), plain(name.substr(index)));
+}
+
+std::string with_unit(const std::string& label, const std::string& unit) {
+    return unit.empty() ? label : fmt::format("{} ({})", label, unit_text(unit));
+}
+
+/// The documentation of a quantity, up to the first remark.
+std::string short_text(const RequestedQuantity& quantity) {
+    return quantity.text.substr(0, quantity.text.find_first_of(";,("));
+}
+
+/// Breaks a text into two lines that fit; empty when it does not.
+std::string in_two_lines(const std::string& text, std::size_t letters) {
+    if (text.size() <= letters)
+        return text;
+    for (std::size_t half = text.size() / 2, away = 0; away <= half; ++away)
+        for (const std::size_t at : {half - away, half + away})
+            if (at < text.size() && text[at] == ' ' && at <= letters && text.size() - at - 1 <= letters)
+                return text.substr(0, at) + '\n' + text.substr(at + 1);
+    return "";
+}
+
+/// The same for double quotes, each line as plain text.
+std::string lines(const std::string& text) {
+    const std::size_t end = text.find('\n');
+    return end == std::string::npos ? plain(text) : plain(text.substr(0, end)) + "\\n" + plain(text.substr(end + 1));
+}
+
+std::string number(double value) {
+    return fmt::format("{:.10g}", value);
+}
+
+} // namespace
+
+GnuplotScript::GnuplotScript(const PlotRecorder& recorder) : recorder_(&recorder) {
+    make_panels();
+    place_panels();
+    choose_labels();
+    for (const PlotRecorder::Jump& jump : recorder.jumps())
+        has_marks_ = has_marks_ || jump.marked;
+    for (Panel& panel : panels_)
+        write_data(panel);
+}
+
+void GnuplotScript::make_panels() {
+    const PlotContents& contents = recorder_->contents();
+    for (const std::size_t column : contents.histories) {
+        Panel panel;
+        panel.x.is_time = true;
+        panel.y.column = column;
+        panel.name = fmt::format("history{}", panels_.size() + 1);
+        panel.x_labels = column == contents.histories.back() && panels_.size() + 1 == contents.histories.size();
+        panels_.push_back(panel);
+    }
+    for (std::size_t i = 0; i < contents.portraits.size(); ++i) {
+        Panel panel;
+        panel.x.column = contents.portraits[i].first;
+        panel.y.column = contents.portraits[i].second;
+        panel.name = fmt::format("portrait{}", i + 1);
+        panels_.push_back(panel);
+    }
+}
+
+void GnuplotScript::place_panels() {
+    const auto histories = static_cast<double>(recorder_->contents().histories.size());
+    const auto portraits = static_cast<double>(recorder_->contents().portraits.size());
+    double inner = histories > 0 ? histories * history_height + (histories - 1) * history_gap : 0;
+    const double gaps = (portraits - 1) * portrait_gap;
+    const double side = portraits > 0 ? std::clamp((inner - gaps) / portraits, smallest_portrait, largest_portrait) : 0;
+    if (portraits > 0)
+        inner = std::max(inner, portraits * side + gaps);
+    const double portrait_height = portraits > 0 ? (inner - gaps) / portraits : 0;
+    const double row = histories > 0 ? (inner - (histories - 1) * history_gap) / histories : 0;
+    height_ = inner + top_margin + bottom_margin;
+    double right = left_margin;
+    if (histories > 0)
+        right += history_width + (portraits > 0 ? column_gap : 0);
+    width_ = right + side + right_margin;
+    double top = height_ - top_margin, portrait_top = top;
+    for (Panel& panel : panels_) {
+        double& next = panel.x.is_time ? top : portrait_top;
+        panel.left = panel.x.is_time ? left_margin : right;
+        panel.width = panel.x.is_time ? history_width : side;
+        panel.height = panel.x.is_time ? row : std::min(portrait_height, 1.4 * side);
+        panel.bottom = next - panel.height;
+        next = panel.bottom - (panel.x.is_time ? history_gap : portrait_gap + portrait_height - panel.height);
+        panel.x_axis = axis_of(panel.x, static_cast<int>(panel.width / pixels_of_tic), panel.x.is_time ? 0 : 0.05);
+        panel.y_axis = axis_of(panel.y, std::max(2, static_cast<int>(panel.height / 35)), 0.08);
+    }
+}
+
+/// Where the solution ends in a singularity some states grow without bounds: the last moments are left to run out
+/// of the picture.
+Axis GnuplotScript::axis_of(const Coordinate& coordinate, int tics, double margin) const {
+    const auto& arcs = recorder_->arcs();
+    if (arcs.empty())
+        return {};
+    const double start = arcs.front().times.front(), end = arcs.back().times.back();
+    if (coordinate.is_time)
+        return axis_for(start, recorder_->singularity().value_or(end), tics, recorder_->singularity() ? 0.01 : margin);
+    const double last = recorder_->singularity() ? end - 0.005 * (end - start) : end;
+    double least = std::numeric_limits<double>::infinity(), greatest = -least;
+    const std::size_t columns = recorder_->contents().columns.size();
+    for (const PlotRecorder::Arc& arc : arcs)
+        for (std::size_t i = 0; i < arc.times.size() && arc.times[i] <= last; ++i) {
+            const double value = arc.values[i * columns + coordinate.column];
+            if (std::isfinite(value)) {
+                least = std::min(least, value);
+                greatest = std::max(greatest, value);
+            }
+        }
+    return axis_for(least, greatest, tics, margin);
+}
+
+/// Words where they fit everywhere, otherwise names.
+void GnuplotScript::choose_labels() {
+    long_labels_ = true;
+    for (const Panel& panel : panels_) {
+        long_labels_ = long_labels_ && !label(panel.y, panel.height + history_gap).empty();
+        if (!panel.x.is_time)
+            long_labels_ = long_labels_ && !label(panel.x, panel.width).empty();
+    }
+}
+
+std::string GnuplotScript::label(const Coordinate& coordinate, double room) const {
+    if (coordinate.is_time)
+        return with_unit("time", recorder_->time_unit());
+    const RequestedQuantity& quantity = recorder_->contents().columns[coordinate.column];
+    if (!long_labels_)
+        return with_unit(name_text(quantity.name), quantity.unit);
+    const auto letters = static_cast<std::size_t>(room / pixels_of_letter);
+    const std::string words = short_text(quantity);
+    const std::string broken =
+        in_two_lines(words + std::string(quantity.unit.empty() ? 0 : quantity.unit.size() + 3, '#'), letters);
+    if (words.empty() || broken.empty())
+        return "";
+    return with_unit(lines(broken.substr(0, broken.find('#'))), quantity.unit);
+}
+
+void GnuplotScript::write_curve(const Panel& panel) {
+    const std::size_t columns = recorder_->contents().columns.size();
+    const double width = panel.x_axis.high - panel.x_axis.low, height = panel.y_axis.high - panel.y_axis.low;
+    Polyline line;
+    const auto flush = [&] {
+        for (const PlanePoint& point : simplified(line, width, height, invisible))
+            write_point(point);
+        if (!line.empty())
+            data_ += '\n';
+        line.clear();
+    };
+    for (const PlotRecorder::Arc& arc : recorder_->arcs()) {
+        for (std::size_t i = 0; i < arc.times.size(); ++i) {
+            const double* values = &arc.values[i * columns];
+            const PlanePoint point{value(panel.x, arc.times[i], values), value(panel.y, arc.times[i], values)};
+            // A phase that begins anew, or a quantity without a value, interrupts the line.
+            const bool wraps =
+                !line.empty() && ((period(panel.x) > 0 && std::abs(point.x - line.back().x) > period(panel.x) / 2) ||
+                                  (period(panel.y) > 0 && std::abs(point.y - line.back().y) > period(panel.y) / 2));
+            const bool finite = std::isfinite(point.x) && std::isfinite(point.y);
+            if (wraps || !finite)
+                flush();
+            if (finite)
+                line.push_back(point);
+        }
+        flush();
+    }
+}
+
+/// Starts a block of data that `commands` draws in the given style, unless it stays empty.
+void GnuplotScript::begin_block(Panel& panel, const char* name, const char* style) {
+    block_ = fmt::format("${}_{}", panel.name, name);
+    block_start_ = data_.size();
+    block_style_ = style;
+}
+
+void GnuplotScript::end_block(Panel& panel) {
+    if (data_.size() == block_start_)
+        return;
+    data_.insert(block_start_, block_ + " << end\n");
+    data_ += "end\n";
+    panel.plots.push_back(block_ + " with " + block_style_);
+}
+
+void GnuplotScript::write_point(PlanePoint point) {
+    data_ += fmt::format("{} {}\n", number(point.x), number(point.y));
+}
+
+void GnuplotScript::write_data(Panel& panel) {
+    const auto point = [&](double time, const std::vector<double>& values) {
+        return PlanePoint{value(panel.x, time, values.data()), value(panel.y, time, values.data())};
+    };
+    begin_block(panel, "jumps", "lines linestyle 2");
+    const double width = panel.x_axis.high - panel.x_axis.low, height = panel.y_axis.high - panel.y_axis.low;
+    const bool cyclic = period(panel.x) > 0 || period(panel.y) > 0;
+    for (const PlotRecorder::Jump& jump : recorder_->jumps()) {
+        const PlanePoint before = point(jump.time, jump.before), after = point(jump.time, jump.after);
+        if (!cyclic && std::hypot((after.x - before.x) / width, (after.y - before.y) / height) > invisible) {
+            write_point(before);
+            write_point(after);
+            data_ += '\n';
+        }
+    }
+    end_block(panel);
+    begin_block(panel, "curve", "lines linestyle 1");
+    write_curve(panel);
+    end_block(panel);
+    begin_block(panel, "contacts", "points linestyle 3");
+    for (const PlotRecorder::Jump& jump : recorder_->jumps()) {
+        if (!jump.marked)
+            continue;
+        const PlanePoint before = point(jump.time, jump.before), after = point(jump.time, jump.after);
+        write_point(before);
+        if (after.x != before.x || after.y != before.y)
+            write_point(after);
+    }
+    end_block(panel);
+    begin_block(panel, "sections", "points linestyle 4");
+    for (const PlotRecorder::Point& passage : recorder_->passages())
+        write_point(point(passage.time, passage.values));
+    end_block(panel);
+}
+
+std::string GnuplotScript::commands(const Panel& panel) const {
+    const double label_x = (panel.left - label_distance) / width_;
+    std::string text = fmt::format("\nset lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\n"
+                                   "set tmargin at screen {}\n",
+                                   number(panel.left / width_), number((panel.left + panel.width) / width_),
+                                   number(panel.bottom / height_), number((panel.bottom + panel.height) / height_));
+    text += fmt::format("set xrange [{}:{}]\nset xtics {}\n", number(panel.x_axis.low), number(panel.x_axis.high),
+                        number(panel.x_axis.tic));
+    text += fmt::format("set yrange [{}:{}]\nset ytics {}\n", number(panel.y_axis.low), number(panel.y_axis.high),
+                        number(panel.y_axis.tic));
+    text += panel.x_labels ? "set format x \"%g\"\n" : "set format x \"\"\n";
+    text += fmt::format("set label 1 \"{}\" at screen {},{} center rotate by 90\n",
+                        label(panel.y, panel.height + history_gap), number(label_x),
+                        number((panel.bottom + panel.height / 2) / height_));
+    text += panel.x_labels ? fmt::format("set xlabel \"{}\"\n", label(panel.x, panel.width)) : "unset xlabel\n";
+    if (panel.x.is_time && recorder_->singularity())
+        text += fmt::format("set arrow 1 from {0}, graph 0 to {0}, graph 1 nohead linestyle 2\n",
+                            number(*recorder_->singularity()));
+    else
+        text += "unset arrow 1\n";
+    text += panel.plots.empty() ? "plot NaN\n" : fmt::format("plot {}\n", fmt::join(panel.plots, ", "));
+    return text;
+}
+
+std::string GnuplotScript::legend() const {
+    std::string text;
+    double x = panels_.front().left + 6;
+    const double y = (height_ - top_margin / 2) / height_;
+    const auto entry = [&](int index, const char* name, const char* mark) {
+        text += fmt::format("set label {} \"{}\" at screen {},{} left point {} offset 0.8,0\n", index, name,
+                            number(x / width_), number(y), mark);
+        x += 110;
+    };
+    if (has_marks_)
+        entry(2, "contact", "linestyle 3");
+    if (!recorder_->passages().empty())
+        entry(3, "section", "linestyle 4");
+    return text;
+}
+
+std::string GnuplotScript::text(const std::string& ending, const std::string& output) const {
+    std::string text = "# Drawn by gnuplot; to change the picture, change this file and run gnuplot on it.\n";
+    const auto pixels = [](double length) { return static_cast<int>(std::lround(length)); };
+    if (ending == "svg")
+        text += fmt::format("set terminal svg size {},{} enhanced font \"Arial,12\" background \"white\"\n",
+                            pixels(width_), pixels(height_));
+    else if (ending == "png")
+        text += fmt::format(
+            "set terminal pngcairo size {},{} enhanced font \"Arial,10\" fontscale 2 linewidth 2 pointscale 2\n",
+            pixels(2 * width_), pixels(2 * height_));
+    else
+        text += fmt::format("set terminal pdfcairo size {:.4f}in,{:.4f}in enhanced font \"Arial,9\" linewidth 1\n",
+                            width_ / 96, height_ / 96);
+    text += fmt::format("set output {}\n\n", quoted(output));
+    text += data_;
+    text += "\nset style line 1 linecolor rgb \"#1f4e8c\" linewidth 1.2\n"
+            "set style line 2 linecolor rgb \"#808080\" linewidth 0.7 dashtype (4, 3)\n"
+            "set style line 3 linecolor rgb \"black\" pointtype 7 pointsize 0.35\n"
+            "set style line 4 linecolor rgb \"#b22222\" pointtype 6 pointsize 0.8 linewidth 1.1\n"
+            "set border linewidth 0.8\nset tics in scale 0.6\nunset key\n"
+            "set format y \"%g\"\nset multiplot\n";
+    text += legend();
+    for (std::size_t i = 0; i < panels_.size(); ++i) {
+        text += commands(panels_[i]);
+        if (i == 0)
+            text += "unset label 2\nunset label 3\n";
+    }
+    return text + "unset multiplot\nunset output\n";
+}
+
+} // namespace graze

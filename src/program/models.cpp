@@ -1,0 +1,85 @@
+#include "graze/model/catalogue.hpp"
+#include "graze/model/microbeam.hpp"
+#include "graze/model/model_file.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "program/commands.hpp"
+#include "program/describe.hpp"
+#include "program/output_file.hpp"
+#include "program/values.hpp"
+
+#include <fmt/format.h>
+
+namespace graze {
+
+namespace {
+
+constexpr std::string_view family = "microbeam";
+
+bool asks_for_family(const ModelsArguments& arguments) {
+    return arguments.beam_modes || arguments.points || !arguments.quadrature.empty();
+}
+
+Model family_member(const ModelsArguments& arguments) {
+    if (arguments.name != family)
+        throw InputError("--beam-modes, --quadrature and --points choose a member of the microbeam family",
+                         "write graze models microbeam --beam-modes 9");
+    MicrobeamOptions options;
+    options.modes = arguments.beam_modes.value_or(options.modes);
+    options.points = arguments.points.value_or(options.points);
+    if (arguments.quadrature == "gauss")
+        options.quadrature = Quadrature::gauss;
+    else if (!arguments.quadrature.empty() && arguments.quadrature != "simpson")
+        throw InputError({"--quadrature", 0, 0}, fmt::format("there is no rule '{}'", arguments.quadrature),
+                         name_advice(arguments.quadrature, {"simpson", "gauss"}, ""));
+    return microbeam(options);
+}
+
+/// The model's file, as it is shipped where that is possible: with its comments.
+std::string file_text(const ModelsArguments& arguments) {
+    if (asks_for_family(arguments))
+        return write_model(family_member(arguments));
+    if (const auto entry = find_in_catalogue(arguments.name))
+        return entry->text;
+    return write_model(load_program_model(arguments.name));
+}
+
+void list(const ModelsArguments& arguments, const Console& console) {
+    Table table({{"name", ""}, {"summary", ""}});
+    bool has_family = false;
+    for (const CatalogueEntry& entry : catalogue()) {
+        table.add(entry.name);
+        table.add(entry.summary);
+        has_family = has_family || entry.name == family;
+    }
+    if (!has_family) {
+        const std::string text = microbeam().text;
+        table.add(family);
+        table.add(std::string_view(text).substr(0, text.find(". ")));
+    }
+    deliver(table, arguments.output, {}, console);
+}
+
+} // namespace
+
+int models_command(const ModelsArguments& arguments, const Console& console) {
+    if (arguments.name.empty()) {
+        if (arguments.show || !arguments.file.empty() || asks_for_family(arguments))
+            throw InputError("the model's name is missing", "graze models lists the names");
+        list(arguments, console);
+        return exit_success;
+    }
+    if (!arguments.file.empty())
+        write_file(arguments.file, file_text(arguments));
+    if (arguments.show) {
+        console.out << file_text(arguments);
+    } else if (arguments.file.empty()) {
+        const Model model = asks_for_family(arguments) ? family_member(arguments) : load_program_model(arguments.name);
+        if (arguments.output.format == TableFormat::table)
+            console.out << describe(model);
+        else
+            deliver(describe_in_table(model), arguments.output, {}, console);
+    }
+    return exit_success;
+}
+
+} // namespace graze

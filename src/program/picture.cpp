@@ -1,0 +1,44 @@
+#include "program/picture.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "program/process.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+namespace graze {
+
+std::string picture_ending(const std::string& path, const std::string& option, const std::vector<std::string>& known) {
+    std::string ending = std::filesystem::path(path).extension().string();
+    ending.erase(0, 1);
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (std::find(known.begin(), known.end(), ending) == known.end())
+        throw InputError({option, 0, 0}, fmt::format("'{}' does not say what kind of picture to draw", path),
+                         fmt::format("let the name end in .{}", fmt::join(known, ", .")));
+    return ending;
+}
+
+std::string require_drawing_program(const std::string& name, const std::string& remedy) {
+    const auto path = find_program(name);
+    if (!path)
+        throw InputError(fmt::format("the program '{}', which draws pictures, is not on the PATH", name), remedy);
+    return *path;
+}
+
+std::string one_line(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        const bool blank = std::isspace(static_cast<unsigned char>(c)) != 0;
+        if (blank && (result.empty() || result.back() == ' '))
+            continue;
+        result += blank ? ' ' : c;
+    }
+    if (!result.empty() && result.back() == ' ')
+        result.pop_back();
+    return result;
+}
+
+} // namespace graze

@@ -1,0 +1,119 @@
+#include "program/plot.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/transform.hpp"
+#include "program/gnuplot.hpp"
+#include "program/output_file.hpp"
+#include "program/picture.hpp"
+#include "program/process.hpp"
+#include "program/values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t most_default_histories = 6;
+
+bool is_plain(const State& state) {
+    return !state.period && !state.drifting;
+}
+
+std::size_t column_of(PlotContents& contents, RequestedQuantity quantity) {
+    const auto known = std::find_if(contents.columns.begin(), contents.columns.end(),
+                                    [&](const RequestedQuantity& other) { return other.name == quantity.name; });
+    if (known != contents.columns.end())
+        return static_cast<std::size_t>(known - contents.columns.begin());
+    contents.columns.push_back(std::move(quantity));
+    return contents.columns.size() - 1;
+}
+
+/// A displacement and its velocity: the first plain state whose rate is another one, or else the first two.
+std::vector<std::string> default_portrait(const Model& model) {
+    std::vector<std::string> plain;
+    for (std::size_t i = 0; i < model.states.size(); ++i) {
+        if (!is_plain(model.states[i]))
+            continue;
+        plain.push_back(model.states[i].name);
+        const Expression rate = model.expand(model.modes[model.initial_mode].rates[i]);
+        if (!rate.is_symbol())
+            continue;
+        const auto velocity = model.find_state(rate.name());
+        if (velocity && *velocity != i && is_plain(model.states[*velocity]))
+            return {model.states[i].name, model.states[*velocity].name};
+    }
+    plain.resize(std::min<std::size_t>(plain.size(), 2));
+    return plain.size() == 2 ? plain : std::vector<std::string>{};
+}
+
+/// Whether an event depends on nothing but phases: a switch that a clock operates, not something met by the motion.
+bool is_clock(const Model& model, const Event& event) {
+    const std::vector<Expression> symbols = symbols_of({{model.expand(event.function)}});
+    return std::none_of(symbols.begin(), symbols.end(), [&](const Expression& symbol) {
+        const auto state = model.find_state(symbol.name());
+        return state && !model.states[*state].period;
+    });
+}
+
+void choose_panels(const Model& model, const SimulateArguments& arguments, PlotContents& contents) {
+    std::vector<std::string> histories = arguments.quantities;
+    if (histories.empty())
+        for (const State& state : model.states)
+            if (is_plain(state) && histories.size() < most_default_histories)
+                histories.push_back(state.name);
+    for (const std::string& text : histories)
+        contents.histories.push_back(column_of(contents, requested_quantity(model, text, "--quantity")));
+    std::vector<std::string> pairs = split_list(arguments.portraits);
+    if (pairs.empty())
+        pairs = default_portrait(model);
+    if (pairs.size() % 2 != 0)
+        throw InputError({"--portrait", 0, 0}, "a phase portrait needs two quantities",
+                         "write them as X,Y, for example --portrait q,v");
+    for (std::size_t i = 0; i < pairs.size(); i += 2) {
+        const std::size_t x = column_of(contents, requested_quantity(model, pairs[i], "--portrait"));
+        const std::size_t y = column_of(contents, requested_quantity(model, pairs[i + 1], "--portrait"));
+        contents.portraits.emplace_back(x, y);
+    }
+    if (contents.histories.empty() && contents.portraits.empty())
+        throw InputError("there is nothing to draw: all states are cyclic or drifting",
+                         "choose what to draw by --quantity or --portrait");
+}
+
+} // namespace
+
+PlotRequest plot_request(const Model& model, const SimulateArguments& arguments, const std::vector<bool>& marked) {
+    PlotRequest request;
+    request.path = arguments.plot;
+    request.data_path = arguments.plot_data;
+    request.ending = picture_ending(request.path, "--plot", {"svg", "png", "pdf"});
+    request.gnuplot = require_drawing_program("gnuplot", "install gnuplot (Debian: apt-get install gnuplot-nox)");
+    require_writable(request.path);
+    if (!request.data_path.empty())
+        require_writable(request.data_path);
+    choose_panels(model, arguments, request.contents);
+    request.contents.marked = marked;
+    if (arguments.events.empty())
+        for (std::size_t i = 0; i < model.events.size(); ++i)
+            request.contents.marked[i] =
+                model.events[i].kind == EventKind::barrier && !is_clock(model, model.events[i]);
+    request.contents.sections = arguments.sections.size();
+    return request;
+}
+
+void draw_plot(const PlotRequest& request, const PlotRecorder& recorder) {
+    const GnuplotScript script(recorder);
+    if (!request.data_path.empty())
+        write_file(request.data_path, script.text(request.ending, request.path));
+    FileReplacement file(request.path);
+    const ProcessResult result =
+        run_process({request.gnuplot, "-"}, script.text(request.ending, file.temporary_path()));
+    if (result.status != 0)
+        throw InputError(fmt::format("gnuplot could not draw '{}': {}", request.path, one_line(result.output)),
+                         "keep its commands by --plot-data FILE and run gnuplot FILE");
+    file.commit();
+}
+
+} // namespace graze

@@ -1,0 +1,57 @@
+#include "program/program.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "program/arguments.hpp"
+#include "program/commands.hpp"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include <algorithm>
+#include <exception>
+
+namespace graze {
+
+namespace {
+
+int dispatch(std::span<const std::string> words, const Console& console) {
+    Arguments arguments;
+    CLI::App app("", "graze");
+    app.set_version_flag("--version", "graze " GRAZE_VERSION, "Print the version");
+    declare_arguments(app, arguments);
+    std::vector<std::string> reversed = with_joined_counts({words.begin(), words.end()});
+    std::reverse(reversed.begin(), reversed.end()); // as CLI11 wants them
+    try {
+        app.parse(reversed);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) {
+            app.exit(error, console.out, console.err);
+            return exit_success;
+        }
+        throw InputError(explain(error, app), "");
+    }
+    if (app.got_subcommand("check"))
+        return check_command(arguments.check, console);
+    if (app.got_subcommand("models"))
+        return models_command(arguments.models, console);
+    return simulate_command(arguments.simulate, console);
+}
+
+} // namespace
+
+int run_program(std::span<const std::string> arguments, const Console& console) {
+    try {
+        const int code = dispatch(arguments, console);
+        require_delivered(console);
+        return code;
+    } catch (const InputError& error) {
+        console.err << "graze: " << error.what() << '\n';
+        return exit_bad_input;
+    } catch (const std::exception& error) {
+        console.err << "graze: internal error: " << error.what()
+                    << "; please report it with the command and the model\n";
+        return exit_internal_error;
+    }
+}
+
+} // namespace graze

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <ostream>
+#include <span>
+#include <string>
+
+namespace graze {
+
+/// Where the program writes.
+struct Console {
+    std::ostream& out;     ///< results only
+    std::ostream& err;     ///< messages, outcome, progress
+    bool terminal = false; ///< whether `err` is a terminal, on which progress can be shown
+};
+
+/// Codes with which the program exits; see docs/errors.md. They do not change between versions.
+enum ExitCode : int {
+    exit_success = 0,
+    exit_internal_error = 1,
+    exit_bad_input = 2,
+    exit_irregular = 3, ///< the trajectory ended where it should not have; what was computed is written
+    exit_interrupted = 130,
+};
+
+/// The whole program, without a process around it.
+/// @param arguments without the program's name
+/// @return the exit code
+int run_program(std::span<const std::string> arguments, const Console& console);
+
+} // namespace graze

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "graze/model/model.hpp"
+#include "graze/symbolic/function.hpp"
+#include "program/table.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace graze {
+
+/// What a user wants to see of a state: a state, quantity, parameter or definition by its name, or an expression.
+struct RequestedQuantity {
+    std::string name, unit, text;
+    Expression value; ///< in states and independent parameters
+};
+
+/// @param option where it was asked for, for messages
+/// @throws InputError with the place when it is no expression
+RequestedQuantity requested_quantity(const Model& model, const std::string& text, const std::string& option);
+std::vector<RequestedQuantity> requested_quantities(const Model& model, const std::vector<std::string>& texts,
+                                                    const std::string& option);
+
+/// Evaluates quantities at states, for the model's present parameters.
+class QuantityEvaluator {
+public:
+    QuantityEvaluator(const Model& model, const std::vector<RequestedQuantity>& quantities);
+    /// Valid until the next call.
+    std::span<const double> operator()(std::span<const double> state);
+
+private:
+    Function function_;
+    std::size_t states_;
+    std::vector<double> inputs_, values_, work_;
+};
+
+/// The columns in which tables show a state: all states, then the quantities asked for.
+class StateColumns {
+public:
+    StateColumns(const Model& model, std::vector<RequestedQuantity> quantities);
+    /// @param suffix behind every name
+    void declare(std::vector<Table::Column>& columns, const std::string& suffix = {}) const;
+    void add(Table& table, std::span<const double> state);
+
+private:
+    std::vector<Table::Column> columns_;
+    QuantityEvaluator evaluate_;
+};
+
+} // namespace graze

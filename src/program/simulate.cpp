@@ -1,0 +1,318 @@
+#include "graze/symbolic/input_error.hpp"
+#include "graze/trajectory/recorder.hpp"
+#include "graze/trajectory/trajectory.hpp"
+#include "program/commands.hpp"
+#include "program/describe.hpp"
+#include "program/interrupt.hpp"
+#include "program/output_file.hpp"
+#include "program/plot.hpp"
+#include "program/run_control.hpp"
+#include "program/run_length.hpp"
+#include "program/table_recorder.hpp"
+#include "program/values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace graze {
+
+namespace {
+
+Model prepared_model(const SimulateArguments& arguments) {
+    Model model = load_program_model(arguments.model);
+    set_parameters(model, arguments.set);
+    set_initial_state(model, arguments.from);
+    if (!arguments.mode.empty())
+        model.set_initial_mode(arguments.mode);
+    return model;
+}
+
+SimulationOptions simulation_options(const Model& model, const SimulateArguments& arguments, TableKind kind) {
+    SimulationOptions options;
+    options.tolerance = arguments.tolerance;
+    options.order = arguments.order;
+    options.step_limit = arguments.steps;
+    options.minima = kind == TableKind::minima;
+    if (!arguments.largest_step.empty())
+        options.largest_step = positive_value_of(model, arguments.largest_step, "--largest-step");
+    options.validate();
+    return options;
+}
+
+/// The table that the options imply, or that is asked for by its name.
+TableKind chosen_table(const SimulateArguments& arguments) {
+    if (!arguments.table.empty()) {
+        if (const auto kind = table_kind(arguments.table))
+            return *kind;
+        throw InputError({"--table", 0, 0}, fmt::format("there is no table '{}'", arguments.table),
+                         name_advice(arguments.table, table_kind_names(), ""));
+    }
+    std::vector<TableKind> implied;
+    if (!arguments.sections.empty())
+        implied.push_back(TableKind::sections);
+    if (!arguments.extrema.empty())
+        implied.push_back(TableKind::extrema);
+    if (arguments.minima)
+        implied.push_back(TableKind::minima);
+    if (!arguments.derivatives.empty())
+        implied.push_back(TableKind::derivatives);
+    if (arguments.contacts || (arguments.contact_count && implied.empty()))
+        implied.push_back(TableKind::contacts);
+    if (implied.size() > 1)
+        throw InputError("these options ask for several tables", "choose one by --table, for example --table contacts");
+    return implied.empty() ? TableKind::samples : implied.front();
+}
+
+/// A picture alone is what most want who ask for one; a table comes with it when something is said about it.
+bool wants_table(const SimulateArguments& arguments, bool output_options) {
+    return arguments.plot.empty() || output_options || !arguments.table.empty() || !arguments.output.file.empty();
+}
+
+std::vector<bool> chosen_events(const Model& model, const std::vector<std::string>& names) {
+    std::vector<bool> chosen(model.events.size(), names.empty());
+    for (const std::string& name : split_list(names)) {
+        const auto index = model.find_event(name);
+        if (!index) {
+            std::vector<std::string> known;
+            for (const Event& event : model.events)
+                known.push_back(event.name);
+            throw InputError({"--event", 0, 0}, fmt::format("the model has no event '{}'", name),
+                             name_advice(name, known, "it has none"));
+        }
+        chosen[*index] = true;
+    }
+    return chosen;
+}
+
+std::vector<std::string> chosen_directions(const Model& model, const SimulateArguments& arguments, TableKind kind) {
+    if (kind != TableKind::derivatives)
+        return {};
+    std::vector<std::string> known, chosen = split_list(arguments.derivatives);
+    for (const State& state : model.states)
+        known.push_back(state.name);
+    for (const Expression& symbol : model.parameter_symbols())
+        known.push_back(symbol.name());
+    if (chosen.empty() || chosen == std::vector<std::string>{"all"})
+        return known;
+    for (const std::string& name : chosen)
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            throw InputError({"--derivatives", 0, 0},
+                             model.find_parameter(name) ? fmt::format("the parameter '{}' follows from others", name)
+                                                        : fmt::format("the model has no state or parameter '{}'", name),
+                             name_advice(name, known, ""));
+    return chosen;
+}
+
+TableRequest table_request(const Model& model, const SimulateArguments& arguments) {
+    TableRequest request;
+    request.kind = chosen_table(arguments);
+    request.quantities = requested_quantities(model, arguments.quantities, "--quantity");
+    request.extrema = requested_quantities(model, arguments.extrema, "--extrema");
+    request.events = chosen_events(model, arguments.events);
+    request.directions = chosen_directions(model, arguments, request.kind);
+    if (arguments.samples && !arguments.every.empty())
+        throw InputError("--samples and --every cannot be given together", "choose one of them");
+    if (arguments.samples && *arguments.samples < 2)
+        throw InputError({"--samples", 0, 0}, fmt::format("{} rows are too few", *arguments.samples), "give 2 or more");
+    if (arguments.samples)
+        request.samples = static_cast<std::size_t>(*arguments.samples);
+    if (!arguments.every.empty())
+        request.every = positive_value_of(model, arguments.every, "--every");
+    if (request.kind == TableKind::extrema && request.extrema.empty())
+        throw InputError("nothing says whose extrema to show",
+                         "name expressions by --extrema, for example --extrema q");
+    return request;
+}
+
+/// Sections first, then extrema, then the one that counts periods: it ends the trajectory, and what happens at the same
+/// time is to be seen before.
+std::vector<Probe> probes_for(const Model& model, const SimulateArguments& arguments, TableRequest& request,
+                              const RunLength& length) {
+    std::vector<Probe> probes;
+    std::vector<std::string> sections = split_list(arguments.sections);
+    if (sections.empty() && request.kind == TableKind::sections)
+        for (const Section& section : model.sections)
+            sections.push_back(section.name);
+    if (sections.empty() && request.kind == TableKind::sections)
+        throw InputError(fmt::format("model '{}' has no sections", model.name),
+                         "declare one under [sections] in the model file");
+    for (const std::string& name : sections)
+        probes.push_back(section_probe(model, name));
+    request.first_extremum = probes.size();
+    for (const RequestedQuantity& extremum : request.extrema) {
+        Probe probe;
+        probe.name = extremum.name;
+        probe.kind = Probe::Kind::extremum;
+        probe.expression = extremum.value;
+        probes.push_back(std::move(probe));
+    }
+    if (length.period)
+        probes.push_back(*length.period);
+    return probes;
+}
+
+/// Seeds of derivatives in the directions of states and parameters.
+std::vector<double> unit_seeds(const Model& model, const std::vector<std::string>& names) {
+    std::vector<std::string> all;
+    for (const State& state : model.states)
+        all.push_back(state.name);
+    for (const Expression& symbol : model.parameter_symbols())
+        all.push_back(symbol.name());
+    std::vector<double> seeds;
+    for (const std::string& name : names)
+        for (const std::string& other : all)
+            seeds.push_back(name == other ? 1 : 0);
+    return seeds;
+}
+
+/// Everything that one run needs and leaves behind.
+class SimulateCommand {
+public:
+    SimulateCommand(const SimulateArguments& arguments, const Console& console)
+        : arguments_(arguments), console_(console), model_(prepared_model(arguments)),
+          request_(table_request(model_, arguments)), length_(run_length(model_, arguments)) {
+        check_outputs();
+        const SimulationOptions options = simulation_options(model_, arguments, request_.kind);
+        auto probes = probes_for(model_, arguments, request_, length_);
+        period_probe_ = length_.period ? std::optional(probes.size() - 1) : std::nullopt;
+        simulation_ = std::make_unique<Simulation>(model_, std::move(probes), std::vector<Expression>{}, options);
+        table_ = make_table_recorder(*simulation_, request_);
+        if (plot_)
+            curves_ = std::make_unique<PlotRecorder>(*simulation_, plot_->contents);
+    }
+
+    int run() {
+        compute();
+        table_->finish(*trajectory_);
+        if (wants_table_)
+            deliver(table_->table(), arguments_.output, heading(), console_);
+        const int code = report();
+        if (plot_) {
+            curves_->finish(*trajectory_);
+            if (!curves_->is_complete())
+                console_.err << "graze: warning: the run is too long for one picture, which shows only its beginning; "
+                                "use --skip and a shorter time\n";
+            draw_plot(*plot_, *curves_);
+        }
+        return code;
+    }
+
+private:
+    /// Before anything is computed that could be lost.
+    void check_outputs() {
+        wants_table_ = wants_table(arguments_, arguments_.output.format != TableFormat::table);
+        if (wants_table_ && !arguments_.output.file.empty())
+            require_writable(arguments_.output.file);
+        if (arguments_.plot.empty() && (!arguments_.plot_data.empty() || !arguments_.portraits.empty()))
+            throw InputError("--portrait and --plot-data say something about a picture that is not asked for",
+                             "add --plot FILE.svg");
+        if (!arguments_.plot.empty())
+            plot_ = plot_request(model_, arguments_, request_.events);
+    }
+
+    void compute() {
+        std::vector<Observer*> observers{table_.get()};
+        if (curves_)
+            observers.push_back(curves_.get());
+        Relay recorders(std::move(observers));
+        Progress progress(console_, arguments_.progress || console_.terminal);
+        RunControl control(recorders, progress, period_probe_, request_.events);
+        trajectory_ = std::make_unique<Trajectory>(*simulation_, model_.parameter_values(), control);
+        const LegEnd& first = length_.transient.empty() ? length_.shown : length_.transient;
+        const InterruptGuard guard;
+        trajectory_->start(model_.initial_state(), model_.initial_mode, 0, first.duration);
+        if (!request_.directions.empty())
+            trajectory_->carry_tangents(unit_seeds(model_, request_.directions), request_.directions.size());
+        JetSet jets(*simulation_, LaneKind::single);
+        if (!length_.transient.empty()) {
+            control.begin(length_.transient, 0, false);
+            graze::run(*trajectory_, jets);
+            const Ending ending = trajectory_->outcome().ending;
+            if (InterruptGuard::requested() || (ending != Ending::end_time && ending != Ending::stopped)) {
+                interrupted_ = InterruptGuard::requested();
+                return;
+            }
+            trajectory_->extend(trajectory_->time() + length_.shown.duration);
+        }
+        control.begin(length_.shown, trajectory_->time(), true);
+        table_->begin(*trajectory_, length_.shown.expected);
+        graze::run(*trajectory_, jets);
+        interrupted_ = InterruptGuard::requested();
+    }
+
+    std::string ending_name() const {
+        return interrupted_ ? "interrupted" : std::string(name_of(trajectory_->outcome().ending));
+    }
+
+    JsonObject heading() const {
+        JsonObject parameters, initial, outcome, heading;
+        const std::vector<double> values = all_parameter_values(model_);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            parameters.add(model_.parameters[i].name, values[i]);
+        const std::vector<double> states = model_.initial_state();
+        for (std::size_t i = 0; i < states.size(); ++i)
+            initial.add(model_.states[i].name, states[i]);
+        outcome.add("ending", ending_name());
+        outcome.add("time", trajectory_->outcome().time);
+        outcome.add("detail", trajectory_->outcome().detail);
+        heading.add("graze", GRAZE_VERSION);
+        heading.add("model", model_.name);
+        heading.add("parameters", parameters);
+        heading.add("initial_mode", model_.modes[model_.initial_mode].name);
+        heading.add("initial", initial);
+        heading.add("tolerance", simulation_->options().tolerance);
+        heading.add("order", simulation_->order());
+        heading.add("outcome", outcome);
+        return heading;
+    }
+
+    /// Says how the trajectory ended. Returns the exit code.
+    int report() const {
+        const Outcome& outcome = trajectory_->outcome();
+        const std::string unit = model_.time_unit.empty() ? "" : ' ' + model_.time_unit;
+        const bool regular = is_regular(outcome.ending);
+        const std::string when = fmt::format("at time {:.15g}{}", outcome.time, unit);
+        if (interrupted_)
+            console_.err << "graze: interrupted " << when << '\n';
+        else if (!regular)
+            console_.err << fmt::format("graze: {} {}: {}\n", name_of(outcome.ending), when, outcome.detail);
+        else if (outcome.ending == Ending::singular)
+            console_.err << fmt::format("graze: snap-through/singularity {}\n", when);
+        else if (!arguments_.quiet)
+            console_.err << fmt::format("graze: {} {}, {} steps\n", name_of(outcome.ending), when,
+                                        trajectory_->steps());
+        bool undefined = false;
+        if (request_.kind == TableKind::derivatives && !trajectory_->tangents_valid()) {
+            console_.err
+                << "graze: no derivatives exist after a contact without speed; start elsewhere, or end before it\n";
+            undefined = true;
+        } else if (const auto names = table_->table().incomplete_columns(); !names.empty()) {
+            console_.err << fmt::format("graze: warning: {} has no finite value in some rows, where cells are empty\n",
+                                        fmt::join(names, ", "));
+        }
+        return interrupted_ ? exit_interrupted : regular && !undefined ? exit_success : exit_irregular;
+    }
+
+    const SimulateArguments& arguments_;
+    const Console& console_;
+    Model model_;
+    TableRequest request_;
+    RunLength length_;
+    bool wants_table_ = true, interrupted_ = false;
+    std::optional<PlotRequest> plot_;
+    std::optional<std::size_t> period_probe_;
+    std::unique_ptr<Simulation> simulation_;
+    std::unique_ptr<TableRecorder> table_;
+    std::unique_ptr<PlotRecorder> curves_;
+    std::unique_ptr<Trajectory> trajectory_;
+};
+
+} // namespace
+
+int simulate_command(const SimulateArguments& arguments, const Console& console) {
+    return SimulateCommand(arguments, console).run();
+}
+
+} // namespace graze

@@ -1,0 +1,191 @@
+#include "program/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+void Table::add(double value) {
+    cells_.push_back({value, none});
+}
+
+void Table::add(std::string_view text) {
+    auto found = text_indices_.find(text);
+    if (found == text_indices_.end()) {
+        found = text_indices_.emplace(std::string(text), static_cast<std::uint32_t>(texts_.size())).first;
+        texts_.push_back(&found->first);
+    }
+    cells_.push_back({0, found->second});
+}
+
+bool Table::is_missing(std::size_t row, std::size_t column) const {
+    return !is_text(row, column) && !std::isfinite(number(row, column));
+}
+
+std::vector<std::string> Table::incomplete_columns() const {
+    std::vector<std::string> names;
+    for (std::size_t column = 0; column < columns_.size(); ++column)
+        for (std::size_t row = 0; row < rows(); ++row)
+            if (is_missing(row, column)) {
+                names.push_back(columns_[column].name);
+                break;
+            }
+    return names;
+}
+
+void Table::drop_odd_rows() {
+    const std::size_t width = columns_.size();
+    std::size_t kept = 0;
+    for (std::size_t row = 0; row < rows(); row += 2, ++kept)
+        for (std::size_t column = 0; column < width; ++column)
+            cells_[kept * width + column] = cells_[row * width + column];
+    cells_.resize(kept * width);
+}
+
+namespace {
+
+std::string number_text(double value, int digits) {
+    return fmt::format("{:.{}g}", value, digits);
+}
+
+std::string json_text(std::string_view text) {
+    std::string result = "\"";
+    for (const char c : text) {
+        const auto code = static_cast<unsigned char>(c);
+        if (c == '"' || c == '\\')
+            result += {'\\', c};
+        else if (c == '\n')
+            result += "\\n";
+        else if (code < 0x20)
+            result += fmt::format("\\u{:04x}", static_cast<unsigned>(code));
+        else
+            result += c;
+    }
+    return result + '"';
+}
+
+std::string json_number(double value, int digits) {
+    return std::isfinite(value) ? number_text(value, digits) : "null";
+}
+
+std::string csv_text(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos)
+        return text;
+    std::string result = "\"";
+    for (const char c : text)
+        result += c == '"' ? "\"\"" : std::string(1, c);
+    return result + '"';
+}
+
+std::string cell_text(const Table& table, std::size_t row, std::size_t column, int digits) {
+    if (table.is_text(row, column))
+        return table.text(row, column);
+    return table.is_missing(row, column) ? "" : number_text(table.number(row, column), digits);
+}
+
+/// Characters, not bytes, of UTF-8.
+std::size_t width_of(const std::string& text) {
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+std::string padded(const std::string& text, std::size_t width, bool right) {
+    const std::string blanks(width - std::min(width, width_of(text)), ' ');
+    return right ? blanks + text : text + blanks;
+}
+
+void write_csv(std::ostream& out, const Table& table, int digits) {
+    const std::size_t columns = table.columns().size();
+    for (std::size_t column = 0; column < columns; ++column)
+        out << (column > 0 ? "," : "") << csv_text(table.columns()[column].name);
+    out << '\n';
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        for (std::size_t column = 0; column < columns; ++column)
+            out << (column > 0 ? "," : "") << csv_text(cell_text(table, row, column, digits));
+        out << '\n';
+    }
+}
+
+void write_json(std::ostream& out, const Table& table, int digits, const JsonObject& heading) {
+    const std::size_t columns = table.columns().size();
+    out << '{' << heading.members() << (heading.members().empty() ? "" : ",") << "\n\"columns\":[";
+    for (std::size_t column = 0; column < columns; ++column)
+        out << (column > 0 ? "," : "") << json_text(table.columns()[column].name);
+    out << "],\n\"units\":[";
+    for (std::size_t column = 0; column < columns; ++column)
+        out << (column > 0 ? "," : "") << json_text(table.columns()[column].unit);
+    out << "],\n\"rows\":[";
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        out << (row > 0 ? ",\n[" : "\n[");
+        for (std::size_t column = 0; column < columns; ++column)
+            out << (column > 0 ? "," : "")
+                << (table.is_text(row, column) ? json_text(table.text(row, column))
+                                               : json_number(table.number(row, column), digits));
+        out << ']';
+    }
+    out << "]}\n";
+}
+
+void write_aligned(std::ostream& out, const Table& table, int digits) {
+    const std::size_t columns = table.columns().size();
+    std::vector<std::size_t> widths(columns);
+    std::vector<bool> right(columns, true);
+    bool units = false;
+    for (std::size_t column = 0; column < columns; ++column) {
+        const Table::Column& heading = table.columns()[column];
+        units = units || !heading.unit.empty();
+        widths[column] = std::max(width_of(heading.name), width_of(heading.unit));
+        for (std::size_t row = 0; row < table.rows(); ++row) {
+            widths[column] = std::max(widths[column], width_of(cell_text(table, row, column, digits)));
+            right[column] = right[column] && !table.is_text(row, column);
+        }
+    }
+    const auto write_line = [&](const auto& text_of) {
+        std::string line;
+        for (std::size_t column = 0; column < columns; ++column)
+            line += (column > 0 ? "  " : "") + padded(text_of(column), widths[column], right[column]);
+        line.erase(line.find_last_not_of(' ') + 1);
+        out << line << '\n';
+    };
+    write_line([&](std::size_t column) { return table.columns()[column].name; });
+    if (units)
+        write_line([&](std::size_t column) { return table.columns()[column].unit; });
+    for (std::size_t row = 0; row < table.rows(); ++row)
+        write_line([&](std::size_t column) { return cell_text(table, row, column, digits); });
+}
+
+} // namespace
+
+void JsonObject::begin(std::string_view name) {
+    members_ += (members_.empty() ? "" : ",\n") + json_text(name) + ':';
+}
+
+void JsonObject::add(std::string_view name, std::string_view text) {
+    begin(name);
+    members_ += json_text(text);
+}
+
+void JsonObject::add(std::string_view name, double number) {
+    begin(name);
+    members_ += json_number(number, std::numeric_limits<double>::max_digits10);
+}
+
+void JsonObject::add(std::string_view name, const JsonObject& object) {
+    begin(name);
+    members_ += '{' + object.members_ + '}';
+}
+
+void write_table(std::ostream& out, const Table& table, TableFormat format, int digits, const JsonObject& heading) {
+    switch (format) {
+    case TableFormat::table:
+        return write_aligned(out, table, digits);
+    case TableFormat::csv:
+        return write_csv(out, table, digits);
+    case TableFormat::json:
+        return write_json(out, table, digits, heading);
+    }
+}
+
+} // namespace graze

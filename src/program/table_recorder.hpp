@@ -1,0 +1,48 @@
+#pragma once
+
+#include "graze/trajectory/observer.hpp"
+#include "graze/trajectory/trajectory.hpp"
+#include "program/quantity.hpp"
+#include "program/table.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace graze {
+
+enum class TableKind { samples, contacts, sections, extrema, minima, derivatives, summary };
+
+std::optional<TableKind> table_kind(std::string_view name);
+std::vector<std::string> table_kind_names();
+
+/// Fills one table while a trajectory runs.
+class TableRecorder : public Observer {
+public:
+    /// The leg to be shown begins.
+    /// @param duration of it, if known
+    virtual void begin(const Trajectory&, std::optional<double>) {}
+    /// The trajectory has ended.
+    virtual void finish(const Trajectory&) {}
+    const Table& table() const { return table_; }
+
+protected:
+    Table table_;
+};
+
+/// What tables are made from.
+struct TableRequest {
+    TableKind kind = TableKind::samples;
+    std::vector<RequestedQuantity> quantities;
+    std::vector<RequestedQuantity> extrema; ///< of the extremum probes
+    std::size_t first_extremum = 0;         ///< probes before it are sections
+    std::vector<bool> events;               ///< which ones' contacts are shown
+    std::size_t samples = 500;
+    std::optional<double> every;         ///< distance of samples, instead of their number
+    std::vector<std::string> directions; ///< of derivatives: names of states and independent parameters
+};
+
+std::unique_ptr<TableRecorder> make_table_recorder(const Simulation& simulation, const TableRequest& request);
+
+} // namespace graze

@@ -1,0 +1,128 @@
+#include "program/values.hpp"
+
+#include "graze/model/catalogue.hpp"
+#include "graze/model/microbeam.hpp"
+#include "graze/symbolic/function.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/parser.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+std::string trimmed(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t\n");
+    if (first == std::string_view::npos)
+        return {};
+    return std::string(text.substr(first, text.find_last_not_of(" \t\n") - first + 1));
+}
+
+/// Whether the text is a number that is none, as programs print it.
+bool is_not_a_finite_number(std::string_view text) {
+    std::string word;
+    for (const char c : trimmed(text))
+        if (c != '+' && c != '-')
+            word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return word == "nan" || word == "inf" || word == "infinity";
+}
+
+double evaluate(const Model& model, std::string_view text, const Place& place) {
+    if (is_not_a_finite_number(text))
+        throw InputError(place, fmt::format("'{}' is not a finite number", trimmed(text)), "give a finite number");
+    Scope scope;
+    for (const Parameter& parameter : model.parameters)
+        scope.emplace(parameter.name, model.symbol(parameter.name));
+    const Expression expression = model.expand(parse_expression(*model.graph, text, scope, place));
+    const double value = Function(model.parameter_symbols(), {{expression}})(model.parameter_values())[0];
+    if (!std::isfinite(value))
+        throw InputError(place, fmt::format("'{}' has no finite value", trimmed(text)),
+                         "look for a division by zero, or a root or logarithm of a number that is not positive");
+    return value;
+}
+
+struct Assignment {
+    std::string name, text;
+    Place place; ///< of the text behind "="
+};
+
+Assignment parse_assignment(const std::string& item, const std::string& option, std::string_view what) {
+    const std::size_t equals = item.find('=');
+    if (equals == std::string::npos)
+        throw InputError({option, 0, 0}, fmt::format("'{}' sets nothing", item),
+                         fmt::format("write {}=VALUE; the model comes before the options", what));
+    Assignment result;
+    result.name = trimmed(std::string_view(item).substr(0, equals));
+    result.text = item.substr(equals + 1);
+    result.place = {fmt::format("{} {}", option, item), 1, static_cast<int>(equals) + 2};
+    return result;
+}
+
+} // namespace
+
+Model load_program_model(const std::string& name_or_path) {
+    if (name_or_path == "microbeam" && !find_in_catalogue(name_or_path))
+        return microbeam();
+    return load_model(name_or_path);
+}
+
+std::string name_advice(std::string_view name, const std::vector<std::string>& known, std::string_view none) {
+    if (known.empty())
+        return std::string(none);
+    const std::string nearest = nearest_name(name, known);
+    return nearest.empty() ? fmt::format("known are: {}", fmt::join(known, ", "))
+                           : fmt::format("did you mean '{}'?", nearest);
+}
+
+std::vector<std::string> split_list(const std::vector<std::string>& arguments) {
+    std::vector<std::string> items;
+    for (const std::string& argument : arguments)
+        for (std::size_t start = 0; start <= argument.size();) {
+            const std::size_t end = std::min(argument.find(',', start), argument.size());
+            if (std::string item = trimmed(std::string_view(argument).substr(start, end - start)); !item.empty())
+                items.push_back(std::move(item));
+            start = end + 1;
+        }
+    return items;
+}
+
+double value_of(const Model& model, std::string_view text, const std::string& option) {
+    return evaluate(model, text, {fmt::format("{} {}", option, text), 1, 1});
+}
+
+double positive_value_of(const Model& model, std::string_view text, const std::string& option) {
+    const double value = value_of(model, text, option);
+    if (!(value > 0))
+        throw InputError({option, 0, 0}, fmt::format("{} is not positive", value), "give a positive number");
+    return value;
+}
+
+void set_parameters(Model& model, const std::vector<std::string>& assignments) {
+    for (const std::string& item : split_list(assignments)) {
+        const Assignment assignment = parse_assignment(item, "--set", "PARAMETER");
+        if (!model.find_parameter(assignment.name) && model.find_state(assignment.name))
+            throw InputError({"--set", 0, 0}, fmt::format("'{}' is a state, not a parameter", assignment.name),
+                             fmt::format("choose where it starts by --from {}", item));
+        if (!model.find_parameter(assignment.name))
+            model.set_parameter(assignment.name, 0); // says which names there are
+        model.set_parameter(assignment.name, evaluate(model, assignment.text, assignment.place));
+    }
+}
+
+void set_initial_state(Model& model, const std::vector<std::string>& assignments) {
+    for (const std::string& item : split_list(assignments)) {
+        const Assignment assignment = parse_assignment(item, "--from", "STATE");
+        if (!model.find_state(assignment.name) && model.find_parameter(assignment.name))
+            throw InputError({"--from", 0, 0}, fmt::format("'{}' is a parameter, not a state", assignment.name),
+                             fmt::format("choose its value by --set {}", item));
+        if (!model.find_state(assignment.name))
+            model.set_initial(assignment.name, 0); // says which names there are
+        model.set_initial(assignment.name, evaluate(model, assignment.text, assignment.place));
+    }
+}
+
+} // namespace graze

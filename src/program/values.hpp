@@ -1,0 +1,32 @@
+#pragma once
+
+#include "graze/model/model.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace graze {
+
+/// A model by the name under which it is shipped, or from a file. @throws InputError
+Model load_program_model(const std::string& name_or_path);
+
+/// "did you mean 'x'?", or all that there is.
+std::string name_advice(std::string_view name, const std::vector<std::string>& known, std::string_view none);
+
+/// Splits lists such as "a, b" "c"; blanks around items are dropped, empty items too.
+std::vector<std::string> split_list(const std::vector<std::string>& arguments);
+
+/// Value of a number or expression in the model's parameters, at their present values.
+/// @param option where it was given, for messages
+/// @throws InputError when it is no expression or not finite
+double value_of(const Model& model, std::string_view text, const std::string& option);
+/// The same, and positive. @throws InputError
+double positive_value_of(const Model& model, std::string_view text, const std::string& option);
+
+/// Carries out `--set NAME=EXPRESSION ...`, one after the other. @throws InputError
+void set_parameters(Model& model, const std::vector<std::string>& assignments);
+/// Carries out `--from STATE=EXPRESSION ...`. @throws InputError
+void set_initial_state(Model& model, const std::vector<std::string>& assignments);
+
+} // namespace graze

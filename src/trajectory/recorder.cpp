@@ -1,0 +1,117 @@
+#include "graze/trajectory/recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+void Relay::step(const Step& step) {
+    for (Observer* observer : observers_)
+        observer->step(step);
+}
+
+void Relay::contact(const Contact& contact) {
+    for (Observer* observer : observers_)
+        observer->contact(contact);
+}
+
+void Relay::passage(const Passage& passage) {
+    for (Observer* observer : observers_)
+        observer->passage(passage);
+}
+
+void Relay::minimum(const StepMinimum& minimum) {
+    for (Observer* observer : observers_)
+        observer->minimum(minimum);
+}
+
+bool Relay::stop() {
+    return std::any_of(observers_.begin(), observers_.end(), [](Observer* observer) { return observer->stop(); });
+}
+
+void Recorder::contact(const Contact& contact) {
+    RecordedContact& record = contacts_.emplace_back();
+    record.contact = contact;
+    record.contact.before = record.contact.after = {};
+    record.before.assign(contact.before.begin(), contact.before.end());
+    record.after.assign(contact.after.begin(), contact.after.end());
+}
+
+void Recorder::passage(const Passage& passage) {
+    RecordedPassage& record = passages_.emplace_back();
+    record.passage = passage;
+    record.passage.state = {};
+    record.state.assign(passage.state.begin(), passage.state.end());
+}
+
+void Recorder::clear() {
+    contacts_.clear();
+    passages_.clear();
+}
+
+Sampler::Sampler(double start, double spacing, std::size_t count, std::vector<double> periods, Receiver receiver)
+    : start_(start), spacing_(spacing), count_(count), periods_(std::move(periods)), state_(periods_.size()),
+      receiver_(std::move(receiver)) {}
+
+void Sampler::step(const Step& step) {
+    for (; taken_ < count_; ++taken_) {
+        const double time = next();
+        const double s = time - step.start;
+        if (!(s <= step.length))
+            return;
+        for (std::size_t i = 0; i < state_.size(); ++i) {
+            state_[i] = step.state(i, std::max(s, 0.0));
+            if (periods_[i] > 0)
+                state_[i] -= std::floor(state_[i] / periods_[i]) * periods_[i];
+        }
+        receiver_(time, step.mode, state_);
+    }
+}
+
+void Sampler::coarsen() {
+    spacing_ *= 2;
+    taken_ = (taken_ + 1) / 2 - 1; // the present one is not counted yet
+}
+
+void ArcMinima::step(const Step& step) {
+    if (!begun_) {
+        begun_ = true;
+        mode_ = step.mode;
+        start_ = step.start;
+    }
+    end_ = step.start + step.length;
+}
+
+void ArcMinima::minimum(const StepMinimum& minimum) {
+    const auto known = std::find_if(current_.begin(), current_.end(),
+                                    [&](const ArcMinimum& other) { return other.event == minimum.event; });
+    ArcMinimum& entry = known == current_.end() ? current_.emplace_back() : *known;
+    const bool least = known == current_.end() || minimum.minimum.value < entry.value;
+    entry.lower_bound = known == current_.end() ? minimum.minimum.lower_bound
+                                                : std::min(entry.lower_bound, minimum.minimum.lower_bound);
+    entry.event = minimum.event;
+    if (least) {
+        entry.time = minimum.time;
+        entry.value = minimum.minimum.value;
+    }
+}
+
+void ArcMinima::contact(const Contact& contact) {
+    if (contact.kind != ContactKind::touch)
+        finish();
+}
+
+void ArcMinima::finish() {
+    for (ArcMinimum& entry : current_) {
+        entry.arc = arc_;
+        entry.mode = mode_;
+        entry.start = start_;
+        entry.end = end_;
+        receiver_(entry);
+    }
+    current_.clear();
+    arc_ += begun_ ? 1 : 0;
+    begun_ = false;
+}
+
+} // namespace graze
