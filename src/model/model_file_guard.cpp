@@ -34,7 +34,7 @@ public:
         while (at_ < text_.size()) {
             const char c = text_[at_];
             if (c == '"' || c == '\'') {
-                skip_string(c);
+                read_string();
                 continue;
             }
             if (c == '#') {
@@ -59,7 +59,19 @@ private:
         throw InputError(source_.place(at_), problem, remedy);
     }
 
-    /// Steps over the string that begins here.
+    /// Steps over the string that begins here. In the middle of a word the parser does not see a string at all.
+    void read_string() {
+        const std::size_t begin = at_;
+        const bool in_word =
+            begin > 0 && std::string_view(" \t\r\n=[{,\xbf").find(text_[begin - 1]) == std::string_view::npos;
+        skip_string(text_[begin]);
+        const std::string_view string = text_.substr(begin, at_ - begin);
+        if (in_word && !std::all_of(string.begin(), string.end(), is_ascii)) {
+            at_ = begin;
+            fail("a quote in the middle of a word", "close the string before it, or leave a blank");
+        }
+    }
+
     void skip_string(char quote) {
         const std::string long_quote(3, quote);
         const bool is_long = text_.substr(at_, 3) == long_quote;

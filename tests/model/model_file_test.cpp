@@ -390,6 +390,7 @@ TEST(ModelFile, RefusesNestingThatWouldExhaustTheStack) {
 TEST(ModelFile, RefusesCharactersThatTheParserCannotTake) {
     const auto text = [](const std::string& head) { return head + smooth_with("", ""); };
     expect_refused(text("n\u00e9 = 1\n"), 1, 2, "a character outside ASCII");
+    expect_refused(text("name = +\"\u00e9\"\n"), 1, 9, "a quote in the middle of a word");
     expect_refused(text("name = \"x\" \u00e9\n"), 1, 12, "a character outside ASCII");
     expect_refused(text("text = \"\"\"x \\\n  \u03b8\"\"\"\n"), 2, 3, "begins with a character outside ASCII");
     expect_refused(text("text = \"\"\"x \\\u00e9\"\"\"\n"), 1, 14, "begins with a character outside ASCII");
