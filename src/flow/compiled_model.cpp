@@ -42,10 +42,12 @@ void CompiledModel::compile_modes(std::span<const Expression> observed) {
         const Mode& mode = model_.modes[m];
         std::vector<Expression> outputs;
         CompiledMode compiled;
-        compiled.watched = mode.watched;
         for (const std::size_t event : mode.watched) {
-            outputs.push_back(model_.events[event].function);
             const Transition* transition = model_.find_transition(m, event);
+            if (!transition)
+                continue; // a section that leads nowhere: the motion passes through
+            outputs.push_back(model_.events[event].function);
+            compiled.watched.push_back(event);
             compiled.transitions.push_back(static_cast<std::size_t>(transition - model_.transitions.data()));
         }
         compiled.events = function_of(outputs);
@@ -59,8 +61,8 @@ void CompiledModel::compile_modes(std::span<const Expression> observed) {
 void CompiledModel::compile_jumps() {
     for (const Jump& jump : model_.jumps) {
         CompiledJump compiled;
-        const auto map = model_.expand(jump.map);
         const auto states = model_.state_symbols();
+        const auto map = jump.map.empty() ? states : model_.expand(jump.map); // the identity may be left empty
         compiled.identity = std::equal(map.begin(), map.end(), states.begin(), states.end());
         compiled.map = function_of(map);
         std::vector<std::vector<Expression>> columns;
