@@ -350,7 +350,7 @@ RootFinder::RootFinder(int highest_degree) : highest_degree_(std::max(highest_de
     stack_.reserve(stack_rows);
 }
 
-bool RootFinder::surely_positive(std::span<const double> c, double length, RootStart start) {
+RootFinder::Enclosure RootFinder::enclosure(std::span<const double> c, double length, RootStart start) {
     // With S_m = c_0 + ... + c_m h^m and x = s / h, summation by parts gives
     //   p(s) = sum_{m<n} S_m (x^m - x^{m+1}) + S_n x^n,
     // a convex combination: p is at least the least partial sum at h. (It is also what the nested bound
@@ -358,14 +358,19 @@ bool RootFinder::surely_positive(std::span<const double> c, double length, RootS
     // power, n u for the sums, 4 u for the coefficient itself.
     const std::size_t first = start == RootStart::deflate ? 1 : 0;
     const double share = unit_roundoff * static_cast<double>(2 * c.size() + 8);
-    double sum = 0, power = 1, least = infinity;
+    double sum = 0, size = 0, power = 1, least = infinity;
     for (std::size_t k = first; k < c.size(); ++k) {
-        const double term = c[k] * power;
-        sum += term - share * std::abs(term);
+        const double term = c[k] * power, magnitude = std::abs(term);
+        sum += term - share * magnitude;
+        size += magnitude;
         least = std::min(least, sum);
         power *= length;
     }
-    return least > 0 && least < infinity && std::abs(sum) < infinity && length > 0;
+    return {size < infinity && least < infinity ? least : -infinity, size};
+}
+
+bool RootFinder::surely_positive(std::span<const double> c, double length, RootStart start) {
+    return enclosure(c, length, start).least > 0 && length > 0;
 }
 
 bool RootFinder::first_falling(std::span<const double> c, double length, RootStart start, Root& root, double touch,

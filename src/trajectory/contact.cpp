@@ -66,7 +66,9 @@ std::size_t Trajectory::find_contact(double& step) {
                 found = roots_.first_falling(c.subspan(leading - 1), length, RootStart::deflate, root);
         } else {
             const RootFinder::Enclosure enclosure = RootFinder::enclosure(c, length, start);
-            const double touch = options.touch > 0 ? options.touch : 100 * options.tolerance * enclosure.size;
+            double& size = event_sizes_[mode.watched[w]];
+            size = std::max(size, whole < previous_step_ ? series_size(c, previous_step_) : enclosure.size);
+            const double touch = options.touch > 0 ? options.touch : 100 * options.tolerance * size;
             // The deflated polynomial is positive where the polynomial itself may be as small as a touch.
             if (watch.side > 0 && enclosure.least > (start == RootStart::as_is ? touch : infinity))
                 continue;
@@ -138,7 +140,9 @@ bool Trajectory::classify(std::size_t w, double step) {
     watch = {};
     const double at_surface =
         served || due ? std::max(noise, served_roundoff * size + 2 * std::abs(surface_values_[event])) : noise;
-    if (std::abs(c[0]) > at_surface) {
+    // What cancels in an event function at its surface does not show in its series: look closer before complaining.
+    const bool violated = definition.kind == EventKind::barrier && c[0] < -at_surface;
+    if (violated ? -c[0] > surface_roundoff(w) : std::abs(c[0]) > at_surface) {
         watch.side = c[0] > 0 ? 1 : -1;
         if (watch.side > 0 || definition.kind == EventKind::section)
             return true;
@@ -173,6 +177,24 @@ bool Trajectory::classify(std::size_t w, double step) {
     }
     stick(w, mode.transitions[w], 0, 0);
     return false;
+}
+
+/// What round-off of the states makes uncertain in a watched event function at the present state.
+double Trajectory::surface_roundoff(std::size_t w) {
+    constexpr double change = 0x1p-30;
+    const auto& events = simulation_->compiled().mode(mode_).events;
+    values_.resize(events.outputs());
+    std::copy(state_.begin(), state_.end(), inputs_.begin());
+    events.evaluate(inputs_, values_, work_);
+    const double value = values_[w];
+    double sum = 0;
+    for (std::size_t i = 0; i < states_; ++i) {
+        inputs_[i] += state_[i] * change;
+        events.evaluate(inputs_, values_, work_);
+        sum += std::abs(values_[w] - value);
+        inputs_[i] = state_[i];
+    }
+    return sum / change * roundoff;
 }
 
 void Trajectory::announce_contact() {

@@ -77,6 +77,7 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     pending_.reset();
     together_.clear();
     histories_.assign(simulation_->model().events.size(), {});
+    event_sizes_.assign(simulation_->model().events.size(), 0.0);
     surface_values_.assign(simulation_->model().events.size(), 0.0);
     contacts_ = 0;
     contacts_now_ = 0;

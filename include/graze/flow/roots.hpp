@@ -62,6 +62,13 @@ class RootFinder {
 public:
     explicit RootFinder(int highest_degree);
 
+    /// What one pass over the coefficients shows of c (of c / s when deflated) on [0, length].
+    struct Enclosure {
+        double least; ///< lower bound, round-off included; -infinity for polynomials that are not finite
+        double size;  ///< sum |c_k| length^k
+    };
+    static Enclosure enclosure(std::span<const double> c, double length, RootStart start);
+
     /// True if the enclosure shows at once that c > 0 throughout [0, length] (or (0, length] when deflated).
     static bool surely_positive(std::span<const double> c, double length, RootStart start);
 

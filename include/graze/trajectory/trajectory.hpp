@@ -88,6 +88,7 @@ private:
     void carry_tangents_to_rest(std::size_t watched, double remaining, double per_impulse);
     std::size_t find_contact(double& step);
     double on_surface(std::size_t watched, double s);
+    double surface_roundoff(std::size_t watched);
     void make_contact(std::size_t watched, double s);
     void apply_transition(std::size_t transition, double rate);
     void jump(std::size_t index);
@@ -128,6 +129,7 @@ private:
     std::vector<Watch> watches_;
     std::vector<Touch> touches_;
     std::vector<Root> found_touches_;
+    std::vector<double> event_sizes_;    ///< largest size of each event's function so far, by which touches are judged
     std::vector<double> surface_values_; ///< of each event's function at the last contact, whichever event's it was
     std::vector<std::size_t> together_; ///< events at the time of the last contact, still to be served
 
