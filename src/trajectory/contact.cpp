@@ -209,6 +209,7 @@ void Trajectory::announce_contact() {
 
 void Trajectory::hand_over_contact() {
     reduce_cyclic_states(before_);
+    reduce_cyclic_states(after_);
     pending_->before = before_;
     pending_->after = after_;
     observer_->contact(*pending_);
@@ -286,7 +287,6 @@ void Trajectory::apply_transition(std::size_t transition, double rate) {
     const auto next = next_mode(transition, ends);
     if (!next) {
         const Transition& definition = model.transitions[transition];
-        reduce_cyclic_states(after_);
         hand_over_contact();
         state_ = after_;
         if (ends)
