@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 
 namespace graze {
 
@@ -78,6 +79,21 @@ void add_row(Table& table, std::string_view item, std::string_view name, double 
     table.add(value);
     table.add(unit);
     table.add(text);
+}
+
+/// Breaks a text into lines that a terminal can show.
+std::string wrapped(const std::string& text) {
+    constexpr std::size_t width = 100;
+    std::string result;
+    std::size_t column = 0;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        const bool fits = column > 0 && column + 1 + word.size() <= width;
+        result += column == 0 ? "" : fits ? " " : "\n";
+        column = (fits ? column + 1 : 0) + word.size();
+        result += word;
+    }
+    return result;
 }
 
 /// A heading, and below it rows of which only what is there takes room.
@@ -191,7 +207,7 @@ std::string describe(const Model& model) {
         fmt::format("{}{}\n", model.name, model.time_unit.empty() ? "" : fmt::format(" (time in {})", model.time_unit));
     for (const std::string& paragraph : {model.text, model.source.empty() ? "" : "Source: " + model.source})
         if (!paragraph.empty())
-            text += paragraph + '\n';
+            text += wrapped(paragraph) + '\n';
     return text + listing.text();
 }
 

@@ -14,8 +14,8 @@ namespace {
 // Lengths are pixels of a picture at 96 per inch.
 constexpr double history_width = 480, history_height = 125, history_gap = 14;
 constexpr double smallest_portrait = 230, largest_portrait = 320, portrait_gap = 62;
-constexpr double left_margin = 84, bottom_margin = 52, top_margin = 34, right_margin = 18, column_gap = 96;
-constexpr double label_distance = 62, pixels_of_letter = 6.4, pixels_of_tic = 75;
+constexpr double bottom_margin = 52, top_margin = 34, right_margin = 18, margin = 8;
+constexpr double pixels_of_letter = 6.4, pixels_of_digit = 7.2, pixels_of_line = 17, pixels_of_tic = 75;
 constexpr double invisible = 2e-4; ///< of a panel's size
 
 /// What gnuplot's enhanced text would take for markup is taken as it stands; for double quotes.
@@ -56,22 +56,23 @@ std::string unit_text(const std::string& unit) {
     return result;
 }
 
-/// A name such as x_nd or q1, with its index lowered; expressions stay as they are.
+/// A name such as x_nd or q1 as a symbol with an index; longer names are words, and expressions stay as they are.
 std::string name_text(const std::string& name) {
+    constexpr std::size_t longest_symbol = 2;
     const bool word =
         std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
     if (!word)
         return plain(name);
-    std::size_t index = name.find('_');
-    std::size_t stem = index;
-    if (index == std::string::npos) {
-        stem = index = name.find_last_not_of("0123456789") + 1;
-    } else {
-        ++index;
+    const std::size_t underscore = name.find('_');
+    const std::size_t stem = underscore == std::string::npos ? name.find_last_not_of("0123456789") + 1 : underscore;
+    if (stem == 0 || stem > longest_symbol) {
+        std::string words = name;
+        std::replace(words.begin(), words.end(), '_', ' ');
+        return words;
     }
-    if (stem == 0 || index >= name.size())
-        return fmt::format("{{/:Italic {}}}", plain(name));
-    return fmt::format("{{/:Italic {}}}_{{{}}}", plain(name.substr(0, stem)), plain(name.substr(index)));
+    const std::string index = name.substr(std::min(name.size(), stem + (underscore == std::string::npos ? 0 : 1)));
+    return fmt::format("{{/:Italic {}}}", name.substr(0, stem)) +
+           (index.empty() ? "" : fmt::format("_{{{}}}", plain(index)));
 }
 
 std::string with_unit(const std::string& label, const std::string& unit) {
@@ -104,12 +105,18 @@ std::string number(double value) {
     return fmt::format("{:.10g}", value);
 }
 
+std::size_t letters_of_tics(const Axis& axis) {
+    std::size_t letters = 0;
+    for (double tic = std::ceil(axis.low / axis.tic); tic * axis.tic <= axis.high; ++tic)
+        letters = std::max(letters, fmt::format("{:.6g}", tic * axis.tic).size());
+    return letters;
+}
+
 } // namespace
 
 GnuplotScript::GnuplotScript(const PlotRecorder& recorder) : recorder_(&recorder) {
     make_panels();
     place_panels();
-    choose_labels();
     for (const PlotRecorder::Jump& jump : recorder.jumps())
         has_marks_ = has_marks_ || jump.marked;
     for (Panel& panel : panels_)
@@ -135,6 +142,7 @@ void GnuplotScript::make_panels() {
     }
 }
 
+/// Heights first; they decide about tics and labels, which decide how much room the columns need beside them.
 void GnuplotScript::place_panels() {
     const auto histories = static_cast<double>(recorder_->contents().histories.size());
     const auto portraits = static_cast<double>(recorder_->contents().portraits.size());
@@ -143,24 +151,44 @@ void GnuplotScript::place_panels() {
     const double side = portraits > 0 ? std::clamp((inner - gaps) / portraits, smallest_portrait, largest_portrait) : 0;
     if (portraits > 0)
         inner = std::max(inner, portraits * side + gaps);
-    const double portrait_height = portraits > 0 ? (inner - gaps) / portraits : 0;
-    const double row = histories > 0 ? (inner - (histories - 1) * history_gap) / histories : 0;
     height_ = inner + top_margin + bottom_margin;
-    double right = left_margin;
-    if (histories > 0)
-        right += history_width + (portraits > 0 ? column_gap : 0);
-    width_ = right + side + right_margin;
     double top = height_ - top_margin, portrait_top = top;
     for (Panel& panel : panels_) {
-        double& next = panel.x.is_time ? top : portrait_top;
-        panel.left = panel.x.is_time ? left_margin : right;
         panel.width = panel.x.is_time ? history_width : side;
-        panel.height = panel.x.is_time ? row : std::min(portrait_height, 1.4 * side);
+        panel.height = panel.x.is_time ? (inner - (histories - 1) * history_gap) / histories
+                                       : std::min((inner - gaps) / portraits, 1.4 * side);
+        double& next = panel.x.is_time ? top : portrait_top;
         panel.bottom = next - panel.height;
-        next = panel.bottom - (panel.x.is_time ? history_gap : portrait_gap + portrait_height - panel.height);
+        next = panel.bottom - (panel.x.is_time ? history_gap : portrait_gap);
         panel.x_axis = axis_of(panel.x, static_cast<int>(panel.width / pixels_of_tic), panel.x.is_time ? 0 : 0.05);
         panel.y_axis = axis_of(panel.y, std::max(2, static_cast<int>(panel.height / 35)), 0.08);
     }
+    choose_labels();
+    double left = 0;
+    if (histories > 0)
+        left = place_column(0, true) + right_margin;
+    width_ = portraits > 0 ? place_column(left, false) + right_margin : left;
+}
+
+/// Aligns the panels of a column and their labels. Returns where it ends.
+double GnuplotScript::place_column(double start, bool over_time) {
+    double tics = 0, lines = 1;
+    for (const Panel& panel : panels_) {
+        if (panel.x.is_time != over_time)
+            continue;
+        tics = std::max(tics, static_cast<double>(letters_of_tics(panel.y_axis)));
+        if (label(panel.y, panel.height + history_gap, true).find("\\n") != std::string::npos)
+            lines = 2;
+    }
+    double end = start;
+    for (Panel& panel : panels_) {
+        if (panel.x.is_time != over_time)
+            continue;
+        panel.label = start + margin + lines * pixels_of_line / 2;
+        panel.left = start + 3 * margin + lines * pixels_of_line + tics * pixels_of_digit;
+        end = panel.left + panel.width;
+    }
+    return end;
 }
 
 /// Where the solution ends in a singularity some states grow without bounds: the last moments are left to run out
@@ -190,13 +218,13 @@ Axis GnuplotScript::axis_of(const Coordinate& coordinate, int tics, double margi
 void GnuplotScript::choose_labels() {
     long_labels_ = true;
     for (const Panel& panel : panels_) {
-        long_labels_ = long_labels_ && !label(panel.y, panel.height + history_gap).empty();
+        long_labels_ = long_labels_ && !label(panel.y, panel.height + history_gap, true).empty();
         if (!panel.x.is_time)
-            long_labels_ = long_labels_ && !label(panel.x, panel.width).empty();
+            long_labels_ = long_labels_ && !label(panel.x, panel.width, false).empty();
     }
 }
 
-std::string GnuplotScript::label(const Coordinate& coordinate, double room) const {
+std::string GnuplotScript::label(const Coordinate& coordinate, double room, bool two_lines) const {
     if (coordinate.is_time)
         return with_unit("time", recorder_->time_unit());
     const RequestedQuantity& quantity = recorder_->contents().columns[coordinate.column];
@@ -206,7 +234,7 @@ std::string GnuplotScript::label(const Coordinate& coordinate, double room) cons
     const std::string words = short_text(quantity);
     const std::string broken =
         in_two_lines(words + std::string(quantity.unit.empty() ? 0 : quantity.unit.size() + 3, '#'), letters);
-    if (words.empty() || broken.empty())
+    if (words.empty() || broken.empty() || (!two_lines && broken.find('\n') != std::string::npos))
         return "";
     return with_unit(lines(broken.substr(0, broken.find('#'))), quantity.unit);
 }
@@ -295,7 +323,6 @@ void GnuplotScript::write_data(Panel& panel) {
 }
 
 std::string GnuplotScript::commands(const Panel& panel) const {
-    const double label_x = (panel.left - label_distance) / width_;
     std::string text = fmt::format("\nset lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\n"
                                    "set tmargin at screen {}\n",
                                    number(panel.left / width_), number((panel.left + panel.width) / width_),
@@ -306,9 +333,9 @@ std::string GnuplotScript::commands(const Panel& panel) const {
                         number(panel.y_axis.tic));
     text += panel.x_labels ? "set format x \"%g\"\n" : "set format x \"\"\n";
     text += fmt::format("set label 1 \"{}\" at screen {},{} center rotate by 90\n",
-                        label(panel.y, panel.height + history_gap), number(label_x),
+                        label(panel.y, panel.height + history_gap, true), number(panel.label / width_),
                         number((panel.bottom + panel.height / 2) / height_));
-    text += panel.x_labels ? fmt::format("set xlabel \"{}\"\n", label(panel.x, panel.width)) : "unset xlabel\n";
+    text += panel.x_labels ? fmt::format("set xlabel \"{}\"\n", label(panel.x, panel.width, false)) : "unset xlabel\n";
     if (panel.x.is_time && recorder_->singularity())
         text += fmt::format("set arrow 1 from {0}, graph 0 to {0}, graph 1 nohead linestyle 2\n",
                             number(*recorder_->singularity()));
@@ -322,15 +349,15 @@ std::string GnuplotScript::legend() const {
     std::string text;
     double x = panels_.front().left + 6;
     const double y = (height_ - top_margin / 2) / height_;
-    const auto entry = [&](int index, const char* name, const char* mark) {
-        text += fmt::format("set label {} \"{}\" at screen {},{} left point {} offset 0.8,0\n", index, name,
+    const auto entry = [&](int index, const std::string& name, const char* mark) {
+        text += fmt::format("set label {} \"{}\" at screen {},{} left point {} offset 0.8,0\n", index, plain(name),
                             number(x / width_), number(y), mark);
         x += 110;
     };
     if (has_marks_)
         entry(2, "contact", "linestyle 3");
     if (!recorder_->passages().empty())
-        entry(3, "section", "linestyle 4");
+        entry(3, recorder_->section_names(), "linestyle 4");
     return text;
 }
 
@@ -354,7 +381,7 @@ std::string GnuplotScript::text(const std::string& ending, const std::string& ou
             "set style line 3 linecolor rgb \"black\" pointtype 7 pointsize 0.35\n"
             "set style line 4 linecolor rgb \"#b22222\" pointtype 6 pointsize 0.8 linewidth 1.1\n"
             "set border linewidth 0.8\nset tics in scale 0.6\nunset key\n"
-            "set format y \"%g\"\nset multiplot\n";
+            "set format y \"%g\"\nset encoding utf8\nset minussign\nset multiplot\n";
     text += legend();
     for (std::size_t i = 0; i < panels_.size(); ++i) {
         text += commands(panels_[i]);

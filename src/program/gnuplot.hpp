@@ -28,12 +28,14 @@ private:
         Axis x_axis, y_axis;
         std::string name;                                   ///< of its data blocks
         double left = 0, bottom = 0, width = 0, height = 0; ///< in pixels
+        double label = 0;                                   ///< where the label of the y axis is centred
         bool x_labels = true;
         std::vector<std::string> plots; ///< parts of its plot command
     };
 
     void make_panels();
     void place_panels();
+    double place_column(double start, bool over_time);
     Axis axis_of(const Coordinate& coordinate, int tics, double margin) const;
     double period(const Coordinate& coordinate) const {
         return coordinate.is_time ? 0 : recorder_->period(coordinate.column);
@@ -42,7 +44,8 @@ private:
         return coordinate.is_time ? time : values[coordinate.column];
     }
     void choose_labels();
-    std::string label(const Coordinate& coordinate, double room) const;
+    /// In enhanced text for double quotes; empty when it should be in words but does not fit.
+    std::string label(const Coordinate& coordinate, double room, bool two_lines) const;
     void write_data(Panel& panel);
     void write_curve(const Panel& panel);
     void write_point(PlanePoint point);

@@ -65,6 +65,13 @@ void PlotRecorder::passage(const Passage& passage) {
         passages_.push_back({passage.time, evaluate(passage.state)});
 }
 
+std::string PlotRecorder::section_names() const {
+    std::string names;
+    for (std::size_t i = 0; i < contents_.sections; ++i)
+        names += (i > 0 ? ", " : "") + simulation_->probes()[i].name;
+    return names;
+}
+
 void PlotRecorder::finish(const Trajectory& trajectory) {
     if (trajectory.outcome().ending == Ending::singular)
         singularity_ = trajectory.outcome().time;

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -49,6 +50,7 @@ public:
     const std::vector<Arc>& arcs() const { return arcs_; }
     const std::vector<Jump>& jumps() const { return jumps_; }
     const std::vector<Point>& passages() const { return passages_; }
+    std::string section_names() const;
     /// Period of a column that is a cyclic state; 0 for others.
     double period(std::size_t column) const { return column_periods_[column]; }
     std::optional<double> singularity() const { return singularity_; }

@@ -50,11 +50,12 @@ struct Assignment {
     Place place; ///< of the text behind "="
 };
 
-Assignment parse_assignment(const std::string& item, const std::string& option, std::string_view what) {
+Assignment parse_assignment(const std::string& item, const std::string& option) {
     const std::size_t equals = item.find('=');
     if (equals == std::string::npos)
-        throw InputError({option, 0, 0}, fmt::format("'{}' sets nothing", item),
-                         fmt::format("write {}=VALUE; the model comes before the options", what));
+        throw InputError(
+            {option, 0, 0}, fmt::format("'{}' sets nothing", item),
+            fmt::format("write {}=VALUE (the model comes before the options)", is_valid_name(item) ? item : "NAME"));
     Assignment result;
     result.name = trimmed(std::string_view(item).substr(0, equals));
     result.text = item.substr(equals + 1);
@@ -103,7 +104,7 @@ double positive_value_of(const Model& model, std::string_view text, const std::s
 
 void set_parameters(Model& model, const std::vector<std::string>& assignments) {
     for (const std::string& item : split_list(assignments)) {
-        const Assignment assignment = parse_assignment(item, "--set", "PARAMETER");
+        const Assignment assignment = parse_assignment(item, "--set");
         if (!model.find_parameter(assignment.name) && model.find_state(assignment.name))
             throw InputError({"--set", 0, 0}, fmt::format("'{}' is a state, not a parameter", assignment.name),
                              fmt::format("choose where it starts by --from {}", item));
@@ -115,7 +116,7 @@ void set_parameters(Model& model, const std::vector<std::string>& assignments) {
 
 void set_initial_state(Model& model, const std::vector<std::string>& assignments) {
     for (const std::string& item : split_list(assignments)) {
-        const Assignment assignment = parse_assignment(item, "--from", "STATE");
+        const Assignment assignment = parse_assignment(item, "--from");
         if (!model.find_state(assignment.name) && model.find_parameter(assignment.name))
             throw InputError({"--from", 0, 0}, fmt::format("'{}' is a parameter, not a state", assignment.name),
                              fmt::format("choose its value by --set {}", item));

@@ -85,15 +85,19 @@ void ArcMinima::step(const Step& step) {
 void ArcMinima::minimum(const StepMinimum& minimum) {
     const auto known = std::find_if(current_.begin(), current_.end(),
                                     [&](const ArcMinimum& other) { return other.event == minimum.event; });
-    ArcMinimum& entry = known == current_.end() ? current_.emplace_back() : *known;
-    const bool least = known == current_.end() || minimum.minimum.value < entry.value;
-    entry.lower_bound = known == current_.end() ? minimum.minimum.lower_bound
-                                                : std::min(entry.lower_bound, minimum.minimum.lower_bound);
-    entry.event = minimum.event;
-    if (least) {
-        entry.time = minimum.time;
-        entry.value = minimum.minimum.value;
+    ArcMinimum found;
+    found.event = minimum.event;
+    found.time = minimum.time;
+    found.value = minimum.minimum.value;
+    found.lower_bound = minimum.minimum.lower_bound;
+    if (known == current_.end()) {
+        current_.push_back(found);
+        return;
     }
+    found.lower_bound = std::min(found.lower_bound, known->lower_bound);
+    if (found.value < known->value)
+        *known = found;
+    known->lower_bound = found.lower_bound;
 }
 
 void ArcMinima::contact(const Contact& contact) {

@@ -1,0 +1,72 @@
+#include "program/process.hpp"
+#include "run_graze.hpp"
+
+#include <gmock/gmock.h>
+
+namespace graze::testing {
+
+using ::testing::HasSubstr;
+
+TEST(Check, SummarisesEveryShippedModel) {
+    const Printed list = run_graze("models --format json");
+    EXPECT_TRUE(JsonCheck(list.out).valid());
+    for (const std::string name :
+         {"ball-and-shaker", "bouncing-ball", "dry-friction-oscillator", "electromagnetic-testbed",
+          "impact-microactuator", "impact-oscillator", "impact-oscillator-two-stops", "mems-switch", "microbeam"}) {
+        EXPECT_THAT(list.out, HasSubstr('"' + name + '"'));
+        const Printed run = run_graze("check " + name);
+        EXPECT_EQ(run.code, 0) << run.err;
+        EXPECT_EQ(run.err, "") << "a shipped model has warnings";
+        for (const std::string part : {"states", "parameters", "modes", "transitions", "sections"})
+            EXPECT_THAT(run.out, HasSubstr(part)) << name;
+        const Printed json = run_graze("check --format json " + name);
+        EXPECT_TRUE(JsonCheck(json.out).valid()) << name;
+        const Printed csv = run_graze("check --format csv " + name);
+        EXPECT_EQ(header(csv.out), "item,name,value,unit,text");
+    }
+}
+
+TEST(Check, WarnsAndReportsPlaces) {
+    const Folder folder;
+    const std::string file = folder / "model.toml";
+    std::ofstream(file) << "name = \"m\"\n[parameters]\nunused = 1\n[states]\nx = 0\n[modes.a]\nrates = { x = 1 }\n";
+    const Printed warned = run_graze("check " + file);
+    EXPECT_EQ(warned.code, 0);
+    EXPECT_THAT(warned.err, HasSubstr("graze: warning: " + file + ": nothing uses the parameter 'unused'"));
+    std::ofstream(file) << "name = \"m\"\n[states]\nx = 0\n[modes.a]\nrates = { x = \"y\" }\n";
+    const Printed wrong = run_graze("check " + file);
+    EXPECT_EQ(wrong.code, exit_bad_input);
+    EXPECT_THAT(wrong.err, HasSubstr("graze: " + file + ":5:"));
+}
+
+TEST(Check, DrawsTheGraph) {
+    const Folder folder;
+    EXPECT_EQ(run_graze("check mems-switch --graph " + (folder / "modes.dot")).code, 0);
+    EXPECT_THAT(contents(folder / "modes.dot"), HasSubstr("digraph"));
+    if (!find_program("dot"))
+        GTEST_SKIP() << "no Graphviz";
+    for (const std::string ending : {"svg", "png", "pdf"}) {
+        const std::string file = folder / ("modes." + ending);
+        EXPECT_EQ(run_graze("check mems-switch --graph " + file).code, 0);
+        EXPECT_GT(contents(file).size(), 1000U);
+    }
+    EXPECT_EQ(folder.files(), 4U);
+}
+
+TEST(Check, SaysWhatToDoWithoutGraphviz) {
+    const std::string path = std::getenv("PATH");
+    setenv("PATH", "/nonexistent", 1);
+    const Folder folder;
+    const Printed run = run_graze("check mems-switch --graph " + (folder / "modes.svg"));
+    const Printed dot = run_graze("check mems-switch --graph " + (folder / "modes.dot"));
+    const Printed plot = run_graze("simulate mems-switch --plot " + (folder / "plot.svg"));
+    setenv("PATH", path.c_str(), 1);
+    EXPECT_EQ(run.code, exit_bad_input);
+    EXPECT_THAT(run.err, HasSubstr("install Graphviz"));
+    EXPECT_EQ(dot.code, 0);
+    EXPECT_EQ(plot.code, exit_bad_input);
+    EXPECT_THAT(plot.err, HasSubstr("install gnuplot"));
+    EXPECT_EQ(folder.files(), 1U);
+}
+
+} // namespace graze::testing

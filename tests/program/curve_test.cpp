@@ -1,0 +1,53 @@
+#include "program/curve.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace graze::testing {
+
+TEST(Curve, SimplifiedStaysClose) {
+    Polyline line;
+    for (int i = 0; i <= 2000; ++i)
+        line.push_back({0.01 * i, 3 * std::sin(0.01 * i)});
+    const double distance = 1e-3;
+    const Polyline short_line = simplified(line, 20, 6, distance);
+    EXPECT_LT(short_line.size(), 120U);
+    EXPECT_EQ(short_line.front().x, line.front().x);
+    EXPECT_EQ(short_line.back().x, line.back().x);
+    std::size_t piece = 0;
+    for (const PlanePoint& point : line) {
+        while (short_line[piece + 1].x < point.x)
+            ++piece;
+        const PlanePoint a = short_line[piece], b = short_line[piece + 1];
+        const double on_line = a.y + (b.y - a.y) * (point.x - a.x) / (b.x - a.x);
+        // Vertical distances exceed perpendicular ones by the slope, here at most 3 * 20/6.
+        EXPECT_LE(std::abs(on_line - point.y) / 6, distance * std::hypot(1, 10) * (1 + 1e-12));
+    }
+}
+
+TEST(Curve, SimplifiedKeepsWhatCannotBeShortened) {
+    EXPECT_TRUE(simplified({}, 1, 1, 0.1).empty());
+    const Polyline two{{0, 0}, {1, 1}};
+    EXPECT_EQ(simplified(two, 1, 1, 0.1).size(), 2U);
+    const Polyline back{{0, 0}, {1, 0}, {0, 0}};
+    EXPECT_EQ(simplified(back, 1, 1, 0.1).size(), 3U) << "there and back again is not a point";
+}
+
+TEST(Curve, AxesHaveRoundTics) {
+    const Axis axis = axis_for(-0.61, 0.74, 4, 0.08);
+    EXPECT_LT(axis.low, -0.61);
+    EXPECT_GT(axis.high, 0.74);
+    EXPECT_DOUBLE_EQ(axis.tic, 0.2);
+    EXPECT_DOUBLE_EQ(axis_for(0, 3.2, 6, 0).tic, 0.5);
+    EXPECT_DOUBLE_EQ(axis_for(0, 1e-7, 5, 0).tic, 2e-8);
+    const Axis constant = axis_for(5, 5, 4, 0.1);
+    EXPECT_LT(constant.low, 5);
+    EXPECT_GT(constant.high, 5);
+    const Axis zero = axis_for(0, 0, 4, 0.1);
+    EXPECT_LT(zero.low, zero.high);
+    const Axis nothing = axis_for(INFINITY, -INFINITY, 4, 0.1);
+    EXPECT_LT(nothing.low, nothing.high);
+}
+
+} // namespace graze::testing

@@ -1,0 +1,47 @@
+// Ctrl-C, with a process of its own.
+
+#include "run_graze.hpp"
+
+#include <csignal>
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace graze::testing {
+
+TEST(Interrupt, WritesWhatWasComputed) {
+    const Folder folder;
+    const std::string file = folder / "run.csv", messages = folder / "messages";
+    std::vector<std::string> words{GRAZE_PROGRAM, "simulate",  "electromagnetic-testbed",
+                                   "--periods",   "100000000", "--section",
+                                   "phase0",      "--format",  "csv",
+                                   "--output",    file,        "--progress"};
+    std::vector<char*> pointers;
+    for (std::string& word : words)
+        pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, messages.c_str(), O_WRONLY | O_CREAT, 0666);
+    pid_t child = 0;
+    ASSERT_EQ(posix_spawn(&child, GRAZE_PROGRAM, &actions, nullptr, pointers.data(), environ), 0);
+    posix_spawn_file_actions_destroy(&actions);
+    // Progress appears after two seconds: then it is certainly running.
+    for (int i = 0; i < 600 && contents(messages).empty(); ++i)
+        usleep(100'000);
+    EXPECT_FALSE(std::filesystem::exists(file)) << "half a file";
+    kill(child, SIGINT);
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), exit_interrupted);
+    EXPECT_THAT(contents(messages), ::testing::HasSubstr("graze: interrupted at time"));
+    EXPECT_GT(Csv(contents(file)).rows.size(), 100U);
+    EXPECT_EQ(folder.files(), 2U);
+}
+
+} // namespace graze::testing

@@ -1,0 +1,95 @@
+#include "program/process.hpp"
+#include "run_graze.hpp"
+
+#include <gmock/gmock.h>
+
+namespace graze::testing {
+
+using ::testing::HasSubstr;
+
+namespace {
+
+class Plot : public ::testing::Test {
+protected:
+    void SetUp() override {
+        if (!find_program("gnuplot"))
+            GTEST_SKIP() << "no gnuplot";
+    }
+    Folder folder;
+};
+
+} // namespace
+
+TEST_F(Plot, DrawsEveryShippedModelInSilence) {
+    for (const std::string model :
+         {"ball-and-shaker", "bouncing-ball", "dry-friction-oscillator", "electromagnetic-testbed",
+          "impact-microactuator", "impact-oscillator", "impact-oscillator-two-stops", "mems-switch", "microbeam"}) {
+        const std::string file = folder / (model + ".svg");
+        const Printed run = run_graze("simulate " + model + " --periods 3 --quiet --plot " + file);
+        EXPECT_EQ(run.code, 0) << model << run.err;
+        EXPECT_EQ(run.out, "") << "a picture alone comes without a table";
+        const std::string picture = contents(file);
+        EXPECT_THAT(picture, HasSubstr("</svg>"));
+        EXPECT_GT(picture.size(), 5000U);
+    }
+    EXPECT_EQ(folder.files(), 9U);
+}
+
+TEST_F(Plot, KnowsOtherKindsAndComesWithATable) {
+    for (const std::string ending : {"png", "pdf"}) {
+        const Printed run =
+            run_graze("simulate mems-switch --section phase0 --format csv --portrait q,v theta,energy --plot " +
+                      (folder / ("switch." + ending)));
+        EXPECT_EQ(run.code, 0) << run.err;
+        EXPECT_EQ(header(run.out), "section,time,direction,mode,q,v,theta");
+        EXPECT_GT(contents(folder / ("switch." + ending)).size(), 5000U);
+    }
+}
+
+TEST_F(Plot, KeepsItsCommandsToBeDrawnAgain) {
+    const std::string picture = folder / "it's_mine.svg", commands = folder / "mine.gp";
+    EXPECT_EQ(run_graze("simulate mems-switch --quantity q gap --plot " + picture + " --plot-data " + commands).code,
+              0);
+    const std::string first = contents(picture);
+    std::filesystem::remove(picture);
+    const ProcessResult again = run_process({*find_program("gnuplot"), commands}, "");
+    EXPECT_EQ(again.status, 0) << again.output;
+    EXPECT_EQ(again.output, "");
+    EXPECT_EQ(contents(picture), first);
+}
+
+TEST_F(Plot, CurvesAreBrokenWhereTheMotionJumps) {
+    const std::string commands = folder / "ball.gp";
+    EXPECT_EQ(run_graze("simulate bouncing-ball --time 0.25 --quantity v --plot " + (folder / "ball.svg") +
+                        " --plot-data " + commands)
+                  .code,
+              0);
+    // The velocity falls along each arc and rises only in between.
+    std::istringstream stream(contents(commands));
+    std::string line;
+    while (std::getline(stream, line) && line != "$history1_curve << end")
+        ;
+    int arcs = 0;
+    bool fresh = true;
+    double last = 0;
+    while (std::getline(stream, line) && line != "end") {
+        if (line.empty()) {
+            fresh = true;
+            continue;
+        }
+        const double value = std::stod(line.substr(line.find(' ')));
+        EXPECT_TRUE(fresh || value <= last) << line;
+        arcs += fresh ? 1 : 0;
+        fresh = false;
+        last = value;
+    }
+    EXPECT_EQ(arcs, 2);
+}
+
+TEST_F(Plot, IsRefusedBeforeTheRunWhereItCannotBeWritten) {
+    const Printed run = run_graze("simulate mems-switch --plot " + (folder / "no/such/folder.svg"));
+    EXPECT_EQ(run.code, exit_bad_input);
+    EXPECT_THAT(run.err, HasSubstr("cannot be written"));
+}
+
+} // namespace graze::testing

@@ -1,0 +1,119 @@
+// What holds for all commands: help, exit codes, and one message for each mistake.
+
+#include "run_graze.hpp"
+
+#include <gmock/gmock.h>
+
+namespace graze::testing {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+TEST(Program, HelpTeaches) {
+    for (const std::string line : {"--help", "check --help", "models --help", "simulate --help", "simulate -h"}) {
+        const Printed run = run_graze(line);
+        EXPECT_EQ(run.code, 0) << line;
+        EXPECT_EQ(run.err, "") << line;
+        EXPECT_THAT(run.out, HasSubstr("Usage: graze")) << line;
+        EXPECT_THAT(run.out, HasSubstr("\n  graze ")) << line << ": no example";
+        EXPECT_THAT(run.out, ::testing::Not(HasSubstr("contact-table"))) << line;
+        for (const std::string& text : split(run.out, '\n'))
+            EXPECT_LE(text.size(), 150U) << text;
+    }
+    EXPECT_THAT(run_graze("--version").out, StartsWith("graze 0."));
+}
+
+struct Mistake {
+    std::string line, message;
+};
+
+class BadInput : public ::testing::TestWithParam<Mistake> {};
+
+TEST_P(BadInput, GivesOneMessageWithARemedy) {
+    const Printed run = run_graze(GetParam().line);
+    EXPECT_EQ(run.code, exit_bad_input) << run.err;
+    EXPECT_EQ(run.out, "");
+    EXPECT_THAT(run.err, StartsWith("graze: "));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_THAT(run.err, HasSubstr(GetParam().message));
+    EXPECT_THAT(run.err, HasSubstr(";")) << "no remedy";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    CommandLine, BadInput,
+    ::testing::Values(Mistake{"", "a command is missing"}, Mistake{"simulat mems-switch", "did you mean 'simulate'?"},
+                      Mistake{"simulate", "the model is missing"}, Mistake{"simulate mems-swich", "mems-switch"},
+                      Mistake{"simulate no/such/file.toml", "no/such/file.toml"},
+                      Mistake{"simulate mems-switch --tolerence 1e-8", "did you mean '--tolerance'?"},
+                      Mistake{"simulate mems-switch --frobnicate", "unknown option '--frobnicate'"},
+                      Mistake{"simulate mems-switch extra", "one argument too many"},
+                      Mistake{"simulate mems-switch --format xml", "--format"},
+                      Mistake{"simulate mems-switch --digits 40", "--digits"}, Mistake{"check", "the model is missing"},
+                      Mistake{"check bouncing-bal", "bouncing-ball"},
+                      Mistake{"check mems-switch --graph modes.gif", ".svg"}));
+
+INSTANTIATE_TEST_SUITE_P(Values, BadInput,
+                         ::testing::Values(Mistake{"simulate mems-switch --set omga=1", "'omega'"},
+                                           Mistake{"simulate mems-switch --set V", "V=VALUE"},
+                                           Mistake{"simulate mems-switch --set V=nan", "not a finite number"},
+                                           Mistake{"simulate mems-switch --set V=-inf", "not a finite number"},
+                                           Mistake{"simulate mems-switch --set V=1/0", "no finite value"},
+                                           Mistake{"simulate mems-switch --set V=log(-1)", "no finite value"},
+                                           Mistake{"simulate mems-switch --set V=2*(3", "--set V=2*(3:1:"},
+                                           Mistake{"simulate mems-switch --set V=2*delt", "'delta'"},
+                                           Mistake{"simulate mems-switch --set V=", "--set V="},
+                                           Mistake{"simulate mems-switch --set q=1", "--from q=1"},
+                                           Mistake{"simulate mems-switch --from V=1", "--set V=1"},
+                                           Mistake{"simulate mems-switch --from thta=1", "'theta'"},
+                                           Mistake{"simulate bouncing-ball --set omega=3", "follows from others"},
+                                           Mistake{"simulate mems-switch --mode onn", "'on'"},
+                                           Mistake{"simulate mems-switch --section phase", "'phase0'"},
+                                           Mistake{"simulate mems-switch --event stp", "'stop'"},
+                                           Mistake{"simulate mems-switch --quantity clearence", "'clearance'"},
+                                           Mistake{"simulate mems-switch --quantity abs(q)", "event"},
+                                           Mistake{"simulate mems-switch --derivatives omga", "'omega'"},
+                                           Mistake{"simulate mems-switch --table smples", "'samples'"},
+                                           Mistake{"simulate mems-switch --extrema", "--extrema"}));
+
+INSTANTIATE_TEST_SUITE_P(Lengths, BadInput,
+                         ::testing::Values(Mistake{"simulate mems-switch --time=-1", "not positive"},
+                                           Mistake{"simulate mems-switch --time 0", "not positive"},
+                                           Mistake{"simulate mems-switch --time inf", "finite"},
+                                           Mistake{"simulate mems-switch --periods -3", "not a positive"},
+                                           Mistake{"simulate mems-switch --periods 0", "not a positive"},
+                                           Mistake{"simulate mems-switch --periods 2.5", "--periods"},
+                                           Mistake{"simulate mems-switch --contacts 0", "not a positive"},
+                                           Mistake{"simulate mems-switch --skip -1", "not a positive"},
+                                           Mistake{"simulate mems-switch --time 3 --periods 2", "choose one"},
+                                           Mistake{"simulate mems-switch --skip 3 --after 2", "choose one"},
+                                           Mistake{"simulate mems-switch --samples 1", "2 or more"},
+                                           Mistake{"simulate mems-switch --every 0", "not positive"},
+                                           Mistake{"simulate mems-switch --samples 9 --every 1", "choose one"},
+                                           Mistake{"simulate mems-switch --phase q", "no cyclic state"},
+                                           Mistake{"simulate mems-switch --tolerance 1", "tolerance"},
+                                           Mistake{"simulate mems-switch --tolerance nan", "tolerance"},
+                                           Mistake{"simulate mems-switch --order 99", "order"},
+                                           Mistake{"simulate mems-switch --largest-step=-1", "not positive"},
+                                           Mistake{"simulate mems-switch --section phase0 --extrema q", "--table"},
+                                           Mistake{"simulate mems-switch --table extrema", "--extrema"},
+                                           Mistake{"simulate mems-switch --portrait q,v", "--plot"},
+                                           Mistake{"simulate mems-switch --plot a.jpg", ".svg"}));
+
+INSTANTIATE_TEST_SUITE_P(Models, BadInput,
+                         ::testing::Values(Mistake{"models nonsense", "no shipped model"},
+                                           Mistake{"models --show", "name is missing"},
+                                           Mistake{"models mems-switch --beam-modes 2", "microbeam"},
+                                           Mistake{"models microbeam --beam-modes 0", "number of modes"},
+                                           Mistake{"models microbeam --quadrature gaus", "'gauss'"}));
+
+TEST(Program, FullDeviceIsReported) {
+    std::ofstream full("/dev/full");
+    if (!full)
+        GTEST_SKIP() << "no /dev/full";
+    std::ostringstream err;
+    const std::vector<std::string> arguments{"models"};
+    EXPECT_EQ(run_program(arguments, {full, err, false}), exit_bad_input);
+    EXPECT_THAT(err.str(), HasSubstr("standard output"));
+}
+
+} // namespace graze::testing

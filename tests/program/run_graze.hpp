@@ -1,0 +1,171 @@
+#pragma once
+
+#include "program/program.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace graze::testing {
+
+struct Printed {
+    int code;
+    std::string out, err;
+};
+
+/// The program in this process.
+inline Printed run_graze(const std::vector<std::string>& arguments) {
+    std::ostringstream out, err;
+    const int code = run_program(arguments, {out, err, false});
+    return {code, out.str(), err.str()};
+}
+
+/// The same from a line in which no argument contains blanks.
+inline Printed run_graze(const std::string& line) {
+    std::istringstream stream(line);
+    std::vector<std::string> words;
+    for (std::string word; stream >> word;)
+        words.push_back(word);
+    return run_graze(words);
+}
+
+inline std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, separator);)
+        parts.push_back(part);
+    if (!text.empty() && text.back() == separator && separator != '\n')
+        parts.emplace_back();
+    return parts;
+}
+
+/// A CSV table without quoted cells.
+struct Csv {
+    std::vector<std::string> columns;
+    std::vector<std::vector<std::string>> rows;
+
+    explicit Csv(const std::string& text) {
+        for (const std::string& line : split(text, '\n')) {
+            if (columns.empty())
+                columns = split(line, ',');
+            else
+                rows.push_back(split(line, ','));
+        }
+        for (const auto& row : rows)
+            EXPECT_EQ(row.size(), columns.size());
+    }
+    const std::string& text(std::size_t row, const std::string& column) const {
+        const auto found = std::find(columns.begin(), columns.end(), column);
+        EXPECT_NE(found, columns.end()) << column;
+        return rows.at(row).at(static_cast<std::size_t>(found - columns.begin()));
+    }
+    double number(std::size_t row, const std::string& column) const {
+        return std::strtod(text(row, column).c_str(), nullptr);
+    }
+};
+
+inline std::string header(const std::string& out) {
+    return out.substr(0, out.find('\n'));
+}
+
+inline std::string contents(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// A folder that is gone after the test.
+class Folder {
+public:
+    Folder() {
+        std::string name = (std::filesystem::temp_directory_path() / "graze-test-XXXXXX").string();
+        path_ = mkdtemp(name.data());
+    }
+    ~Folder() { std::filesystem::remove_all(path_); }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+    std::size_t files() const {
+        return static_cast<std::size_t>(
+            std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator()));
+    }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// Whether a text is one JSON value (RFC 8259).
+class JsonCheck {
+public:
+    explicit JsonCheck(std::string_view text) : rest_(text) {}
+    bool valid() { return value() && (blanks(), rest_.empty()); }
+
+private:
+    void blanks() {
+        while (!rest_.empty() && std::isspace(static_cast<unsigned char>(rest_[0])) != 0)
+            rest_.remove_prefix(1);
+    }
+    bool take(std::string_view token) {
+        blanks();
+        if (!rest_.starts_with(token))
+            return false;
+        rest_.remove_prefix(token.size());
+        return true;
+    }
+    bool value() {
+        if (take("{"))
+            return members('}', true);
+        if (take("["))
+            return members(']', false);
+        if (take("null") || take("true") || take("false"))
+            return true;
+        return rest_.starts_with('"') ? string() : number();
+    }
+    bool members(char end, bool named) {
+        const std::string_view close(&end, 1);
+        if (take(close))
+            return true;
+        do {
+            if (named && !((blanks(), string()) && take(":")))
+                return false;
+            if (!value())
+                return false;
+        } while (take(","));
+        return take(close);
+    }
+    bool string() {
+        if (rest_.empty() || rest_[0] != '"')
+            return false;
+        for (std::size_t i = 1; i < rest_.size(); ++i) {
+            if (static_cast<unsigned char>(rest_[i]) < 0x20)
+                return false;
+            if (rest_[i] == '\\') {
+                ++i;
+            } else if (rest_[i] == '"') {
+                rest_.remove_prefix(i + 1);
+                return true;
+            }
+        }
+        return false;
+    }
+    bool number() {
+        const std::size_t length = std::min(rest_.find_first_not_of("+-.0123456789eE"), rest_.size());
+        const std::string digits(rest_.substr(0, length));
+        char* end = nullptr;
+        std::strtod(digits.c_str(), &end);
+        const bool whole =
+            !digits.empty() && end == digits.c_str() + digits.size() && digits[0] != '+' && digits[0] != '.';
+        rest_.remove_prefix(length);
+        return whole;
+    }
+
+    std::string_view rest_;
+};
+
+} // namespace graze::testing

@@ -1,0 +1,119 @@
+#include "graze/trajectory/recorder.hpp"
+
+#include "graze/model/catalogue.hpp"
+#include "graze/trajectory/trajectory.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+/// The MEMS switch of chapter 6 until it snaps, watched by an observer.
+void run_switch(Observer& observer, bool minima = false) {
+    SimulationOptions options;
+    options.minima = minima;
+    const Model model = load_model("mems-switch");
+    const Simulation simulation(model, {section_probe(model, "phase0")}, {}, options);
+    Trajectory trajectory(simulation, model.parameter_values(), observer);
+    trajectory.start(model.initial_state(), model.initial_mode, 0, 100);
+    JetSet jets(simulation, LaneKind::single);
+    run(trajectory, jets);
+    EXPECT_EQ(trajectory.outcome().ending, Ending::singular);
+}
+
+TEST(Recorder, KeepsStatesOfContactsAndPassages) {
+    Recorder recorder;
+    run_switch(recorder);
+    int impacts = 0;
+    double last = 0;
+    for (const auto& [contact, before, after] : recorder.contacts()) {
+        EXPECT_GE(contact.time, last);
+        last = contact.time;
+        ASSERT_EQ(before.size(), 3U);
+        ASSERT_EQ(after.size(), 3U);
+        if (before[1] != after[1]) {
+            ++impacts;
+            EXPECT_NEAR(after[1], -0.8 * before[1], 1e-15);
+        }
+    }
+    EXPECT_EQ(impacts, 4);
+    ASSERT_EQ(recorder.passages().size(), 4U);
+    EXPECT_EQ(recorder.passages()[0].state[2], 0);
+    recorder.clear();
+    EXPECT_TRUE(recorder.contacts().empty());
+}
+
+TEST(Recorder, RelaysToSeveral) {
+    Recorder one, other;
+    Relay relay({&one, &other});
+    run_switch(relay);
+    EXPECT_GT(one.contacts().size(), 4U);
+    EXPECT_EQ(one.contacts().size(), other.contacts().size());
+    EXPECT_EQ(one.passages().size(), other.passages().size());
+}
+
+TEST(Sampler, MeetsTheTimesAskedFor) {
+    const double period = 2 * std::numbers::pi;
+    std::vector<double> times;
+
+    Sampler sampler(0, 0.5, 40, {0, 0, period}, [&](double time, std::size_t, std::span<const double> state) {
+        times.push_back(time);
+        EXPECT_GE(state[0], -0.6 - 1e-15) << "sampled beyond the stop";
+        EXPECT_NEAR(std::remainder(state[2] - time - 0.7306205700512591, period), 0, 1e-12);
+        EXPECT_GE(state[2], 0);
+        EXPECT_LT(state[2], period);
+    });
+    run_switch(sampler);
+    ASSERT_EQ(times.size(), 40U);
+    for (std::size_t i = 0; i < times.size(); ++i)
+        EXPECT_EQ(times[i], 0.5 * static_cast<double>(i));
+}
+
+TEST(Sampler, CoarsensEvenly) {
+    std::vector<double> times;
+    Sampler* self = nullptr;
+    Sampler sampler(0, std::exp2(-50), std::numeric_limits<std::size_t>::max(), {0, 0, 0},
+                    [&](double time, std::size_t, std::span<const double>) {
+                        times.push_back(time);
+                        if (times.size() < 20)
+                            return;
+                        for (std::size_t i = 0; i < 10; ++i)
+                            times[i] = times[2 * i];
+                        times.resize(10);
+                        self->coarsen();
+                    });
+    self = &sampler;
+    run_switch(sampler);
+    EXPECT_EQ(times.size(), sampler.taken());
+    EXPECT_GE(times.size(), 10U);
+    for (std::size_t i = 0; i < times.size(); ++i)
+        EXPECT_EQ(times[i], static_cast<double>(i) * sampler.spacing());
+    EXPECT_GT(sampler.next(), 27.3);
+}
+
+TEST(ArcMinima, CoverTheTrajectoryWithoutGaps) {
+    std::vector<ArcMinimum> minima;
+    ArcMinima collector([&](const ArcMinimum& minimum) { minima.push_back(minimum); });
+    run_switch(collector, true);
+    collector.finish();
+    ASSERT_GT(minima.size(), 10U);
+    double end = 0;
+    for (std::size_t i = 0; i < minima.size(); ++i) {
+        const ArcMinimum& minimum = minima[i];
+        EXPECT_LE(minimum.lower_bound, minimum.value);
+        EXPECT_GE(minimum.time, minimum.start);
+        EXPECT_LE(minimum.time, minimum.end + 1e-12);
+        EXPECT_GE(minimum.value, -1e-14);
+        if (i == 0 || minimum.arc != minima[i - 1].arc) {
+            EXPECT_NEAR(minimum.start, end, 1e-12);
+        }
+        end = minimum.end;
+    }
+    EXPECT_NEAR(end, 27.31773570163, 1e-6);
+}
+
+} // namespace
+} // namespace graze
