@@ -35,6 +35,20 @@ Function CompiledModel::function_of(std::span<const Expression> outputs) {
     return function;
 }
 
+/// Row by row: functions x variables.
+std::vector<Expression> CompiledModel::derivatives(std::span<const Expression> functions,
+                                                   std::span<const Expression> variables) const {
+    const auto expanded = model_.expand(functions);
+    std::vector<std::vector<Expression>> columns;
+    for (const Expression& variable : variables)
+        columns.push_back(differentiate(expanded, variable));
+    std::vector<Expression> rows;
+    for (std::size_t row = 0; row < functions.size(); ++row)
+        for (const auto& column : columns)
+            rows.push_back(column[row]);
+    return rows;
+}
+
 void CompiledModel::compile_modes(std::span<const Expression> observed) {
     const auto states = model_.state_symbols();
     const auto parameters = model_.parameter_symbols();
@@ -51,6 +65,7 @@ void CompiledModel::compile_modes(std::span<const Expression> observed) {
             compiled.transitions.push_back(static_cast<std::size_t>(transition - model_.transitions.data()));
         }
         compiled.events = function_of(outputs);
+        compiled.event_gradients = function_of(derivatives(outputs, states));
         outputs.insert(outputs.end(), observed.begin(), observed.end());
         compiled.tape = compile_tape(states, parameters, model_.expand(mode.rates), model_.expand(outputs));
         compiled.rates = function_of(mode.rates);
@@ -65,14 +80,7 @@ void CompiledModel::compile_jumps() {
         const auto map = jump.map.empty() ? states : model_.expand(jump.map); // the identity may be left empty
         compiled.identity = std::equal(map.begin(), map.end(), states.begin(), states.end());
         compiled.map = function_of(map);
-        std::vector<std::vector<Expression>> columns;
-        for (const Expression& input : inputs_)
-            columns.push_back(differentiate(map, input));
-        std::vector<Expression> jacobian;
-        for (std::size_t row = 0; row < map.size(); ++row)
-            for (const auto& column : columns)
-                jacobian.push_back(column[row]);
-        compiled.jacobian = function_of(jacobian);
+        compiled.jacobian = function_of(derivatives(map, inputs_));
         jumps_.push_back(std::move(compiled));
     }
 }

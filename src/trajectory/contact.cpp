@@ -133,16 +133,15 @@ bool Trajectory::classify(std::size_t w, double step) {
     const Event& definition = simulation_->model().events[event];
     const auto c = event_series(w);
     const double size = series_size(c, step);
-    const double noise = roundoff * size;
     const bool served = event == served_;
     const bool due = std::find(together_.begin(), together_.end(), event) != together_.end();
     Watch& watch = watches_[w];
     watch = {};
-    const double at_surface =
-        served || due ? std::max(noise, served_roundoff * size + 2 * std::abs(surface_values_[event])) : noise;
-    // What cancels in an event function at its surface does not show in its series: look closer before complaining.
-    const bool violated = definition.kind == EventKind::barrier && c[0] < -at_surface;
-    if (violated ? -c[0] > surface_roundoff(w) : std::abs(c[0]) > at_surface) {
+    weigh_terms(w);
+    double at_surface = roundoff * std::max(size, terms_[0]);
+    if (served || due)
+        at_surface = std::max(at_surface, served_roundoff * size + 2 * std::abs(surface_values_[event]));
+    if (std::abs(c[0]) > at_surface) {
         watch.side = c[0] > 0 ? 1 : -1;
         if (watch.side > 0 || definition.kind == EventKind::section)
             return true;
@@ -153,9 +152,7 @@ bool Trajectory::classify(std::size_t w, double step) {
                         definition.name, c[0], where()));
         return false;
     }
-    std::size_t leading = leading_index(c, step, noise);
-    while (leading >= 2 && leading + 1 < c.size() && c[leading] < 0 && -c[leading] < instant * step * c[leading + 1])
-        ++leading;
+    const std::size_t leading = leading_coefficient(w, step);
     if (leading == 0)
         return true; // moves along the surface: nothing to watch until it leaves
     watch.side = c[leading] > 0 ? 1 : -1;
@@ -179,22 +176,35 @@ bool Trajectory::classify(std::size_t w, double step) {
     return false;
 }
 
-/// What round-off of the states makes uncertain in a watched event function at the present state.
-double Trajectory::surface_roundoff(std::size_t w) {
-    constexpr double change = 0x1p-30;
-    const auto& events = simulation_->compiled().mode(mode_).events;
-    values_.resize(events.outputs());
+/// Sums, for each coefficient of a watched event function, the sizes of what the states contribute to it. What cancels
+/// there does not show in the coefficient but is what its round-off is measured by.
+void Trajectory::weigh_terms(std::size_t w) {
+    const Function& gradients = simulation_->compiled().mode(mode_).event_gradients;
+    values_.resize(gradients.outputs());
     std::copy(state_.begin(), state_.end(), inputs_.begin());
-    events.evaluate(inputs_, values_, work_);
-    const double value = values_[w];
-    double sum = 0;
-    for (std::size_t i = 0; i < states_; ++i) {
-        inputs_[i] += state_[i] * change;
-        events.evaluate(inputs_, values_, work_);
-        sum += std::abs(values_[w] - value);
-        inputs_[i] = state_[i];
+    gradients.evaluate(inputs_, values_, work_);
+    terms_.assign(static_cast<std::size_t>(order_) + 1, 0.0);
+    for (std::size_t i = 0; i < states_; ++i)
+        if (const double slope = std::abs(values_[w * states_ + i]); slope > 0 && std::isfinite(slope))
+            for (std::size_t k = 0; k < terms_.size(); ++k)
+                terms_[k] += slope * std::abs(series_[i][k]);
+}
+
+/// The first coefficient after the zeroth that round-off cannot explain, which decides the sign just after the start
+/// of an arc; 0 if there is none. Call after weigh_terms.
+std::size_t Trajectory::leading_coefficient(std::size_t w, double step) const {
+    const auto c = event_series(w);
+    const double noise = roundoff * series_size(c, step);
+    double power = 1;
+    for (std::size_t k = 1; k < c.size(); ++k) {
+        power *= step;
+        if (std::abs(c[k]) * power <= noise || std::abs(c[k]) <= roundoff * terms_[k])
+            continue;
+        const bool outgrown = k >= 2 && k + 1 < c.size() && c[k] < 0 && -c[k] < instant * step * c[k + 1];
+        if (!outgrown)
+            return k;
     }
-    return sum / change * roundoff;
+    return 0;
 }
 
 void Trajectory::announce_contact() {

@@ -23,9 +23,10 @@ public:
     explicit CompiledModel(const Model& model, std::span<const Expression> observed = {});
 
     struct CompiledMode {
-        Tape tape;       ///< outputs: the watched events in their order, then the observed expressions
-        Function rates;  ///< the vector field alone
-        Function events; ///< the watched event functions alone
+        Tape tape;                ///< outputs: the watched events in their order, then the observed expressions
+        Function rates;           ///< the vector field alone
+        Function events;          ///< the watched event functions alone
+        Function event_gradients; ///< and their derivatives with respect to the states, row by row
         std::vector<std::size_t> watched;
         std::vector<std::size_t> transitions; ///< of each watched event
     };
@@ -64,6 +65,8 @@ private:
     void compile_jumps();
     void compile_transitions();
     Function function_of(std::span<const Expression> outputs);
+    std::vector<Expression> derivatives(std::span<const Expression> functions,
+                                        std::span<const Expression> variables) const;
 
     Model model_;
     std::size_t parameters_ = 0, observed_ = 0, workspace_ = 0;

@@ -65,15 +65,15 @@ private:
     };
     /// The last contacts at one event, for telling when they accumulate.
     struct ContactHistory {
-        int count = 0;             ///< in a row, each slower than the one before
-        bool interrupted = false;  ///< something else happened between the last two
-        std::size_t serial = 0;    ///< of the last, among all contacts
+        int count = 0;              ///< in a row, each slower than the one before
+        bool interrupted = false;   ///< something else happened between the last two
+        std::size_t serial = 0;     ///< of the last, among all contacts
         std::size_t transition = 0; ///< made at the last
-        double time = 0;           ///< of the last
-        double flight = 0;         ///< time between the last two
-        double rate = 0;           ///< of the event function just before the last
-        double speed = 0;          ///< of separation after the last
-        double previous_speed = 0; ///< and after the one before
+        double time = 0;            ///< of the last
+        double flight = 0;          ///< time between the last two
+        double rate = 0;            ///< of the event function just before the last
+        double speed = 0;           ///< of separation after the last
+        double previous_speed = 0;  ///< and after the one before
     };
     static constexpr std::size_t no_event = static_cast<std::size_t>(-1);
 
@@ -88,7 +88,8 @@ private:
     void carry_tangents_to_rest(std::size_t watched, double remaining, double per_impulse);
     std::size_t find_contact(double& step);
     double on_surface(std::size_t watched, double s);
-    double surface_roundoff(std::size_t watched);
+    void weigh_terms(std::size_t watched);
+    std::size_t leading_coefficient(std::size_t watched, double step) const;
     void make_contact(std::size_t watched, double s);
     void apply_transition(std::size_t transition, double rate);
     void jump(std::size_t index);
@@ -124,6 +125,7 @@ private:
 
     std::vector<double> state_, inputs_, work_, periods_, fields_, jacobian_, row_, kick_, conditions_, before_, after_,
         values_;
+    std::vector<double> terms_; ///< what adds up to each coefficient of an event function, without signs
     std::vector<const double*> series_;
     std::vector<double> lanes_; ///< coefficients gathered from an ensemble jet
     std::vector<Watch> watches_;
@@ -131,7 +133,7 @@ private:
     std::vector<Root> found_touches_;
     std::vector<double> event_sizes_;    ///< largest size of each event's function so far, by which touches are judged
     std::vector<double> surface_values_; ///< of each event's function at the last contact, whichever event's it was
-    std::vector<std::size_t> together_; ///< events at the time of the last contact, still to be served
+    std::vector<std::size_t> together_;  ///< events at the time of the last contact, still to be served
 
     Outcome outcome_;
     std::size_t mode_ = 0, steps_ = 0;
