@@ -6,6 +6,13 @@
 
 namespace graze {
 
+namespace {
+
+/// Of the last two terms to the two before. At the optimal step of a series with a finite radius it is 0.02.
+constexpr double largest_growth = 0.5;
+
+} // namespace
+
 int order_for_tolerance(double tolerance) {
     const double bounded = std::clamp(tolerance, smallest_tolerance, largest_tolerance);
     return std::max(4, static_cast<int>(std::ceil(1 - std::log(bounded) / 2)));
@@ -17,7 +24,7 @@ StepSize::StepSize(int order, double tolerance)
 
 double StepSize::operator()(const double* const* states, std::size_t count, double previous) const {
     if (previous > 0)
-        return step_for(states, count, previous);
+        return decaying(states, count, step_for(states, count, previous));
     // Without a previous step the sizes of states that start at zero are unknown: begin with a step over which
     // the state changes by about its own size, and let it settle.
     double reference = std::numeric_limits<double>::infinity();
@@ -34,7 +41,29 @@ double StepSize::operator()(const double* const* states, std::size_t count, doub
             return step;
         reference = step;
     }
-    return reference;
+    return decaying(states, count, reference);
+}
+
+/// Where the last terms grow from one to the next, the terms left out are larger still, however small all of them are:
+/// so it is with exp(-100 x^2) far from its peak, over which a step must not lead.
+double StepSize::decaying(const double* const* states, std::size_t count, double step) const {
+    if (!std::isfinite(step))
+        return step;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double* c = states[i] + order_;
+        // In pairs, since every other term of an even or odd function is zero.
+        const double last = std::abs(c[0]), before = std::abs(c[-1]);
+        const double earlier = std::abs(c[-2]), first = std::abs(c[-3]);
+        if (earlier == 0 && first == 0)
+            continue;
+        for (int sweep = 0; sweep < 20; ++sweep) {
+            const double growth = std::max(last * step, before) * step * step / std::max(earlier * step, first);
+            if (!(growth > largest_growth))
+                break;
+            step *= std::sqrt(0.9 * largest_growth / growth);
+        }
+    }
+    return step;
 }
 
 double StepSize::polynomial_step(const double* c, double size) const {

@@ -33,6 +33,7 @@ private:
     /// For a state that is a polynomial of lower degree, any step is exact: one over which it changes by about its
     /// own size keeps sizes meaningful (they are what round-off is measured by).
     double polynomial_step(const double* coefficients, double size) const;
+    double decaying(const double* const* states, std::size_t count, double step) const;
     double step_for(const double* const* states, std::size_t count, double reference) const;
 
     int order_;
