@@ -23,8 +23,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double served_roundoff = 1e-10;
 
 /// What rests on a surface and is released when the force that presses it there reaches zero has a force at round-off
-/// left, of either sign. A pressing one is none if it would be outgrown within this share of a step.
-constexpr double instant = 1e-9;
+/// left, of either sign, and perhaps a speed. They decide nothing if they are outgrown within these shares of a step.
+constexpr double instant_of_speed = 1e-13, instant_of_force = 1e-9;
 
 /// Contacts in a row before an accumulation is looked for.
 constexpr int fewest_contacts_of_chatter = 3;
@@ -122,6 +122,7 @@ void Trajectory::begin_arc(double step) {
         if (!classify(w, step))
             return;
     served_ = no_event;
+    stuck_ = false;
     together_.clear();
 }
 
@@ -145,6 +146,10 @@ bool Trajectory::classify(std::size_t w, double step) {
         watch.side = c[0] > 0 ? 1 : -1;
         if (watch.side > 0 || definition.kind == EventKind::section)
             return true;
+        if (stuck_) { // released as soon as it sticks
+            make_contact(w, 0);
+            return false;
+        }
         finish(
             Ending::inadmissible, time_,
             fmt::format("barrier '{}' is already violated ({:.6g} < 0) {}: choose an initial state on its admissible "
@@ -159,7 +164,7 @@ bool Trajectory::classify(std::size_t w, double step) {
     watch.strip = static_cast<int>(leading);
     if (watch.side > 0)
         return !(served && leading == 1) || !complete_chatter(w, step);
-    if (definition.kind == EventKind::section && !due)
+    if (definition.kind == EventKind::section && (served || !due))
         return true;
     if (!served) {
         make_contact(w, 0);
@@ -200,7 +205,9 @@ std::size_t Trajectory::leading_coefficient(std::size_t w, double step) const {
         power *= step;
         if (std::abs(c[k]) * power <= noise || std::abs(c[k]) <= roundoff * terms_[k])
             continue;
-        const bool outgrown = k >= 2 && k + 1 < c.size() && c[k] < 0 && -c[k] < instant * step * c[k + 1];
+        const double instant = k == 1 ? instant_of_speed : instant_of_force;
+        const bool outgrown =
+            k + 1 < c.size() && c[k] * c[k + 1] < 0 && std::abs(c[k]) < instant * step * std::abs(c[k + 1]);
         if (!outgrown)
             return k;
     }
@@ -292,6 +299,7 @@ void Trajectory::apply_transition(std::size_t transition, double rate) {
     pending_->mode_before = pending_->mode_after = mode_;
     pending_->rate_before = rate;
     served_ = pending_->event;
+    stuck_ = false;
     jump(compiled.jump);
     bool ends = false;
     const auto next = next_mode(transition, ends);
@@ -400,16 +408,20 @@ bool Trajectory::complete_chatter(std::size_t w, double step) {
     if (!(ratio < 1))
         return false;
     const double flight = history.interrupted ? ratio * history.flight : 2 * speed / deceleration;
-    const double remaining = flight / (1 - ratio);
+    const double steady = flight / (1 - ratio);
+    // To first order in the change of the deceleration: where it falls at the rate j, with q = j u / a^2, a flight takes
+    // 2u/a (1 + 2q/3), returns with the speed u (1 - 2q/3) and leaves the deceleration a (1 - 2q).
+    const double lengthening = history.interrupted ? 0 : -c[3] / c[2] * steady;
+    const double remaining = steady * (1 + lengthening);
     const double allowed = std::max(4 * epsilon, 0.01 * simulation_->options().tolerance);
     const double height = deceleration * remaining * remaining;
-    const double change = std::abs(c[3] / c[2]) * remaining;
-    if (height > allowed * series_size(c, step) || change * remaining > allowed * step ||
+    const double change = std::abs(c[3] / c[2]) * steady;
+    if (height > allowed * series_size(c, step) || !(change * steady <= allowed * step) || !(remaining > 0) ||
         remaining > (end_time_ - time_) - time_low_ || (!history.interrupted && another_event_within(w, remaining)))
         return false;
     // Where each contact changes the mode, as when it makes a frame slip that soon stops again, the accumulation is
     // that of the transition by which the contacts are made.
-    stick(w, history.transition, remaining, deceleration * remaining - speed);
+    stick(w, history.transition, remaining, (deceleration - 3 * c[3] * remaining) * remaining - speed);
     return true;
 }
 
@@ -457,6 +469,7 @@ void Trajectory::stick(std::size_t w, std::size_t index, double remaining, doubl
     contact.rate_before = c[1];
     pending_ = contact;
     served_ = no_event;
+    stuck_ = true;
     jump(transition.chatter->jump);
     enter(transition.chatter->jump, transition.chatter->mode);
 }
