@@ -22,8 +22,8 @@ public:
     };
 
     OdeintPeer(const Parameters& parameters, double tolerance)
-        : parameters_(parameters),
-          stepper_(boost::numeric::odeint::make_dense_output(tolerance, tolerance, Method{})) {}
+        : parameters_(parameters), stepper_(boost::numeric::odeint::make_dense_output(tolerance, tolerance, Method{})) {
+    }
 
     void start(const State& state) {
         state_ = state;

@@ -417,20 +417,29 @@ double RootFinder::resolution(std::span<const double> c, double length) {
     return evaluate(c, length).value_error;
 }
 
+// In four parts, by powers of s^4, which processors work on side by side.
 double evaluate_polynomial(std::span<const double> c, double s) {
-    double value = 0;
-    for (std::size_t k = c.size(); k-- > 0;)
-        value = value * s + c[k];
-    return value;
+    const double square = s * s, step = square * square;
+    double part[4] = {0, 0, 0, 0};
+    std::size_t k = c.size();
+    for (; k % 4 != 0; --k)
+        part[(k - 1) % 4] = c[k - 1];
+    for (; k > 0; k -= 4)
+        for (std::size_t j = 0; j < 4; ++j)
+            part[j] = part[j] * step + c[k - 4 + j];
+    return (part[0] + part[1] * s) + (part[2] + part[3] * s) * square;
 }
 
 double evaluate_derivative(std::span<const double> c, double s) {
-    double value = 0, slope = 0;
-    for (std::size_t k = c.size(); k-- > 0;) {
-        slope = slope * s + value;
-        value = value * s + c[k];
-    }
-    return slope;
+    const double square = s * s, step = square * square;
+    double part[4] = {0, 0, 0, 0};
+    std::size_t k = c.empty() ? 0 : c.size() - 1;
+    for (; k % 4 != 0; --k)
+        part[(k - 1) % 4] = static_cast<double>(k) * c[k];
+    for (; k > 0; k -= 4)
+        for (std::size_t j = 0; j < 4; ++j)
+            part[j] = part[j] * step + static_cast<double>(k - 3 + j) * c[k - 3 + j];
+    return (part[0] + part[1] * s) + (part[2] + part[3] * s) * square;
 }
 
 } // namespace graze

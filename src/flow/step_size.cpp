@@ -19,8 +19,7 @@ int order_for_tolerance(double tolerance) {
 }
 
 StepSize::StepSize(int order, double tolerance)
-    : order_(order), tolerance_(std::clamp(tolerance, smallest_tolerance, largest_tolerance)),
-      root_high_(std::pow(tolerance_, 1.0 / order)), root_low_(std::pow(tolerance_, 1.0 / (order - 1))) {}
+    : order_(order), log_tolerance_(std::log2(std::clamp(tolerance, smallest_tolerance, largest_tolerance))) {}
 
 double StepSize::operator()(const double* const* states, std::size_t count, double previous) const {
     if (previous > 0)
@@ -57,10 +56,10 @@ double StepSize::decaying(const double* const* states, std::size_t count, double
         if (earlier == 0 && first == 0)
             continue;
         for (int sweep = 0; sweep < 20; ++sweep) {
-            const double growth = std::max(last * step, before) * step * step / std::max(earlier * step, first);
-            if (!(growth > largest_growth))
+            const double end = std::max(last * step, before) * step * step, start = std::max(earlier * step, first);
+            if (!(end > largest_growth * start))
                 break;
-            step *= std::sqrt(0.9 * largest_growth / growth);
+            step *= std::sqrt(0.9 * largest_growth * start / end);
         }
     }
     return step;
@@ -76,32 +75,38 @@ double StepSize::polynomial_step(const double* c, double size) const {
 }
 
 double StepSize::step_for(const double* const* states, std::size_t count, double reference) const {
-    double high = 0, low = 0, sum = 0, polynomial = std::numeric_limits<double>::infinity();
+    double high = 0, low = 0, sum = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const double* c = states[i];
         const double last = std::abs(c[order_]), before = std::abs(c[order_ - 1]);
         sum += last + before; // not finite as soon as one is not
-        double size = std::abs(c[0]) + reference * (std::abs(c[1]) + reference * std::abs(c[2]));
-        if (size == 0)
-            for (int k = order_; k >= 0; --k)
-                size = size * reference + std::abs(c[k]);
-        if (last == 0 && before == 0) {
-            polynomial = std::min(polynomial, polynomial_step(c, size));
+        if (last == 0 && before == 0)
             continue;
-        }
+        const double size = size_of(c, reference);
         high = std::max(high, last / size);
         low = std::max(low, before / size);
     }
     if (!std::isfinite(sum))
         return std::numeric_limits<double>::quiet_NaN();
-    if (high == 0 && low == 0)
-        return polynomial;
     double step = std::numeric_limits<double>::infinity();
+    if (high == 0 && low == 0) {
+        for (std::size_t i = 0; i < count; ++i)
+            step = std::min(step, polynomial_step(states[i], size_of(states[i], reference)));
+        return step;
+    }
     if (high > 0)
-        step = root_high_ * std::exp2(-std::log2(high) / order_);
+        step = (log_tolerance_ - std::log2(high)) / order_;
     if (low > 0)
-        step = std::min(step, root_low_ * std::exp2(-std::log2(low) / (order_ - 1)));
-    return step;
+        step = std::min(step, (log_tolerance_ - std::log2(low)) / (order_ - 1));
+    return std::exp2(step);
+}
+
+double StepSize::size_of(const double* c, double reference) const {
+    double size = std::abs(c[0]) + reference * (std::abs(c[1]) + reference * std::abs(c[2]));
+    if (size == 0)
+        for (int k = order_; k >= 0; --k)
+            size = size * reference + std::abs(c[k]);
+    return size;
 }
 
 double StepSize::radius(const double* const* states, std::size_t count) const {

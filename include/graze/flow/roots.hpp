@@ -106,7 +106,7 @@ private:
     std::vector<Node> stack_;
 };
 
-/// Value and derivative by Horner's rule.
+/// Value and derivative; round-off is at most that of Horner's rule.
 double evaluate_polynomial(std::span<const double> c, double s);
 double evaluate_derivative(std::span<const double> c, double s);
 

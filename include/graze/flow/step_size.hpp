@@ -34,11 +34,12 @@ private:
     /// own size keeps sizes meaningful (they are what round-off is measured by).
     double polynomial_step(const double* coefficients, double size) const;
     double decaying(const double* const* states, std::size_t count, double step) const;
+    /// Sum of the first terms of a series at s = reference, or of all if those are zero.
+    double size_of(const double* coefficients, double reference) const;
     double step_for(const double* const* states, std::size_t count, double reference) const;
 
     int order_;
-    double tolerance_;
-    double root_high_, root_low_; ///< tolerance^(1/order), tolerance^(1/(order-1))
+    double log_tolerance_; ///< to base 2
 };
 
 } // namespace graze
