@@ -73,6 +73,7 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     end_time_ = end_time;
     previous_step_ = largest_step_ = 0;
     arc_start_ = true;
+    stuck_ = false;
     served_ = no_event;
     pending_.reset();
     together_.clear();
@@ -201,7 +202,8 @@ void Trajectory::advance(const Jet& jet, std::size_t lane) {
 /// passage: the step then ends there.
 bool Trajectory::make_step(double& length) {
     ++steps_;
-    if (length > 0)
+    // A step that time cannot tell from none is no progress: contacts must not go on for ever in it.
+    if (length > 4 * std::numeric_limits<double>::epsilon() * std::abs(time_))
         contacts_now_ = 0;
     const std::size_t watched = simulation_->compiled().mode(mode_).watched.size();
     const std::span<const double* const> all(series_);

@@ -139,7 +139,7 @@ private:
     std::size_t mode_ = 0, steps_ = 0;
     double time_ = 0, time_low_ = 0, end_time_ = 0;
     double previous_step_ = 0, largest_step_ = 0;
-    bool arc_start_ = true;
+    bool arc_start_ = true, stuck_ = false; ///< stuck: the arc begins where contacts have accumulated
     std::size_t served_ = no_event;         ///< event of the contact at which the present arc began
     std::optional<Contact> pending_;        ///< contact still to be announced, when the next jet is known
     std::vector<ContactHistory> histories_; ///< for each event
