@@ -23,7 +23,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double served_roundoff = 1e-10;
 
 /// What rests on a surface and is released when the force that presses it there reaches zero has a force at round-off
-/// left, of either sign, and perhaps a speed. They decide nothing if they are outgrown within these shares of a step.
+/// left, of either sign, and perhaps a speed. They decide nothing if they are outgrown within these shares of a full
+/// step.
 constexpr double instant_of_speed = 1e-13, instant_of_force = 1e-9;
 
 /// Contacts in a row before an accumulation is looked for.
@@ -207,7 +208,7 @@ std::size_t Trajectory::leading_coefficient(std::size_t w, double step) const {
             continue;
         const double instant = k == 1 ? instant_of_speed : instant_of_force;
         const bool outgrown =
-            k + 1 < c.size() && c[k] * c[k + 1] < 0 && std::abs(c[k]) < instant * step * std::abs(c[k + 1]);
+            k + 1 < c.size() && c[k] * c[k + 1] < 0 && std::abs(c[k]) < instant * largest_step_ * std::abs(c[k + 1]);
         if (!outgrown)
             return k;
     }
@@ -409,8 +410,8 @@ bool Trajectory::complete_chatter(std::size_t w, double step) {
         return false;
     const double flight = history.interrupted ? ratio * history.flight : 2 * speed / deceleration;
     const double steady = flight / (1 - ratio);
-    // To first order in the change of the deceleration: where it falls at the rate j, with q = j u / a^2, a flight takes
-    // 2u/a (1 + 2q/3), returns with the speed u (1 - 2q/3) and leaves the deceleration a (1 - 2q).
+    // To first order in the change of the deceleration: where it falls at the rate j, with q = j u / a^2, a flight
+    // takes 2u/a (1 + 2q/3), returns with the speed u (1 - 2q/3) and leaves the deceleration a (1 - 2q).
     const double lengthening = history.interrupted ? 0 : -c[3] / c[2] * steady;
     const double remaining = steady * (1 + lengthening);
     const double allowed = std::max(4 * epsilon, 0.01 * simulation_->options().tolerance);
