@@ -54,6 +54,8 @@ struct KernelTable {
     Kernel multiply_linear;          ///< left operand of degree 1; orders above 0
     Kernel function_of_linear;       ///< y' = a' w, a of degree 1; orders above 0
     Kernel minus_function_of_linear; ///< y' = -a' w
+    /// Both at order 0; the cosine goes to `third` (the argument is in `left`).
+    Kernel sine_and_cosine;
     void (*literal)(double* result, double value);
     Kernel constant[operation_count]; ///< on numbers; row `number` and `symbol` are empty
 };

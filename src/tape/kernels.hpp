@@ -278,6 +278,16 @@ GRAZE_INLINE void function_value(const KernelOperands& o, int) {
     put(o.result, 0, evaluate<function>(at<V>(o.third, 0)));
 }
 
+/// Compilers make one call of the library of the two.
+template <class V>
+GRAZE_INLINE void sine_and_cosine(const KernelOperands& o, int) {
+    const V a = at<V>(o.left, 0);
+    V sine, cosine;
+    evaluate_sine_and_cosine(a, sine, cosine);
+    put(o.result, 0, sine);
+    put(o.third, 0, cosine);
+}
+
 template <class V>
 GRAZE_INLINE void multiply_linear(const KernelOperands& o, int k) {
     put(o.result, k, multiply_add(at<V>(o.left, 0), at<V>(o.right, k), at<V>(o.left, 1) * at<V>(o.right, k - 1)));

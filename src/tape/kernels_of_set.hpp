@@ -75,6 +75,7 @@ constexpr KernelTable make_table() {
     table.multiply_linear = &chained<&multiply_linear<V>>;
     table.function_of_linear = &chained<&function_of_linear<V, false>>;
     table.minus_function_of_linear = &chained<&function_of_linear<V, true>>;
+    table.sine_and_cosine = &chained<&sine_and_cosine<V>>;
     table.literal = &literal<V>;
     fill_constants<V, Operation::add, Operation::subtract, Operation::multiply, Operation::divide, Operation::power,
                    Operation::negate, Operation::sqrt, Operation::exp, Operation::log, Operation::sin, Operation::cos,

@@ -23,10 +23,11 @@ typedef double Pack __attribute__((vector_size(8 * lanes)));
 struct Ensemble {
     Pack values;
 };
-/// A number and its derivatives in some directions.
+/// A number (lane 0 of the first part) and its derivatives in some directions (all other lanes).
 struct Tangent {
-    double value;
-    Pack directions;
+    static constexpr int parts = 8 / lanes;
+    static constexpr int width = 8;
+    Pack part[parts];
 };
 
 GRAZE_INLINE double multiply_add(double a, double b, double c) {
@@ -50,7 +51,25 @@ GRAZE_INLINE Pack multiply_add(Pack a, Pack b, Pack c) {
 }
 
 GRAZE_INLINE Pack splat(double value) {
-    return Pack{} + value;
+#if GRAZE_LANES == 8
+    return Pack{value, value, value, value, value, value, value, value};
+#elif GRAZE_LANES == 4
+    return Pack{value, value, value, value};
+#else
+    return Pack{value, value};
+#endif
+}
+
+/// Lane 0 of one and the other lanes of another.
+GRAZE_INLINE Pack with_first(Pack first, Pack others) {
+#if defined(__AVX512F__)
+    return _mm512_mask_mov_pd(first, 0xfe, others);
+#elif defined(__FMA__)
+    return _mm256_blend_pd(others, first, 1);
+#else
+    others[0] = first[0];
+    return others;
+#endif
 }
 
 GRAZE_INLINE Ensemble operator+(Ensemble a, Ensemble b) {
@@ -75,29 +94,49 @@ GRAZE_INLINE Ensemble multiply_add(Ensemble a, Ensemble b, Ensemble c) {
     return {multiply_add(a.values, b.values, c.values)};
 }
 
+template <class Function>
+GRAZE_INLINE Tangent for_parts(Function&& function) {
+    Tangent result;
+    for (int i = 0; i < Tangent::parts; ++i)
+        result.part[i] = function(i);
+    return result;
+}
+#define GRAZE_FOR_PARTS(expression) for_parts([&](int i) __attribute__((always_inline)) { return expression; })
+
 GRAZE_INLINE Tangent operator+(Tangent a, Tangent b) {
-    return {a.value + b.value, a.directions + b.directions};
+    return GRAZE_FOR_PARTS(a.part[i] + b.part[i]);
 }
 GRAZE_INLINE Tangent operator-(Tangent a, Tangent b) {
-    return {a.value - b.value, a.directions - b.directions};
+    return GRAZE_FOR_PARTS(a.part[i] - b.part[i]);
 }
 GRAZE_INLINE Tangent operator-(Tangent a) {
-    return {-a.value, -a.directions};
-}
-GRAZE_INLINE Tangent operator*(Tangent a, Tangent b) {
-    return {a.value * b.value, multiply_add(splat(a.value), b.directions, splat(b.value) * a.directions)};
+    return GRAZE_FOR_PARTS(-a.part[i]);
 }
 GRAZE_INLINE Tangent operator*(Tangent a, double b) {
-    return {a.value * b, a.directions * b};
+    return GRAZE_FOR_PARTS(a.part[i] * b);
+}
+/// The value of c, and its directions increased by those of a times b.
+GRAZE_INLINE Tangent add_directions(Tangent a, Pack b, Tangent c) {
+    Tangent result = GRAZE_FOR_PARTS(multiply_add(a.part[i], b, c.part[i]));
+    result.part[0] = with_first(c.part[0], result.part[0]);
+    return result;
+}
+GRAZE_INLINE Tangent operator*(Tangent a, Tangent b) {
+    const Pack value = splat(a.part[0][0]);
+    const Tangent product = GRAZE_FOR_PARTS(value * b.part[i]);
+    return add_directions(a, splat(b.part[0][0]), product);
 }
 GRAZE_INLINE Tangent operator/(Tangent a, Tangent b) {
-    const double quotient = a.value / b.value;
-    return {quotient, (a.directions - quotient * b.directions) / b.value};
+    const Pack divisor = splat(b.part[0][0]);
+    const Tangent numerator = add_directions(b, splat(-(a.part[0][0] / b.part[0][0])), a);
+    return GRAZE_FOR_PARTS(numerator.part[i] / divisor);
 }
 GRAZE_INLINE Tangent multiply_add(Tangent a, Tangent b, Tangent c) {
-    return {multiply_add(a.value, b.value, c.value),
-            multiply_add(splat(a.value), b.directions, multiply_add(a.directions, splat(b.value), c.directions))};
+    const Pack value = splat(a.part[0][0]);
+    const Tangent sum = GRAZE_FOR_PARTS(multiply_add(value, b.part[i], c.part[i]));
+    return add_directions(a, splat(b.part[0][0]), sum);
 }
+#undef GRAZE_FOR_PARTS
 
 template <class V>
 struct Numbers;
@@ -124,18 +163,22 @@ struct Numbers<Ensemble> {
 
 template <>
 struct Numbers<Tangent> {
-    static constexpr int width = 1 + lanes;
+    static constexpr int width = Tangent::width;
     GRAZE_INLINE static Tangent load(const double* from) {
         Tangent number;
-        number.value = *from;
-        __builtin_memcpy(&number.directions, from + 1, sizeof(Pack));
+        for (int i = 0; i < Tangent::parts; ++i)
+            __builtin_memcpy(&number.part[i], from + i * lanes, sizeof(Pack));
         return number;
     }
     GRAZE_INLINE static void store(double* to, Tangent number) {
-        *to = number.value;
-        __builtin_memcpy(to + 1, &number.directions, sizeof(Pack));
+        for (int i = 0; i < Tangent::parts; ++i)
+            __builtin_memcpy(to + i * lanes, &number.part[i], sizeof(Pack));
     }
-    GRAZE_INLINE static Tangent of(double number) { return {number, Pack{}}; }
+    GRAZE_INLINE static Tangent of(double number) {
+        Tangent result{};
+        result.part[0][0] = number;
+        return result;
+    }
 };
 
 /// Coefficient of a series.
@@ -213,12 +256,14 @@ inline double slope_of(double a, double y) {
     }
 }
 
-/// slope * directions, but 0 in a direction in which nothing changes even where the slope is infinite.
-inline Pack along(double slope, Pack directions) {
-    Pack result;
-    for (int lane = 0; lane < lanes; ++lane)
-        result[lane] = directions[lane] == 0 ? 0.0 : slope * directions[lane];
-    return result;
+/// A function's value, and slope * directions, but 0 in a direction in which nothing changes even where the slope is
+/// infinite.
+inline Tangent along(double value, double slope, Tangent directions) {
+    for (Pack& part : directions.part)
+        for (int lane = 0; lane < lanes; ++lane)
+            part[lane] = part[lane] == 0 ? 0.0 : slope * part[lane];
+    directions.part[0][0] = value;
+    return directions;
 }
 
 template <Operation function>
@@ -233,8 +278,26 @@ inline Ensemble evaluate(Ensemble a) {
 }
 template <Operation function>
 inline Tangent evaluate(Tangent a) {
-    const double value = value_of<function>(a.value);
-    return {value, along(slope_of<function>(a.value, value), a.directions)};
+    const double value = value_of<function>(a.part[0][0]);
+    return along(value, slope_of<function>(a.part[0][0], value), a);
+}
+
+inline void evaluate_sine_and_cosine(double a, double& sine, double& cosine) {
+    sine = ::sin(a);
+    cosine = ::cos(a);
+}
+inline void evaluate_sine_and_cosine(Ensemble a, Ensemble& sine, Ensemble& cosine) {
+    for (int lane = 0; lane < lanes; ++lane) {
+        const double argument = a.values[lane];
+        sine.values[lane] = ::sin(argument);
+        cosine.values[lane] = ::cos(argument);
+    }
+}
+inline void evaluate_sine_and_cosine(Tangent a, Tangent& sine, Tangent& cosine) {
+    const double s = ::sin(a.part[0][0]);
+    const double c = ::cos(a.part[0][0]);
+    sine = along(s, c, a);
+    cosine = along(c, -s, a);
 }
 
 inline double power(double a, double exponent) {
@@ -246,9 +309,13 @@ inline Ensemble power(Ensemble a, Ensemble exponent) {
     return a;
 }
 inline Tangent power(Tangent a, Tangent exponent) {
-    const double value = ::pow(a.value, exponent.value);
-    return {value, along(exponent.value * ::pow(a.value, exponent.value - 1), a.directions) +
-                       along(value == 0 ? 0.0 : value * ::log(a.value), exponent.directions)};
+    const double base = a.part[0][0];
+    const double c = exponent.part[0][0];
+    const double value = ::pow(base, c);
+    Tangent result =
+        along(value, c * ::pow(base, c - 1), a) + along(value, value == 0 ? 0.0 : value * ::log(base), exponent);
+    result.part[0][0] = value;
+    return result;
 }
 
 } // namespace graze::GRAZE_INSTRUCTION_SET

@@ -39,10 +39,12 @@ public:
     virtual int width() const = 0;
 
     /// @param parameters [parameter * width() + lane]; in a tangent jet lanes 1.. are directional derivatives
+    /// @throws std::invalid_argument (here and below) when the number of numbers is wrong
     virtual void set_parameters(std::span<const double> parameters) = 0;
     /// Computes coefficients 0 .. order() from states [state * width() + lane].
     virtual void compute(std::span<const double> states) = 0;
-    /// Computes only coefficient 0 of outputs and rates: cheap evaluation at a point.
+    /// Computes only coefficient 0 of outputs, and the rates, which become coefficient 1 of the states: cheap
+    /// evaluation at a point. All other coefficients are left undefined.
     virtual void compute_values(std::span<const double> states) = 0;
 
     /// Coefficients of a state or output: (order() + 1) * width() numbers, valid until the next `compute`.
@@ -56,6 +58,7 @@ protected:
 /// Lanes of an ensemble jet, or directions of a tangent jet (one less than its width).
 int lanes_of(LaneKind kind, InstructionSet set);
 
+/// The tape is not needed afterwards. Nothing is allocated while computing. Without parameters set, they are 0.
 /// @param order 1 .. highest_order
 /// @throws std::invalid_argument when the instruction set is not supported or the order out of range
 std::unique_ptr<Jet> make_jet(const Tape& tape, int order, LaneKind kind, InstructionSet set = best_instruction_set());
