@@ -1,0 +1,80 @@
+// Shipped models at random parameters end as they should: at the time asked for, or by snap-through where there is one.
+
+#include "graze/model/catalogue.hpp"
+#include "graze/trajectory/trajectory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace graze {
+namespace {
+
+struct Range {
+    const char* parameter;
+    double low, high;
+};
+
+struct Scenario {
+    const char* model;
+    double time;
+    bool may_be_singular;
+    std::vector<Range> ranges;
+};
+
+const std::vector<Scenario>& scenarios() {
+    static const std::vector<Scenario> all = {
+        {"bouncing-ball", 20, false, {{"a", 0, 0.02}, {"e", 0, 0.95}, {"f", 1, 30}}},
+        {"ball-and-shaker", 20, false, {{"a", 0.1, 5}, {"e", 0, 0.9}, {"f", 1, 20}, {"b", 0.1, 1}}},
+        {"impact-microactuator",
+         200,
+         false,
+         {{"V", 0.1, 1.3}, {"omega", 0.2, 2.2}, {"e", 0, 0.95}, {"mu_d", 0.01, 0.39}}},
+        {"impact-oscillator", 300, false, {{"omega", 0.1, 4}, {"sigma", -0.5, 1.5}, {"e", 0, 0.95}}},
+        {"impact-oscillator-two-stops", 300, false, {{"omega", 0.1, 4}, {"sigma", 0.05, 1.5}, {"e", 0, 0.95}}},
+        {"dry-friction-oscillator", 300, false, {{"omega", 0.1, 3}}},
+        {"electromagnetic-testbed", 10, false, {{"V0", 1, 9}, {"f", 2, 10}, {"e", 0, 0.95}}},
+        {"mems-switch", 300, true, {{"V", 0.05, 0.4}, {"e", 0, 0.95}, {"omega", 0.3, 3}, {"delta", 0.1, 0.6}}},
+        {"microbeam", 3, true, {{"V", 0.001, 0.05}, {"k", 0, 5000}}},
+    };
+    return all;
+}
+
+class Robustness : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(Robustness, RandomParametersEndRegularly) {
+    const Scenario& scenario = scenarios()[GetParam()];
+    std::mt19937_64 random(20 + GetParam());
+    const auto draw = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+    const double tolerances[] = {1e-6, 1e-9, 1e-12, 1e-14};
+    for (int sample = 0; sample < 60; ++sample) {
+        Model model = load_model(scenario.model);
+        std::string setting;
+        for (const Range& range : scenario.ranges) {
+            double value = draw(range.low, range.high);
+            if (std::string(range.parameter) == "e" && sample % 5 == 0)
+                value = 0;
+            model.set_parameter(range.parameter, value);
+            setting += std::string(" ") + range.parameter + "=" + std::to_string(value);
+        }
+        const Simulation simulation(model, {}, {}, {.tolerance = tolerances[sample % 4], .step_limit = 3'000'000});
+        Observer nobody;
+        Trajectory trajectory(simulation, model.parameter_values(), nobody);
+        trajectory.start(model.initial_state(), model.initial_mode, 0, scenario.time);
+        JetSet jets(simulation, LaneKind::single);
+        run(trajectory, jets);
+        const Ending ending = trajectory.outcome().ending;
+        EXPECT_TRUE(ending == Ending::end_time || (scenario.may_be_singular && ending == Ending::singular))
+            << scenario.model << setting << ": " << name_of(ending) << ": " << trajectory.outcome().detail;
+        for (const double x : trajectory.state())
+            EXPECT_TRUE(std::isfinite(x)) << scenario.model << setting;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(ShippedModels, Robustness, testing::Range<std::size_t>(0, scenarios().size()));
+
+} // namespace
+} // namespace graze
