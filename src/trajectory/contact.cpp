@@ -143,6 +143,8 @@ bool Trajectory::classify(std::size_t w, double step) {
     double at_surface = roundoff * std::max(size, terms_[0]);
     if (served || due)
         at_surface = std::max(at_surface, served_roundoff * size + 2 * std::abs(surface_values_[event]));
+    else if (c[0] > 0) // no contact put it there: as far from the surface as its own terms can tell
+        at_surface = roundoff * terms_[0];
     if (std::abs(c[0]) > at_surface) {
         watch.side = c[0] > 0 ? 1 : -1;
         if (watch.side > 0 || definition.kind == EventKind::section)
