@@ -170,8 +170,7 @@ void declare_method(CLI::App& command, SimulateArguments& arguments) {
     add(command, group, "--steps", arguments.steps, "N", "End after so many steps (100 million)");
     command.add_flag("--progress", arguments.progress, "Show progress even if standard error is no terminal")
         ->group(group);
-    command.add_flag("--quiet", arguments.quiet, "Do not say how the trajectory ended, unless it is wrong")
-        ->group(group);
+    command.add_flag("--quiet", arguments.quiet, "Say how the trajectory ended only if it broke off")->group(group);
 }
 
 void declare_simulate(CLI::App& app, SimulateArguments& arguments) {
@@ -228,6 +227,16 @@ std::string explain_extra(const std::string& word, const CLI::App& command, cons
                        nearest.empty() ? help : fmt::format("did you mean '{}'?", nearest));
 }
 
+/// @param message of CLI11, as "Could not convert: --order = x"
+std::string explain_conversion(const std::string& message, const std::string& help) {
+    const std::size_t start = message.find("--"), equals = message.find(" = ");
+    if (start == std::string::npos || equals == std::string::npos || equals < start)
+        return fmt::format("{}; {}", message, help);
+    const std::string option = message.substr(start, equals - start);
+    return fmt::format("{}: '{}' is no value for it; {}", option, message.substr(equals + 3),
+                       option == "--format" ? "choose table, csv or json" : help);
+}
+
 } // namespace
 
 void declare_arguments(CLI::App& app, Arguments& arguments) {
@@ -270,6 +279,8 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app) {
         return &command == &app ? "a command is missing; " + help
                                 : fmt::format("the model is missing; write {} MODEL, then the options", name);
     }
+    if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr)
+        return explain_conversion(error.what(), help);
     return fmt::format("{}; {}", error.what(), help);
 }
 

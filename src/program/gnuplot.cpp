@@ -172,20 +172,20 @@ void GnuplotScript::place_panels() {
 
 /// Aligns the panels of a column and their labels. Returns where it ends.
 double GnuplotScript::place_column(double start, bool over_time) {
-    double tics = 0, lines = 1;
+    double tics = 0, label_lines = 1;
     for (const Panel& panel : panels_) {
         if (panel.x.is_time != over_time)
             continue;
         tics = std::max(tics, static_cast<double>(letters_of_tics(panel.y_axis)));
         if (label(panel.y, panel.height + history_gap, true).find("\\n") != std::string::npos)
-            lines = 2;
+            label_lines = 2;
     }
     double end = start;
     for (Panel& panel : panels_) {
         if (panel.x.is_time != over_time)
             continue;
-        panel.label = start + margin + lines * pixels_of_line / 2;
-        panel.left = start + 3 * margin + lines * pixels_of_line + tics * pixels_of_digit;
+        panel.label = start + margin + label_lines * pixels_of_line / 2;
+        panel.left = start + 3 * margin + label_lines * pixels_of_line + tics * pixels_of_digit;
         end = panel.left + panel.width;
     }
     return end;

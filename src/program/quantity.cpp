@@ -69,7 +69,7 @@ std::span<const double> QuantityEvaluator::operator()(std::span<const double> st
     return values_;
 }
 
-StateColumns::StateColumns(const Model& model, std::vector<RequestedQuantity> quantities)
+StateColumns::StateColumns(const Model& model, const std::vector<RequestedQuantity>& quantities)
     : evaluate_(model, quantities) {
     for (const State& state : model.states)
         columns_.push_back({state.name, state.unit});

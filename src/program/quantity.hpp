@@ -38,7 +38,7 @@ private:
 /// The columns in which tables show a state: all states, then the quantities asked for.
 class StateColumns {
 public:
-    StateColumns(const Model& model, std::vector<RequestedQuantity> quantities);
+    StateColumns(const Model& model, const std::vector<RequestedQuantity>& quantities);
     /// @param suffix behind every name
     void declare(std::vector<Table::Column>& columns, const std::string& suffix = {}) const;
     void add(Table& table, std::span<const double> state);

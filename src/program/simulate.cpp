@@ -114,8 +114,9 @@ TableRequest table_request(const Model& model, const SimulateArguments& argument
     request.directions = chosen_directions(model, arguments, request.kind);
     if (arguments.samples && !arguments.every.empty())
         throw InputError("--samples and --every cannot be given together", "choose one of them");
-    if (arguments.samples && *arguments.samples < 2)
-        throw InputError({"--samples", 0, 0}, fmt::format("{} rows are too few", *arguments.samples), "give 2 or more");
+    if (arguments.samples && (*arguments.samples < 2 || static_cast<std::size_t>(*arguments.samples) > most_samples))
+        throw InputError({"--samples", 0, 0}, fmt::format("{} rows are out of range", *arguments.samples),
+                         fmt::format("give 2 or more, up to {}", most_samples));
     if (arguments.samples)
         request.samples = static_cast<std::size_t>(*arguments.samples);
     if (!arguments.every.empty())
@@ -173,6 +174,9 @@ public:
     SimulateCommand(const SimulateArguments& arguments, const Console& console)
         : arguments_(arguments), console_(console), model_(prepared_model(arguments)),
           request_(table_request(model_, arguments)), length_(run_length(model_, arguments)) {
+        if (request_.every && length_.shown.expected && *length_.shown.expected / *request_.every > most_samples)
+            throw InputError({"--every", 0, 0}, fmt::format("there would be more than {} rows", most_samples),
+                             "choose a larger distance or a shorter time");
         check_outputs();
         const SimulationOptions options = simulation_options(model_, arguments, request_.kind);
         auto probes = probes_for(model_, arguments, request_, length_);
@@ -283,6 +287,9 @@ private:
         else if (!arguments_.quiet)
             console_.err << fmt::format("graze: {} {}, {} steps\n", name_of(outcome.ending), when,
                                         trajectory_->steps());
+        if (!table_->is_complete())
+            console_.err << fmt::format("graze: warning: the table ends after {} rows; choose a larger --every\n",
+                                        table_->table().rows());
         bool undefined = false;
         if (request_.kind == TableKind::derivatives && !trajectory_->tangents_valid()) {
             console_.err

@@ -22,8 +22,6 @@ constexpr std::array<std::pair<std::string_view, TableKind>, 7> kinds{{
     {"summary", TableKind::summary},
 }};
 
-constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
-
 class SampleTable : public TableRecorder {
 public:
     SampleTable(const Simulation& simulation, const TableRequest& request)
@@ -41,7 +39,7 @@ public:
         const double spacing = request_.every ? *request_.every
                                : duration     ? *duration / static_cast<double>(request_.samples - 1)
                                               : unknown;
-        const std::size_t count = request_.every || thins_ ? no_limit : request_.samples;
+        const std::size_t count = request_.every || thins_ ? most_samples : request_.samples;
         sampler_.emplace(trajectory.time(), spacing, count, periods_,
                          [this](double time, std::size_t mode, std::span<const double> state) {
                              add(time, mode, state);
@@ -58,11 +56,15 @@ public:
     void finish(const Trajectory& trajectory) override {
         if (!sampler_)
             return;
+        if (!is_complete())
+            return;
         const bool due = sampler_->next() <= trajectory.time() + 1e-9 * sampler_->spacing();
         const bool missing = table_.rows() == 0 || last_ < trajectory.time();
         if (request_.every ? due : missing)
             add(trajectory.time(), trajectory.mode(), trajectory.state());
     }
+
+    bool is_complete() const override { return table_.rows() < most_samples || !request_.every; }
 
 private:
     void add(double time, std::size_t mode, std::span<const double> state) {

@@ -12,6 +12,9 @@
 
 namespace graze {
 
+/// Of the table of samples; more would fill the memory.
+inline constexpr std::size_t most_samples = 10'000'000;
+
 enum class TableKind { samples, contacts, sections, extrema, minima, derivatives, summary };
 
 std::optional<TableKind> table_kind(std::string_view name);
@@ -25,6 +28,8 @@ public:
     virtual void begin(const Trajectory&, std::optional<double>) {}
     /// The trajectory has ended.
     virtual void finish(const Trajectory&) {}
+    /// False when there was more to show than fits.
+    virtual bool is_complete() const { return true; }
     const Table& table() const { return table_; }
 
 protected:
