@@ -414,12 +414,16 @@ bool Trajectory::complete_chatter(std::size_t w, double step) {
     const double steady = flight / (1 - ratio);
     // To first order in the change of the deceleration: where it falls at the rate j, with q = j u / a^2, a flight
     // takes 2u/a (1 + 2q/3), returns with the speed u (1 - 2q/3) and leaves the deceleration a (1 - 2q).
-    const double lengthening = history.interrupted ? 0 : -c[3] / c[2] * steady;
-    const double remaining = steady * (1 + lengthening);
+    const double lengthening = -c[3] / c[2] * steady;
+    const double remaining = history.interrupted ? steady : steady * (1 + lengthening);
     const double allowed = std::max(4 * epsilon, 0.01 * simulation_->options().tolerance);
     const double height = deceleration * remaining * remaining;
-    const double change = std::abs(c[3] / c[2]) * steady;
-    if (height > allowed * series_size(c, step) || !(change * steady <= allowed * step) || !(remaining > 0) ||
+    const double change = std::abs(lengthening);
+    const double neglected =
+        history.interrupted ? change : 4 * (change * change + std::abs(c[4] / c[2]) * steady * steady);
+    // Lower flights would be made of the round-off of the states.
+    const double low = std::max(allowed * series_size(c, step), 16 * roundoff * terms_[0]);
+    if (height > low || !(change < 0.01) || !(neglected * steady <= allowed * step) ||
         remaining > (end_time_ - time_) - time_low_ || (!history.interrupted && another_event_within(w, remaining)))
         return false;
     // Where each contact changes the mode, as when it makes a frame slip that soon stops again, the accumulation is
