@@ -79,7 +79,8 @@ double StepSize::step_for(const double* const* states, std::size_t count, double
     for (std::size_t i = 0; i < count; ++i) {
         const double* c = states[i];
         const double last = std::abs(c[order_]), before = std::abs(c[order_ - 1]);
-        sum += last + before; // not finite as soon as one is not
+        // Not finite as soon as one is not; a logarithm of a negative number has only a first coefficient that is not.
+        sum += last + before + 0 * (c[0] + c[1] + c[2]);
         if (last == 0 && before == 0)
             continue;
         const double size = size_of(c, reference);

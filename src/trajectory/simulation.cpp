@@ -19,6 +19,8 @@ void SimulationOptions::validate() const {
     if (!(largest_step >= 0))
         throw InputError(fmt::format("the largest step {} is not a positive time", largest_step),
                          "give a positive time, or 0 for no bound");
+    if (contacts_at_once < 1)
+        throw InputError(fmt::format("{} events at one time are too few", contacts_at_once), "allow at least one");
     if (!(touch >= 0))
         throw InputError(fmt::format("the touch distance {} is negative", touch), "give 0 or a positive distance");
 }

@@ -68,7 +68,7 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     mode_ = mode;
     outcome_ = {};
     steps_ = 0;
-    time_ = time;
+    time_ = start_time_ = time;
     time_low_ = 0;
     end_time_ = end_time;
     previous_step_ = largest_step_ = 0;
@@ -145,7 +145,7 @@ void Trajectory::advance(const Jet& jet, std::size_t lane) {
     const double proposed = !std::isinf(step) ? step : std::isinf(remaining) ? 1.0 : std::max(remaining, 1.0);
     largest_step_ = std::max(largest_step_, std::min(proposed, remaining));
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
-    if (proposed < 32 * epsilon * std::max(std::abs(time_), largest_step_)) {
+    if (proposed < 32 * epsilon * std::max(time_ - start_time_, largest_step_)) {
         announce_contact();
         return finish(Ending::singular, time_ + step_size_.radius(series_.data(), states_));
     }
@@ -222,7 +222,7 @@ bool Trajectory::make_step(double& length) {
             if (stopped && found.at > length)
                 break;
             report_passage(found.probe, found.at, found.direction, found.at_contact);
-            if (!stopped && observer_->stop()) {
+            if (observer_->stop() && !stopped) {
                 stopped = true;
                 length = step.length = found.at;
             }
@@ -335,6 +335,12 @@ void Trajectory::finish_undefined() {
     std::copy(state_.begin(), state_.end(), inputs_.begin());
     simulation_->compiled().mode(mode_).rates.evaluate(inputs_, rates, work_);
     std::string culprit = "a derivative of the vector field";
+    const auto& mode = simulation_->compiled().mode(mode_);
+    values_.resize(mode.events.outputs());
+    mode.events.evaluate(inputs_, values_, work_);
+    for (std::size_t w = mode.watched.size(); w-- > 0;)
+        if (!std::isfinite(values_[w]))
+            culprit = fmt::format("the function of event '{}'", model.events[mode.watched[w]].name);
     for (std::size_t i = states_; i-- > 0;)
         if (!std::isfinite(rates[i]))
             culprit = fmt::format("the rate of state '{}'", model.states[i].name);

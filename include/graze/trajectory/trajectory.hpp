@@ -137,7 +137,7 @@ private:
 
     Outcome outcome_;
     std::size_t mode_ = 0, steps_ = 0;
-    double time_ = 0, time_low_ = 0, end_time_ = 0;
+    double time_ = 0, time_low_ = 0, start_time_ = 0, end_time_ = 0;
     double previous_step_ = 0, largest_step_ = 0;
     bool arc_start_ = true, stuck_ = false; ///< stuck: the arc begins where contacts have accumulated
     std::size_t served_ = no_event;         ///< event of the contact at which the present arc began
