@@ -1,0 +1,90 @@
+#pragma once
+
+#include "graze/model/catalogue.hpp"
+#include "graze/model/model_file.hpp"
+#include "graze/trajectory/recorder.hpp"
+#include "graze/trajectory/trajectory.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace graze::testing {
+
+inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+using Settings = std::vector<std::pair<std::string, double>>;
+
+/// A shipped model with other parameters.
+inline Model shipped_with(const std::string& name, const Settings& settings = {}) {
+    Model model = load_model(name);
+    for (const auto& [parameter, value] : settings)
+        model.set_parameter(parameter, value);
+    return model;
+}
+
+/// Parameters of one model with one of them changed.
+inline std::vector<double> parameters_with(Model model, const Settings& settings) {
+    for (const auto& [parameter, value] : settings)
+        model.set_parameter(parameter, value);
+    return model.parameter_values();
+}
+
+inline SimulationOptions with_tolerance(double tolerance) {
+    SimulationOptions options;
+    options.tolerance = tolerance;
+    return options;
+}
+
+/// One trajectory with all that it needs, recorded.
+class Experiment {
+public:
+    explicit Experiment(Model model, SimulationOptions options = {}, std::vector<Probe> probes = {},
+                        std::vector<Expression> observed = {})
+        : simulation(std::move(model), std::move(probes), std::move(observed), options),
+          jets(simulation, LaneKind::single), observer({&recorder}),
+          trajectory(simulation, simulation.model().parameter_values(), observer) {}
+    Experiment(const Experiment&) = delete;
+
+    const Outcome& run(double end_time) {
+        return run_from(simulation.model().initial_state(), simulation.model().initial_mode, end_time);
+    }
+    const Outcome& run_from(std::vector<double> state, std::size_t mode, double end_time) {
+        recorder.clear();
+        trajectory.start(state, mode, 0, end_time);
+        graze::run(trajectory, jets);
+        return trajectory.outcome();
+    }
+    const Outcome& go_on(double end_time) {
+        trajectory.extend(end_time);
+        graze::run(trajectory, jets);
+        return trajectory.outcome();
+    }
+    std::vector<double> state() const { return {trajectory.state().begin(), trajectory.state().end()}; }
+    /// Label of a contact's transition.
+    const std::string& label(std::size_t contact) const {
+        return simulation.model().transitions[recorder.contacts()[contact].contact.transition].label;
+    }
+
+    Simulation simulation;
+    JetSet jets;
+    Recorder recorder;
+
+private:
+    Relay observer;
+
+public:
+    Trajectory trajectory;
+};
+
+/// A model from text in TOML.
+inline Model model_from(const std::string& text) {
+    return parse_model(text, "test.toml");
+}
+
+} // namespace graze::testing
