@@ -25,8 +25,8 @@ struct Ensemble {
 };
 /// A number (lane 0 of the first part) and its derivatives in some directions (all other lanes).
 struct Tangent {
-    static constexpr int parts = 8 / lanes;
-    static constexpr int width = 8;
+    static constexpr int width = lanes == 2 ? 4 : 8;
+    static constexpr int parts = width / lanes;
     Pack part[parts];
 };
 
