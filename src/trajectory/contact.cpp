@@ -487,7 +487,16 @@ void Trajectory::carry_tangents_to_rest(std::size_t w, double remaining, double 
     row_.assign(tangents_->directions(), 0.0);
     if (!(remaining > 0))
         return;
+    // Derivatives are those at a fixed time, at which a neighbour is `lead` away from the surface that it left with a
+    // speed that has changed by `row_` and by the deceleration since.
+    std::vector<double> lead(row_.size()), curvature(row_.size());
+    tangents_->coefficient(mode_, state_, w, 0, lead);
+    tangents_->coefficient(mode_, state_, w, 2, curvature);
     tangents_->coefficient(mode_, state_, w, 1, row_);
+    for (std::size_t d = 0; d < row_.size(); ++d) {
+        lead[d] /= c[1];
+        row_[d] -= 2 * c[2] * lead[d];
+    }
     // d(remaining)/d(speed), and the impulse a (remaining) - u that goes with it
     const double per_speed = remaining / c[1];
     const double kicks = per_impulse * (-2 * c[2] * per_speed - 1);
@@ -495,8 +504,8 @@ void Trajectory::carry_tangents_to_rest(std::size_t w, double remaining, double 
     for (std::size_t i = 0; i < states_; ++i)
         kick_[i] = periods_[i] > 0 ? 0 : kicks * (after_[i] - before_[i]);
     tangents_->add_product(kick_, row_);
-    for (double& shift : row_)
-        shift *= per_speed;
+    for (std::size_t d = 0; d < row_.size(); ++d)
+        row_[d] = row_[d] * per_speed - lead[d] - remaining * curvature[d] / c[2];
 }
 
 } // namespace graze
