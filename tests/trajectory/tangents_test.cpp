@@ -213,25 +213,25 @@ TEST(Tangents, ShippedModelsAgainstDifferences) {
         double end, step;
     };
     // Closer to grazing, smaller differences are needed.
-    for (const auto& [name, end, step] : std::vector<Case>{{"impact-oscillator", 12.3, 1e-4},
-                                                           {"impact-microactuator", 21, 1e-5},
-                                                           {"electromagnetic-testbed", 0.45, 1e-4},
-                                                           {"mems-switch", 13, 1e-7},
-                                                           {"ball-and-shaker", 0.5, 1e-6},
-                                                           {"bouncing-ball", 0.63, 1e-4},
-                                                           {"dry-friction-oscillator", 20, 1e-4},
-                                                           {"impact-oscillator-two-stops", 9, 1e-4},
-                                                           {"microbeam", 0.4, 1e-4}}) {
-        const Model model = load_model(name);
+    for (const Case& one : std::vector<Case>{{"impact-oscillator", 12.3, 1e-4},
+                                             {"impact-microactuator", 21, 1e-5},
+                                             {"electromagnetic-testbed", 0.45, 1e-4},
+                                             {"mems-switch", 13, 1e-7},
+                                             {"ball-and-shaker", 0.5, 1e-6},
+                                             {"bouncing-ball", 0.63, 1e-4},
+                                             {"dry-friction-oscillator", 20, 1e-4},
+                                             {"impact-oscillator-two-stops", 9, 1e-4},
+                                             {"microbeam", 0.4, 1e-4}}) {
+        const Model model = load_model(one.name);
         const std::size_t n = model.states.size();
-        const Differentiated run(model, model.initial_state(), model.initial_mode, end);
-        ASSERT_TRUE(run.trajectory().tangents_valid()) << name;
+        const Differentiated run(model, model.initial_state(), model.initial_mode, one.end);
+        ASSERT_TRUE(run.trajectory().tangents_valid()) << one.name;
         const Simulation simulation(model, {}, {}, with_tolerance(1e-15));
         JetSet jets(simulation, LaneKind::single);
         std::vector<double> input = model.initial_state();
         const auto parameters = model.parameter_values();
         input.insert(input.end(), parameters.begin(), parameters.end());
-        const End plain = end_of(simulation, jets, input, n, model.initial_mode, end);
+        const End plain = end_of(simulation, jets, input, n, model.initial_mode, one.end);
         std::size_t compared = 0;
         for (std::size_t k = 0; k < input.size(); ++k) {
             const double scale = std::abs(input[k]) > 0 ? std::abs(input[k]) : 1e-2;
@@ -240,7 +240,7 @@ TEST(Tangents, ShippedModelsAgainstDifferences) {
                 [&](double h) {
                     std::vector<double> moved = input;
                     moved[k] += h;
-                    End other = end_of(simulation, jets, moved, n, model.initial_mode, end);
+                    End other = end_of(simulation, jets, moved, n, model.initial_mode, one.end);
                     comparable = comparable && other.transitions == plain.transitions;
                     for (std::size_t i = 0; i < n; ++i)
                         if (model.states[i].period && std::abs(other.state[i] - plain.state[i]) > 1)
@@ -248,7 +248,7 @@ TEST(Tangents, ShippedModelsAgainstDifferences) {
                                 other.state[i] < plain.state[i] ? 2 * std::numbers::pi : -2 * std::numbers::pi;
                     return other.state;
                 },
-                step * scale);
+                one.step * scale);
             if (!comparable)
                 continue;
             ++compared;
@@ -260,12 +260,12 @@ TEST(Tangents, ShippedModelsAgainstDifferences) {
                     size = std::max(size, std::abs(expected[j]) * (std::abs(plain.state[i]) + 1e-3) /
                                               (std::abs(plain.state[j]) + 1e-3));
                 const double error = std::abs(run(i, k) - expected[i]) / size;
-                EXPECT_LT(error, 1e-6) << name << ": " << model.states[i].name << " by input " << k << ", " << run(i, k)
-                                       << " for " << expected[i];
+                EXPECT_LT(error, 1e-6) << one.name << ": " << model.states[i].name << " by input " << k << ", "
+                                       << run(i, k) << " for " << expected[i];
             }
         }
-        EXPECT_GT(run.contacts(), 1U) << name;
-        EXPECT_GE(compared, input.size() - 3) << name;
+        EXPECT_GT(run.contacts(), 1U) << one.name;
+        EXPECT_GE(compared, input.size() - 3) << one.name;
     }
 }
 
