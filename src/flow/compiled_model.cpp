@@ -69,6 +69,9 @@ void CompiledModel::compile_modes(std::span<const Expression> observed) {
         outputs.insert(outputs.end(), observed.begin(), observed.end());
         compiled.tape = compile_tape(states, parameters, model_.expand(mode.rates), model_.expand(outputs));
         compiled.rates = function_of(mode.rates);
+        compiled.has_roots = std::any_of(compiled.tape.code.begin(), compiled.tape.code.end(), [](const auto& one) {
+            return one.operation == SeriesOperation::sqrt || one.operation == SeriesOperation::power_constant;
+        });
         modes_.push_back(std::move(compiled));
     }
 }

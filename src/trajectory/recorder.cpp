@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace graze {
 
@@ -56,13 +57,16 @@ Sampler::Sampler(double start, double spacing, std::size_t count, std::vector<do
 void Sampler::step(const Step& step) {
     for (; taken_ < count_; ++taken_) {
         const double time = next();
-        const double s = time - step.start;
-        if (!(s <= step.length))
+        // Start and length have each lost what time does not resolve.
+        if (!(time <= step.start + step.length + 2 * std::numeric_limits<double>::epsilon() * std::abs(time)))
             return;
+        const double s = std::clamp(time - step.start, 0.0, step.length);
         for (std::size_t i = 0; i < state_.size(); ++i) {
-            state_[i] = step.state(i, std::max(s, 0.0));
+            state_[i] = step.state(i, s);
             if (periods_[i] > 0)
                 state_[i] -= std::floor(state_[i] / periods_[i]) * periods_[i];
+            if (periods_[i] > 0 && state_[i] >= periods_[i])
+                state_[i] = 0;
         }
         receiver_(time, step.mode, state_);
     }

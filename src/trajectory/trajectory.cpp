@@ -189,6 +189,8 @@ void Trajectory::advance(const Jet& jet, std::size_t lane) {
         } else {
             add_time(step);
         }
+        if (!rates_follow_series(step))
+            return;
         wrap_cyclic_states(false);
     }
     if (!finished() && (stopped || observer_->stop()))
@@ -252,7 +254,8 @@ void Trajectory::report_passage(std::size_t index, double at, int direction, boo
     for (std::size_t i = 0; i < states_; ++i)
         before_[i] = evaluate_state(i, at);
     reduce_cyclic_states(before_);
-    if (probe.kind == Probe::Kind::phase && periods_[probe.state] - before_[probe.state] < roundoff * periods_[probe.state])
+    if (probe.kind == Probe::Kind::phase &&
+        periods_[probe.state] - before_[probe.state] < roundoff * periods_[probe.state])
         before_[probe.state] = 0;
     observer_->passage({index, time_ + (at + time_low_), direction, mode_, at_contact, before_});
 }
@@ -327,6 +330,30 @@ void Trajectory::finish(Ending ending, double time, std::string detail) {
 
 std::string Trajectory::where() const {
     return fmt::format("in mode '{}' at time {:.15g}", simulation_->model().modes[mode_].name, time_);
+}
+
+/// Where what is under a root has a double zero, series lead through it onto the other branch of the root, with no sign
+/// of it but that the rates found behind are others. (x' = -sqrt(x) has the solution (1 - t/2)^2 only until t = 2.)
+bool Trajectory::rates_follow_series(double length) {
+    const auto& mode = simulation_->compiled().mode(mode_);
+    if (!mode.has_roots || !(length > 0))
+        return true;
+    std::copy(state_.begin(), state_.end(), inputs_.begin());
+    values_.resize(states_);
+    mode.rates.evaluate(inputs_, values_, work_);
+    const double share = std::max(1e-6, 1000 * simulation_->options().tolerance) / length;
+    for (std::size_t i = 0; i < states_; ++i) {
+        const double foreseen = evaluate_derivative(series(i), length), difference = std::abs(values_[i] - foreseen);
+        if (!(difference > 0.5 * (std::abs(values_[i]) + std::abs(foreseen))) ||
+            difference <= share * series_size(series(i), length))
+            continue;
+        finish(Ending::undefined, time_,
+               fmt::format("the rate of state '{}' jumps in the step that ends {}: what stands under a root or a power "
+                           "reaches zero there; make that an event",
+                           simulation_->model().states[i].name, where()));
+        return false;
+    }
+    return true;
 }
 
 void Trajectory::finish_undefined() {

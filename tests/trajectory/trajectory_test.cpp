@@ -584,6 +584,25 @@ TEST(Endings, SingularWhereAFunctionEnds) {
     expect_ending(from_rates("x = 1", "x = \"-1/x\""), Ending::singular, 0.5, {}, 1e-12);
 }
 
+TEST(Endings, ARootThatReachesZeroSmoothly) {
+    // The series of (1 - t/2)^2 does not notice that the rate -sqrt(x) ends at t = 2.
+    const Model model = from_rates("x = 1\ny = 0", "x = \"-sqrt(x)\", y = \"cos(y)\"");
+    Experiment experiment(model);
+    const Outcome outcome = experiment.run(100);
+    EXPECT_EQ(outcome.ending, Ending::undefined);
+    EXPECT_NE(outcome.detail.find("'x'"), std::string::npos) << outcome.detail;
+    EXPECT_GE(outcome.time, 2);
+    EXPECT_LT(outcome.time, 6);
+    EXPECT_EQ(experiment.run(1.9).ending, Ending::end_time);
+    EXPECT_EQ(experiment.run(2.1).ending, Ending::undefined);
+    // Roots of what stays positive are no matter.
+    for (const double tolerance : {1e-2, 1e-4, 1e-9, 1e-16}) {
+        Experiment pendulum(from_rates("x = 1\nv = 0", "x = \"v\", v = \"-x*sqrt(1 + x^2) - x*(2 + v)^0.3\""),
+                            with_tolerance(tolerance));
+        EXPECT_EQ(pendulum.run(300).ending, Ending::end_time) << tolerance;
+    }
+}
+
 TEST(Endings, AnEventComesBeforeTheSingularity) {
     // Draining a tank: x = (1 - t/2)^2 while x > 0; the event at the bottom ends it.
     const Model model = model_from(R"toml(

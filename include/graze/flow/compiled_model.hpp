@@ -29,6 +29,7 @@ public:
         Function event_gradients; ///< and their derivatives with respect to the states, row by row
         std::vector<std::size_t> watched;
         std::vector<std::size_t> transitions; ///< of each watched event
+        bool has_roots = false;               ///< sqrt or powers that are not whole, which have two branches at zero
     };
     struct CompiledJump {
         bool identity = false;

@@ -106,6 +106,7 @@ private:
     void add_time(double step);
     void finish(Ending ending, double time, std::string detail = {});
     void finish_undefined();
+    bool rates_follow_series(double length);
     std::string where() const;
     std::span<const double> series(std::size_t index) const {
         return {series_[index], static_cast<std::size_t>(order_) + 1};
