@@ -320,6 +320,8 @@ void Trajectory::apply_transition(std::size_t transition, double rate) {
                         time_));
     }
     enter(compiled.jump, *next);
+    if (!finished() && contacts_now_ > simulation_->options().contacts_at_once)
+        judge_stand_still();
 }
 
 void Trajectory::jump(std::size_t jump) {
@@ -375,12 +377,23 @@ void Trajectory::enter(std::size_t jump, std::size_t mode) {
     mode_ = mode;
     wrap_cyclic_states(true);
     arc_start_ = true;
-    if (++contacts_now_ > simulation_->options().contacts_at_once) {
-        hand_over_contact();
-        finish(Ending::no_progress, time_,
-               fmt::format("{} events happened at once {}: look for modes that hand over to one another in a circle",
-                           contacts_now_, where()));
+    ++contacts_now_;
+}
+
+/// Too many contacts at one time are the end of an accumulation that other rules did not see (as of a block that rocks
+/// from one edge to the other) if each was slower than the one before, and otherwise modes that go round in a circle.
+void Trajectory::judge_stand_still() {
+    const ContactHistory history = histories_[served_];
+    hand_over_contact();
+    if (history.count >= simulation_->options().contacts_at_once / 20) {
+        before_ = state_;
+        if (tangents_)
+            row_.assign(tangents_->directions(), 0.0);
+        return come_to_rest(served_, history.transition, 0);
     }
+    finish(Ending::no_progress, time_,
+           fmt::format("{} events happened at once {}: look for modes that hand over to one another in a circle",
+                       contacts_now_, where()));
 }
 
 void Trajectory::remember_contact(std::size_t event, double rate) {
@@ -445,7 +458,6 @@ bool Trajectory::another_event_within(std::size_t w, double time) const {
 /// event function's rate, `impulse` in all, they do to the state in the proportions of the last one.
 void Trajectory::stick(std::size_t w, std::size_t index, double remaining, double impulse) {
     const std::size_t event = simulation_->compiled().mode(mode_).watched[w];
-    const Transition& transition = simulation_->model().transitions[index];
     const auto c = event_series(w);
     const double last_impulse = c[1] - histories_[event].rate;
     const double share = remaining > 0 && last_impulse > 0 ? impulse / last_impulse : 0;
@@ -458,6 +470,12 @@ void Trajectory::stick(std::size_t w, std::size_t index, double remaining, doubl
         before_[i] = state_[i] + remaining * fields_[i] + (periods_[i] > 0 ? 0 : kick);
     }
     add_time(remaining);
+    come_to_rest(event, index, c[1]);
+}
+
+/// Makes the sticking that a transition declares, from `before_`.
+void Trajectory::come_to_rest(std::size_t event, std::size_t index, double rate) {
+    const Transition& transition = simulation_->model().transitions[index];
     histories_[event] = {};
     if (!transition.chatter) {
         state_ = before_;
@@ -473,7 +491,7 @@ void Trajectory::stick(std::size_t w, std::size_t index, double remaining, doubl
     contact.event = event;
     contact.transition = index;
     contact.mode_before = mode_;
-    contact.rate_before = c[1];
+    contact.rate_before = rate;
     pending_ = contact;
     served_ = no_event;
     stuck_ = true;

@@ -1,10 +1,12 @@
 // Shipped models at random parameters end as they should: at the time asked for, or by snap-through where there is one.
 
 #include "graze/model/catalogue.hpp"
+#include "graze/model/model_file.hpp"
 #include "graze/trajectory/trajectory.hpp"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <string>
@@ -75,6 +77,56 @@ TEST_P(Robustness, RandomParametersEndRegularly) {
 }
 
 INSTANTIATE_TEST_SUITE_P(ShippedModels, Robustness, testing::Range<std::size_t>(0, scenarios().size()));
+
+/// A mass that constant forces pull to a ridge from either side, and that loses speed each time it crosses: like a
+/// block that rocks from edge to edge. Crossings accumulate although no event follows itself.
+Model ridge(bool with_rest) {
+    std::string text = R"(
+name = "ridge"
+parameters = { g = 9.81, e = 0.9 }
+states = { x = 0.5, v = 0 }
+events = { leftwards = "x", rightwards = "-x" }
+initial = { mode = "right" }
+[modes]
+right = { rates = { x = "v", v = "-g" }, watch = ["leftwards"] }
+left = { rates = { x = "v", v = "g" }, watch = ["rightwards"] }
+rest = { rates = { x = 0, v = 0 } }
+[jumps]
+lose = { v = "e*v" }
+stop = { x = 0, v = 0 }
+)";
+    for (const auto& [mode, event, next] :
+         {std::array{"right", "leftwards", "left"}, {"left", "rightwards", "right"}}) {
+        text += std::string("[[transitions]]\njump = 'lose'\nmode = '") + mode + "'\nevent = '" + event +
+                "'\nnext = '" + next + "'\n";
+        if (with_rest)
+            text += "chatter = { jump = 'stop', mode = 'rest' }\n";
+    }
+    return parse_model(text, "ridge.toml");
+}
+
+struct Rest : Observer {
+    double time = -1;
+    void contact(const Contact& contact) override {
+        if (contact.kind == ContactKind::sticking)
+            time = contact.time;
+    }
+};
+
+TEST(StandStill, CrossingsThatAccumulateBetweenTwoModesComeToRest) {
+    for (const bool with_rest : {true, false}) {
+        const Model model = ridge(with_rest);
+        const Simulation simulation(model);
+        Rest rest;
+        Trajectory trajectory(simulation, model.parameter_values(), rest);
+        trajectory.start(model.initial_state(), model.initial_mode, 0, 100);
+        JetSet jets(simulation, LaneKind::single);
+        run(trajectory, jets);
+        const double fall = std::sqrt(2 * 0.5 / 9.81), expected = fall * (1 + 0.9) / (1 - 0.9);
+        EXPECT_EQ(trajectory.outcome().ending, with_rest ? Ending::end_time : Ending::chatter);
+        EXPECT_NEAR(with_rest ? rest.time : trajectory.outcome().time, expected, 1e-13 * expected);
+    }
+}
 
 } // namespace
 } // namespace graze

@@ -85,6 +85,8 @@ private:
     bool complete_chatter(std::size_t watched, double step);
     bool another_event_within(std::size_t watched, double time) const;
     void stick(std::size_t watched, std::size_t transition, double remaining, double impulse);
+    void come_to_rest(std::size_t event, std::size_t transition, double rate);
+    void judge_stand_still();
     void carry_tangents_to_rest(std::size_t watched, double remaining, double per_impulse);
     std::size_t find_contact(double& step);
     double on_surface(std::size_t watched, double s);
