@@ -43,6 +43,13 @@ public:
             }
             if (!is_ascii(c))
                 fail("a character outside ASCII", "put texts in quotes; names and keys consist of plain letters");
+            if (c == '[' && open_.empty() && begins_line()) {
+                check_header();
+            } else if (c == '[' || c == '{') {
+                open_ += c;
+            } else if (c == ']' || c == '}') {
+                close(c);
+            }
             if (c == '.')
                 ++parts;
             else if (!is_key_character(c))
@@ -57,6 +64,39 @@ public:
 private:
     [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const {
         throw InputError(source_.place(at_), problem, remedy);
+    }
+
+    bool begins_line() const {
+        const std::size_t before = at_ == 0 ? std::string_view::npos : text_.find_last_not_of(" \t", at_ - 1);
+        return before == std::string_view::npos ||
+               std::string_view("\r\n\xbf").find(text_[before]) != std::string_view::npos;
+    }
+
+    /// The name of a table, after `[` or `[[`, must begin like a key. Steps over what is before it.
+    void check_header() {
+        open_ += '[';
+        skip_blanks();
+        if (at_ + 1 < text_.size() && text_[at_ + 1] == '[') {
+            ++at_;
+            open_ += '[';
+            skip_blanks();
+        }
+        if (at_ + 1 == text_.size())
+            return;
+        const char c = text_[at_ + 1];
+        if (!is_key_character(c) && c != '"' && c != '\'' && c != ']') {
+            ++at_;
+            fail("a table without a name", "write its name between the brackets, as in [states] or [[transitions]]");
+        }
+    }
+
+    void skip_blanks() { at_ = std::min(text_.find_first_not_of(" \t", at_ + 1), text_.size()) - 1; }
+
+    void close(char bracket) {
+        if (open_.empty() || open_.back() != (bracket == ']' ? '[' : '{'))
+            fail(fmt::format("a '{}' that closes nothing", bracket),
+                 "lists are written [1, 2], tables { a = 1, b = 2 }");
+        open_.pop_back();
     }
 
     /// Steps over the string that begins here. In the middle of a word the parser does not see a string at all.
@@ -110,6 +150,7 @@ private:
     std::string_view text_;
     const SourceText& source_;
     std::size_t at_ = 0;
+    std::string open_; ///< brackets not yet closed
 };
 
 } // namespace

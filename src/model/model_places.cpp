@@ -42,7 +42,7 @@ Escape escape_at(std::string_view text, std::size_t position) {
 } // namespace
 
 SourceText::SourceText(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {
-    line_starts_.push_back(0);
+    line_starts_.push_back(text_.starts_with("\xef\xbb\xbf") ? 3 : 0); // the mark with which some editors begin
     for (std::size_t i = 0; i < text_.size(); ++i)
         if (text_[i] == '\n')
             line_starts_.push_back(i + 1);
@@ -60,6 +60,7 @@ std::size_t SourceText::position(const Place& place) const {
 }
 
 Place SourceText::place(std::size_t position) const {
+    position = std::max(position, line_starts_.front());
     const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), position);
     const std::size_t start = *(after - 1);
     const std::string_view before = std::string_view(text_).substr(start, position - start);

@@ -3,6 +3,7 @@
 #include "graze/model/check.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/transform.hpp"
+#include "model/model_file_toml.hpp"
 
 #include <gtest/gtest.h>
 
@@ -398,6 +399,22 @@ TEST(ModelFile, RefusesCharactersThatTheParserCannotTake) {
         "\xef\xbb\xbf" + text("text = \"\"\"\u03b8 \\\n  x\u03b8\"\"\" # \u03b8\nsource = '\u00e9'\n"), "fine.toml");
     EXPECT_EQ(model.text, "\u03b8 x\u03b8");
     EXPECT_EQ(model.source, "\u00e9");
+}
+
+TEST(ModelFile, RefusesHeadersAndBracketsThatTheParserCannotTake) {
+    expect_refused("[=", 1, 2, "a table without a name");
+    expect_refused("\xef\xbb\xbf[.]", 1, 2, "a table without a name");
+    expect_refused("name = \"x\"\r\n [ \x01]\n", 2, 4, "a table without a name");
+    expect_refused("[[ \t+a]]\n", 1, 5, "a table without a name");
+    expect_refused("[\n]", 1, 2, "a table without a name");
+    expect_refused("a = [}", 1, 6, "a '}' that closes nothing");
+    expect_refused("a = [[1, 2], }]", 1, 14, "a '}' that closes nothing");
+    expect_refused("a = { b = 1 ]", 1, 13, "a ']' that closes nothing");
+    expect_refused("a = 1 ]", 1, 7, "a ']' that closes nothing");
+    for (const std::string unfinished : {"[", "[[", "[ ", "[[ ", "[]", "[[]]", "[ [a]]", "[a", "a = [", "a = [{"})
+        EXPECT_THROW(parse_model(unfinished, "unfinished.toml"), InputError) << unfinished;
+    // Lists may continue on a line of their own with what is no name; brackets in texts and comments are only text.
+    EXPECT_NO_THROW(parse_toml("[ 'a' ] # [.\nb = [\n[+1,\n-2], # }\n[ 5 ]]\n[[ \"c\" ]]\nd = '}]'\n", "fine.toml"));
 }
 
 TEST(ModelFile, RefusesUnknownKeys) {
