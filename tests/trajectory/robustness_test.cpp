@@ -124,7 +124,9 @@ TEST(StandStill, CrossingsThatAccumulateBetweenTwoModesComeToRest) {
         run(trajectory, jets);
         const double fall = std::sqrt(2 * 0.5 / 9.81), expected = fall * (1 + 0.9) / (1 - 0.9);
         EXPECT_EQ(trajectory.outcome().ending, with_rest ? Ending::end_time : Ending::chatter);
-        EXPECT_NEAR(with_rest ? rest.time : trajectory.outcome().time, expected, 1e-13 * expected);
+        // Positions are known to 1e-17, so flights of less than 1e-9, of which the sum's last part is made, only
+        // roughly.
+        EXPECT_NEAR(with_rest ? rest.time : trajectory.outcome().time, expected, 1e-10);
     }
 }
 
