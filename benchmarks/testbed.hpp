@@ -1,21 +1,16 @@
 #pragma once
 
+#include "duel.hpp"
 #include "odeint_peer.hpp"
 
 #include "graze/model/catalogue.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/trajectory/trajectory.hpp"
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <limits>
-#include <numbers>
 #include <string_view>
 #include <vector>
 
-// What several benchmarks share: the electromagnetic vibro-impactor on its period-3 orbit with impacts, and how to
-// time two rivals.
+// The electromagnetic vibro-impactor on its period-3 orbit with impacts.
 
 /// Counts impacts.
 struct ContactCounter : graze::Observer {
@@ -67,31 +62,4 @@ private:
         const std::vector expressions{model.expand(model.symbol(parameter))};
         return graze::Function(model.parameter_symbols(), expressions)(model.parameter_values())[0];
     }
-};
-
-/// Seconds that something takes.
-template <class Run>
-double seconds(Run&& run) {
-    using Clock = std::chrono::steady_clock;
-    const auto start = Clock::now();
-    run();
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Least times of two rivals that take turns, so that whatever else the machine does meets both alike.
-class Duel {
-public:
-    /// @return the time of the first, for Google Benchmark
-    template <class Own, class Peer>
-    double round(Own&& own, Peer&& peer) {
-        const double time = seconds(own);
-        own_ = std::min(own_, time);
-        peer_ = std::min(peer_, seconds(peer));
-        return time;
-    }
-    double own() const { return own_; }
-    double peer() const { return peer_; }
-
-private:
-    double own_ = std::numeric_limits<double>::infinity(), peer_ = own_;
 };

@@ -1,5 +1,5 @@
-// One trajectory on the period-3 orbit of the electromagnetic vibro-impactor, against Boost.odeint at equal tolerance,
-// and what asking for more costs: probes, minima of gaps, derivatives.
+// One trajectory on the period-3 orbit of the electromagnetic vibro-impactor: against Boost.odeint at equal tolerance,
+// and against itself when asked for more (probes, minima of the gap, derivatives).
 
 #include "testbed.hpp"
 
@@ -11,7 +11,7 @@ namespace {
 
 using namespace graze;
 
-constexpr double horizon = 1e9;
+constexpr int periods = 10 * Testbed::orbit_periods; ///< in each round
 
 /// A trajectory on the orbit that can be carried on period by period.
 class OrbitRun {
@@ -23,13 +23,14 @@ public:
         run(0);
     }
 
-    void run(int periods) {
-        periods_ += periods;
+    void run(int more) {
+        periods_ += more;
         trajectory_.extend(periods_ * Testbed::forcing_period);
         graze::run(trajectory_, jets_);
     }
 
     Trajectory& trajectory() { return trajectory_; }
+    const Model& model() const { return simulation_.model(); }
     std::size_t impacts() const { return counter_.contacts; }
 
 private:
@@ -43,7 +44,6 @@ private:
 /// Whether graze and the peer meet the same impacts and end in the same state, after as many periods as an orbit
 /// whose errors decay allows errors to add up.
 bool agree(OrbitRun& own, OdeintPeer& peer, const Testbed& testbed, double tolerance) {
-    constexpr int periods = 10 * Testbed::orbit_periods;
     const std::size_t before = own.impacts(), peer_before = peer.impacts();
     own.run(periods);
     peer.run(periods);
@@ -56,7 +56,6 @@ bool agree(OrbitRun& own, OdeintPeer& peer, const Testbed& testbed, double toler
 }
 
 void period_3_orbit(benchmark::State& state, double tolerance) {
-    constexpr int periods = 10 * Testbed::orbit_periods;
     const Testbed testbed;
     OrbitRun own(testbed, {.tolerance = tolerance});
     OdeintPeer peer(testbed.groups(), tolerance);
@@ -73,6 +72,44 @@ void period_3_orbit(benchmark::State& state, double tolerance) {
     state.counters["ratio"] = duel.peer() / duel.own();
 }
 
+/// The plain simulation with one that does more: `ratio` is how much longer that takes.
+void extra(benchmark::State& state, const SimulationOptions& options, const std::vector<std::string>& sections,
+           std::size_t directions) {
+    const Testbed testbed;
+    std::vector<Probe> probes;
+    for (const std::string& section : sections)
+        probes.push_back(section_probe(testbed.model, section));
+    OrbitRun plain(testbed, {}), more(testbed, options, probes);
+    const std::size_t inputs = testbed.model.states.size() + testbed.model.parameter_values().size();
+    if (directions > 0) {
+        std::vector<double> seeds(directions * inputs, 0.0);
+        for (std::size_t d = 0; d < directions; ++d)
+            seeds[d * inputs + d] = 1;
+        more.trajectory().carry_tangents(seeds, directions);
+    }
+    Duel duel;
+    for (auto unused : state)
+        state.SetIterationTime(duel.round([&] { more.run(periods); }, [&] { plain.run(periods); }));
+    state.counters["periods_per_second"] = periods / duel.own();
+    state.counters["peer_periods_per_second"] = periods / duel.peer();
+    state.counters["ratio"] = duel.peer() / duel.own();
+}
+
+void register_extras() {
+    const auto add = [](const std::string& name, const SimulationOptions& options,
+                        const std::vector<std::string>& sections, std::size_t directions) {
+        benchmark::RegisterBenchmark(("period_3_orbit/plain/" + name).c_str(), extra, options, sections, directions)
+            ->UseManualTime()
+            ->Unit(benchmark::kMicrosecond);
+    };
+    add("one_phase_section", {}, {"phase0"}, 0);
+    add("three_sections", {}, {"phase0", "phasepi", "nearest"}, 0);
+    add("minima", {.minima = true}, {}, 0);
+    add("derivatives_by_V0", {}, {}, 1);
+    add("derivatives_by_7_inputs", {}, {}, 7);
+    add("derivatives_by_8_inputs", {}, {}, 8);
+}
+
 void register_orbits() {
     for (const char* tolerance : {"1e-8", "1e-10", "1e-12", "1e-14"})
         benchmark::RegisterBenchmark((std::string("period_3_orbit/odeint/") + tolerance).c_str(), period_3_orbit,
@@ -83,6 +120,7 @@ void register_orbits() {
 
 const int registered = [] {
     register_orbits();
+    register_extras();
     return 0;
 }();
 

@@ -417,29 +417,35 @@ double RootFinder::resolution(std::span<const double> c, double length) {
     return evaluate(c, length).value_error;
 }
 
+namespace {
+
 // In four parts, by powers of s^4, which processors work on side by side.
-double evaluate_polynomial(std::span<const double> c, double s) {
+template <class Coefficient>
+double sum_in_parts(std::size_t size, double s, Coefficient c) {
     const double square = s * s, step = square * square;
     double part[4] = {0, 0, 0, 0};
-    std::size_t k = c.size();
+    std::size_t k = size;
     for (; k % 4 != 0; --k)
-        part[(k - 1) % 4] = c[k - 1];
+        part[(k - 1) % 4] = c(k - 1);
     for (; k > 0; k -= 4)
         for (std::size_t j = 0; j < 4; ++j)
-            part[j] = part[j] * step + c[k - 4 + j];
+            part[j] = part[j] * step + c(k - 4 + j);
     return (part[0] + part[1] * s) + (part[2] + part[3] * s) * square;
 }
 
+} // namespace
+
+double evaluate_polynomial(std::span<const double> c, double s) {
+    return sum_in_parts(c.size(), s, [c](std::size_t k) { return c[k]; });
+}
+
+double evaluate_polynomial(const Series& c, std::size_t size, double s) {
+    return sum_in_parts(size, s, [c](std::size_t k) { return c[k]; });
+}
+
 double evaluate_derivative(std::span<const double> c, double s) {
-    const double square = s * s, step = square * square;
-    double part[4] = {0, 0, 0, 0};
-    std::size_t k = c.empty() ? 0 : c.size() - 1;
-    for (; k % 4 != 0; --k)
-        part[(k - 1) % 4] = static_cast<double>(k) * c[k];
-    for (; k > 0; k -= 4)
-        for (std::size_t j = 0; j < 4; ++j)
-            part[j] = part[j] * step + static_cast<double>(k - 3 + j) * c[k - 3 + j];
-    return (part[0] + part[1] * s) + (part[2] + part[3] * s) * square;
+    return sum_in_parts(c.empty() ? 0 : c.size() - 1, s,
+                        [c](std::size_t k) { return static_cast<double>(k + 1) * c[k + 1]; });
 }
 
 } // namespace graze

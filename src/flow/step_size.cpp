@@ -19,40 +19,40 @@ int order_for_tolerance(double tolerance) {
 }
 
 StepSize::StepSize(int order, double tolerance)
-    : order_(order), log_tolerance_(std::log2(std::clamp(tolerance, smallest_tolerance, largest_tolerance))) {}
+    : order_(static_cast<std::size_t>(order)),
+      log_tolerance_(std::log2(std::clamp(tolerance, smallest_tolerance, largest_tolerance))) {}
 
-double StepSize::operator()(const double* const* states, std::size_t count, double previous) const {
+double StepSize::operator()(std::span<const Series> states, double previous) const {
     if (previous > 0)
-        return decaying(states, count, step_for(states, count, previous));
+        return decaying(states, step_for(states, previous));
     // Without a previous step the sizes of states that start at zero are unknown: begin with a step over which
     // the state changes by about its own size, and let it settle.
     double reference = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < count; ++i)
-        for (int k = 1; k <= order_; ++k)
-            for (int j = 0; j < k; ++j)
-                if (states[i][k] != 0 && states[i][j] != 0)
-                    reference = std::min(reference, std::pow(std::abs(states[i][j] / states[i][k]), 1.0 / (k - j)));
+    for (const Series& c : states)
+        for (std::size_t k = 1; k <= order_; ++k)
+            for (std::size_t j = 0; j < k; ++j)
+                if (c[k] != 0 && c[j] != 0)
+                    reference = std::min(reference, std::pow(std::abs(c[j] / c[k]), 1.0 / static_cast<double>(k - j)));
     if (!std::isfinite(reference))
         reference = 1;
     for (int sweep = 0; sweep < 3; ++sweep) {
-        const double step = step_for(states, count, reference);
+        const double step = step_for(states, reference);
         if (!std::isfinite(step))
             return step;
         reference = step;
     }
-    return decaying(states, count, reference);
+    return decaying(states, reference);
 }
 
 /// Where the last terms grow from one to the next, the terms left out are larger still, however small all of them are:
 /// so it is with exp(-100 x^2) far from its peak, over which a step must not lead.
-double StepSize::decaying(const double* const* states, std::size_t count, double step) const {
+double StepSize::decaying(std::span<const Series> states, double step) const {
     if (!std::isfinite(step))
         return step;
-    for (std::size_t i = 0; i < count; ++i) {
-        const double* c = states[i] + order_;
+    for (const Series& c : states) {
         // In pairs, since every other term of an even or odd function is zero.
-        const double last = std::abs(c[0]), before = std::abs(c[-1]);
-        const double earlier = std::abs(c[-2]), first = std::abs(c[-3]);
+        const double last = std::abs(c[order_]), before = std::abs(c[order_ - 1]);
+        const double earlier = std::abs(c[order_ - 2]), first = std::abs(c[order_ - 3]);
         if (earlier == 0 && first == 0)
             continue;
         for (int sweep = 0; sweep < 20; ++sweep) {
@@ -65,19 +65,18 @@ double StepSize::decaying(const double* const* states, std::size_t count, double
     return step;
 }
 
-double StepSize::polynomial_step(const double* c, double size) const {
-    int degree = order_;
+double StepSize::polynomial_step(const Series& c, double size) const {
+    std::size_t degree = order_;
     while (degree > 0 && c[degree] == 0)
         --degree;
     if (degree == 0 || size == 0)
         return std::numeric_limits<double>::infinity();
-    return std::pow(size / std::abs(c[degree]), 1.0 / degree);
+    return std::pow(size / std::abs(c[degree]), 1.0 / static_cast<double>(degree));
 }
 
-double StepSize::step_for(const double* const* states, std::size_t count, double reference) const {
+double StepSize::step_for(std::span<const Series> states, double reference) const {
     double high = 0, low = 0, sum = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const double* c = states[i];
+    for (const Series& c : states) {
         const double last = std::abs(c[order_]), before = std::abs(c[order_ - 1]);
         // Not finite as soon as one is not; a logarithm of a negative number has only a first coefficient that is not.
         sum += last + before + 0 * (c[0] + c[1] + c[2]);
@@ -91,29 +90,29 @@ double StepSize::step_for(const double* const* states, std::size_t count, double
         return std::numeric_limits<double>::quiet_NaN();
     double step = std::numeric_limits<double>::infinity();
     if (high == 0 && low == 0) {
-        for (std::size_t i = 0; i < count; ++i)
-            step = std::min(step, polynomial_step(states[i], size_of(states[i], reference)));
+        for (const Series& c : states)
+            step = std::min(step, polynomial_step(c, size_of(c, reference)));
         return step;
     }
     if (high > 0)
-        step = (log_tolerance_ - std::log2(high)) / order_;
+        step = (log_tolerance_ - std::log2(high)) / static_cast<double>(order_);
     if (low > 0)
-        step = std::min(step, (log_tolerance_ - std::log2(low)) / (order_ - 1));
+        step = std::min(step, (log_tolerance_ - std::log2(low)) / static_cast<double>(order_ - 1));
     return std::exp2(step);
 }
 
-double StepSize::size_of(const double* c, double reference) const {
+double StepSize::size_of(const Series& c, double reference) const {
     double size = std::abs(c[0]) + reference * (std::abs(c[1]) + reference * std::abs(c[2]));
     if (size == 0)
-        for (int k = order_; k >= 0; --k)
+        for (std::size_t k = order_ + 1; k-- > 0;)
             size = size * reference + std::abs(c[k]);
     return size;
 }
 
-double StepSize::radius(const double* const* states, std::size_t count) const {
+double StepSize::radius(std::span<const Series> states) const {
     double radius = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < count; ++i) {
-        const double last = std::abs(states[i][order_]), before = std::abs(states[i][order_ - 1]);
+    for (const Series& c : states) {
+        const double last = std::abs(c[order_]), before = std::abs(c[order_ - 1]);
         if (last > 0 && before > 0)
             radius = std::min(radius, before / last);
     }

@@ -64,6 +64,17 @@ public:
         return memory_.data() + layout_.registers + index * layout_.series;
     }
     const double* output(std::size_t index) const override { return outputs_[index]; }
+    void evaluate_states(std::span<const double> times, std::span<double> values) const override {
+        for (std::size_t i = 0; i < states_; ++i)
+            table_.sum(state(i), order_, times.data(), values.data() + i * layout_.number);
+    }
+    void evaluate_output(std::size_t index, std::span<const double> times, std::span<double> values) const override {
+        table_.sum(output(index), order_, times.data(), values.data());
+    }
+    void bound_output(std::size_t index, std::span<const double> lengths, std::span<double> least,
+                      std::span<double> sizes) const override {
+        table_.bound(output(index), order_, lengths.data(), least.data(), sizes.data());
+    }
 
 private:
     /// Steps at one order; operands are shared by orders that take the same steps. The kernels are in chains of at
@@ -90,6 +101,7 @@ private:
         }
     }
 
+    const KernelTable& table_;
     int order_;
     std::size_t states_;
     std::size_t parameters_;
@@ -105,8 +117,8 @@ private:
 };
 
 TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
-    : order_(order), states_(tape.states), parameters_(tape.parameters), layout_(tape, order, table.width),
-      memory_(layout_.size) {
+    : table_(table), order_(order), states_(tape.states), parameters_(tape.parameters),
+      layout_(tape, order, table.width), memory_(layout_.size) {
     const auto register_at = [&](std::uint32_t index) {
         return memory_.data() + layout_.registers + index * layout_.series;
     };

@@ -57,6 +57,8 @@ struct KernelTable {
     /// Both at order 0; the cosine goes to `third` (the argument is in `left`).
     Kernel sine_and_cosine;
     void (*literal)(double* result, double value);
+    void (*sum)(const double* series, int order, const double* times, double* values);
+    void (*bound)(const double* series, int order, const double* lengths, double* least, double* sizes);
     Kernel constant[operation_count]; ///< on numbers; row `number` and `symbol` are empty
 };
 

@@ -3,6 +3,7 @@
 // Collects the kernels of one instruction set in tables. To be included only by its translation unit.
 
 #include "tape/kernels.hpp"
+#include "tape/sum_kernels.hpp"
 
 namespace graze::GRAZE_INSTRUCTION_SET {
 
@@ -77,6 +78,8 @@ constexpr KernelTable make_table() {
     table.minus_function_of_linear = &chained<&function_of_linear<V, true>>;
     table.sine_and_cosine = &chained<&sine_and_cosine<V>>;
     table.literal = &literal<V>;
+    table.sum = &sum<V>;
+    table.bound = &bound<V>;
     fill_constants<V, Operation::add, Operation::subtract, Operation::multiply, Operation::divide, Operation::power,
                    Operation::negate, Operation::sqrt, Operation::exp, Operation::log, Operation::sin, Operation::cos,
                    Operation::tan, Operation::asin, Operation::acos, Operation::atan, Operation::sinh, Operation::cosh,

@@ -40,16 +40,20 @@ double root_uncertainty(std::span<const double> c, double s, double step) {
 
 } // namespace
 
-std::size_t Trajectory::find_contact(double& step) {
+std::size_t Trajectory::find_contact(double& step, const Outlook& outlook, std::size_t lane) {
     const auto& mode = simulation_->compiled().mode(mode_);
-    const SimulationOptions& options = simulation_->options();
     const double whole = step;
+    const bool looked_ahead = whole == outlook.length(lane) && whole >= previous_step_;
     double uncertain = 0; // of the first root
     std::size_t first = no_event;
     together_.clear();
     for (std::size_t w = 0; w < mode.watched.size(); ++w) {
         Watch& watch = watches_[w];
         if (watch.side == 0)
+            continue;
+        const std::size_t event = mode.watched[w];
+        if (looked_ahead && first == no_event && watch.side > 0 && watch.strip == 0 &&
+            outlook.least(w, lane) > touch_distance(event, outlook.size(w, lane)))
             continue;
         auto c = event_series(w);
         Root root{};
@@ -67,15 +71,14 @@ std::size_t Trajectory::find_contact(double& step) {
                 found = roots_.first_falling(c.subspan(leading - 1), length, RootStart::deflate, root);
         } else {
             const RootFinder::Enclosure enclosure = RootFinder::enclosure(c, length, start);
-            double& size = event_sizes_[mode.watched[w]];
-            size = std::max(size, whole < previous_step_ ? series_size(c, previous_step_) : enclosure.size);
-            const double touch = options.touch > 0 ? options.touch : 100 * options.tolerance * size;
+            const double touch =
+                touch_distance(event, whole < previous_step_ ? series_size(c, previous_step_) : enclosure.size);
             // The deflated polynomial is positive where the polynomial itself may be as small as a touch.
             if (watch.side > 0 && enclosure.least > (start == RootStart::as_is ? touch : infinity))
                 continue;
             found_touches_.clear();
             found = roots_.first_falling(c, length, start, root, touch, &found_touches_);
-            if (simulation_->model().events[mode.watched[w]].kind == EventKind::barrier && watch.strip <= 1)
+            if (simulation_->model().events[event].kind == EventKind::barrier && watch.strip <= 1)
                 for (const Root& found_touch : found_touches_)
                     touches_.push_back({w, found_touch});
         }
@@ -83,7 +86,7 @@ std::size_t Trajectory::find_contact(double& step) {
             continue;
         const double uncertain_too = root_uncertainty(c, root.at, whole);
         if (first != no_event && root.at >= step - (uncertain + uncertain_too)) {
-            together_.push_back(mode.watched[w]); // the search ended just behind the first
+            together_.push_back(event); // the search ended just behind the first
             continue;
         }
         together_.clear();
@@ -96,6 +99,13 @@ std::size_t Trajectory::find_contact(double& step) {
     std::stable_sort(touches_.begin(), touches_.end(),
                      [](const Touch& a, const Touch& b) { return a.root.at < b.root.at; });
     return first;
+}
+
+/// How close to zero a minimum is a touch. The size of an event's function is the greatest that its series has had.
+double Trajectory::touch_distance(std::size_t event, double size) {
+    const SimulationOptions& options = simulation_->options();
+    event_sizes_[event] = std::max(event_sizes_[event], size);
+    return options.touch > 0 ? options.touch : 100 * options.tolerance * event_sizes_[event];
 }
 
 void Trajectory::update_sides(double length) {
@@ -200,7 +210,7 @@ void Trajectory::weigh_terms(std::size_t w) {
 
 /// The first coefficient after the zeroth that round-off cannot explain, which decides the sign just after the start
 /// of an arc; 0 if there is none. Call after weigh_terms.
-std::size_t Trajectory::leading_coefficient(std::size_t w, double step) const {
+std::size_t Trajectory::leading_coefficient(std::size_t w, double step) {
     const auto c = event_series(w);
     const double noise = roundoff * series_size(c, step);
     double power = 1;
@@ -445,7 +455,7 @@ bool Trajectory::complete_chatter(std::size_t w, double step) {
     return true;
 }
 
-bool Trajectory::another_event_within(std::size_t w, double time) const {
+bool Trajectory::another_event_within(std::size_t w, double time) {
     for (std::size_t other = 0; other < simulation_->compiled().mode(mode_).watched.size(); ++other) {
         const auto c = event_series(other);
         if (other != w && c[0] > 0 && c[0] + time * c[1] < 0)

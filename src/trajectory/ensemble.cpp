@@ -12,7 +12,8 @@ constexpr auto nobody = static_cast<std::size_t>(-1);
 
 Ensemble::Ensemble(const Simulation& simulation, InstructionSet set)
     : simulation_(&simulation), lanes_(static_cast<std::size_t>(lanes_of(LaneKind::ensemble, set))),
-      jets_(simulation, LaneKind::ensemble, set), single_(simulation, LaneKind::single, set), seats_(lanes_, nobody),
+      jets_(simulation, LaneKind::ensemble, set), single_(simulation, LaneKind::single, set),
+      outlook_(simulation, static_cast<int>(lanes_)), seats_(lanes_, nobody),
       seated_(simulation.model().modes.size(), std::vector<std::size_t>(lanes_, nobody)),
       crowd_(simulation.model().modes.size()), states_(simulation.compiled().states() * lanes_),
       parameters_(simulation.compiled().parameters() * lanes_) {}
@@ -38,8 +39,11 @@ void Ensemble::run(std::span<Trajectory> trajectories) {
         Jet& jet = jets_(mode);
         jet.compute(states_);
         for (std::size_t lane = 0; lane < lanes_; ++lane)
+            outlook_.lengths()[lane] = seats_[lane] != nobody ? trajectories[seats_[lane]].propose(jet, lane) : 0;
+        outlook_.compute(jet, mode);
+        for (std::size_t lane = 0; lane < lanes_; ++lane)
             if (seats_[lane] != nobody)
-                trajectories[seats_[lane]].advance(jet, lane);
+                trajectories[seats_[lane]].advance(outlook_, lane);
         std::erase_if(waiting_, [&](std::size_t i) { return trajectories[i].finished(); });
         admit();
     }

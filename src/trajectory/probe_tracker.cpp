@@ -49,7 +49,7 @@ void ProbeTracker::leave_section(std::size_t index, const Step& step) {
     const Probe& probe = simulation_->probes()[index];
     const double period = periods_[probe.state];
     const auto size = static_cast<std::size_t>(step.order) + 1;
-    const std::span<const double> c{step.states[probe.state], size};
+    const std::span<const double> c{step.states[probe.state].first, size};
     const std::size_t leading = leading_index(c, step.length, roundoff * period);
     if (leading == 0)
         return;
@@ -101,7 +101,7 @@ std::span<const ProbeTracker::Found> ProbeTracker::search(const Step& step) {
             search_phase(p, step);
             continue;
         }
-        const double* c = step.observed[simulation_->series_of_probe(p)];
+        const double* c = step.observed[simulation_->series_of_probe(p)].first;
         if (probes[p].kind == Probe::Kind::crossing) {
             search_series(p, {c, size}, step.length, false);
         } else {
@@ -176,7 +176,7 @@ void ProbeTracker::search_phase(std::size_t index, const Step& step) {
             return;
     }
     const Tracked& tracked = tracked_[index];
-    const double* c = step.states[probe.state];
+    const double* c = step.states[probe.state].first;
     const auto size = static_cast<std::size_t>(step.order) + 1;
     double reach = 0;
     for (std::size_t k = size; k-- > 1;)

@@ -27,10 +27,13 @@ void JetSet::set_parameters(std::span<const double> parameters) {
 
 void run(Trajectory& trajectory, JetSet& jets) {
     jets.set_parameters(trajectory.parameters());
+    Outlook outlook(trajectory.simulation(), 1);
     while (!trajectory.finished()) {
         Jet& jet = jets(trajectory.mode());
         jet.compute(trajectory.state());
-        trajectory.advance(jet);
+        outlook.lengths()[0] = trajectory.propose(jet);
+        outlook.compute(jet, trajectory.mode());
+        trajectory.advance(outlook);
     }
 }
 

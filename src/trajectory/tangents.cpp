@@ -11,7 +11,8 @@ Tangents::Tangents(const Simulation& simulation, std::span<const double> paramet
       jets_(simulation, LaneKind::tangent), lanes_(static_cast<std::size_t>(jets_.width()) - 1),
       parameters_(parameters.begin(), parameters.end()), parameter_seeds_(parameter_count_ * directions),
       matrix_(states_ * directions), next_(states_ * directions), seeds_(states_ * (lanes_ + 1)),
-      parameter_lanes_(parameter_count_ * (lanes_ + 1)), shift_(directions) {
+      sums_(std::max<std::size_t>(states_, 1) * (lanes_ + 1)), parameter_lanes_(parameter_count_ * (lanes_ + 1)),
+      shift_(directions) {
     for (std::size_t d = 0; d < directions; ++d) {
         const auto seed = seeds.subspan(d * (states_ + parameter_count_), states_ + parameter_count_);
         for (std::size_t i = 0; i < states_; ++i)
@@ -43,28 +44,19 @@ void Tangents::for_each_pass(std::size_t mode, std::span<const double> state, Us
     }
 }
 
-namespace {
-
-/// Value of lane `lane` of a series at s.
-double evaluate_lane(const double* series, int order, std::size_t width, std::size_t lane, double s) {
-    double value = 0;
-    for (auto k = static_cast<std::size_t>(order) + 1; k-- > 0;)
-        value = value * s + series[k * width + lane];
-    return value;
-}
-
-} // namespace
-
 void Tangents::evaluate(std::size_t mode, std::span<const double> state, double s, std::span<double> matrix,
                         std::size_t series, std::span<double> row) {
     const std::size_t width = lanes_ + 1;
+    times_.assign(width, s);
     for_each_pass(mode, state, [&](const Jet& jet, std::size_t first, std::size_t count) {
-        for (std::size_t l = 0; l < count; ++l) {
-            if (!matrix.empty())
-                for (std::size_t i = 0; i < states_; ++i)
-                    matrix[i * directions_ + first + l] = evaluate_lane(jet.state(i), jet.order(), width, l + 1, s);
-            if (!row.empty())
-                row[first + l] = evaluate_lane(jet.output(series), jet.order(), width, l + 1, s);
+        if (!matrix.empty()) {
+            jet.evaluate_states(times_, sums_);
+            for (std::size_t i = 0; i < states_; ++i)
+                std::copy_n(&sums_[i * width + 1], count, &matrix[i * directions_ + first]);
+        }
+        if (!row.empty()) {
+            jet.evaluate_output(series, times_, sums_);
+            std::copy_n(&sums_[1], count, &row[first]);
         }
     });
 }

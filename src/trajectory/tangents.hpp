@@ -53,7 +53,7 @@ private:
     std::size_t states_, parameter_count_, directions_;
     JetSet jets_;
     std::size_t lanes_; ///< directions a pass
-    std::vector<double> parameters_, parameter_seeds_, matrix_, next_, seeds_, parameter_lanes_, shift_;
+    std::vector<double> parameters_, parameter_seeds_, matrix_, next_, seeds_, sums_, times_, parameter_lanes_, shift_;
     bool valid_ = true;
 };
 

@@ -111,46 +111,53 @@ bool Trajectory::tangents_valid() const {
     return tangents_ && tangents_->valid();
 }
 
-void Trajectory::load(const Jet& jet, std::size_t lane) {
+void Trajectory::find_series(const Jet& jet, std::size_t lane) {
     const std::size_t outputs = simulation_->compiled().mode(mode_).watched.size() + simulation_->compiled().observed();
     const auto width = static_cast<std::size_t>(jet.width());
-    const auto size = static_cast<std::size_t>(order_) + 1;
-    if (width > 1 && lanes_.size() < series_.size() * size)
-        lanes_.resize(series_.size() * size);
     loaded_ = states_ + outputs;
-    for (std::size_t i = 0; i < loaded_; ++i) {
-        const double* from = i < states_ ? jet.state(i) : jet.output(i - states_);
-        if (width == 1) {
-            series_[i] = from;
-            continue;
-        }
-        double* to = &lanes_[i * size];
-        for (std::size_t k = 0; k < size; ++k)
-            to[k] = from[k * width + lane];
-        series_[i] = to;
-    }
+    for (std::size_t i = 0; i < loaded_; ++i)
+        series_[i] = {(i < states_ ? jet.state(i) : jet.output(i - states_)) + lane, width};
 }
 
-void Trajectory::advance(const Jet& jet, std::size_t lane) {
+std::span<const double> Trajectory::series(std::size_t index) {
+    const auto size = static_cast<std::size_t>(order_) + 1;
+    Series& series = series_[index];
+    if (series.stride != 1) {
+        gathered_.resize(series_.size() * size);
+        double* to = &gathered_[index * size];
+        for (std::size_t k = 0; k < size; ++k)
+            to[k] = series[k];
+        series = {to, 1};
+    }
+    return {series.first, size};
+}
+
+double Trajectory::propose(const Jet& jet, std::size_t lane) {
+    find_series(jet, lane);
+    // Event functions and whatever else is observed must be as accurate as the states.
+    const double step = step_size_(std::span(series_).first(loaded_), previous_step_);
+    const double remaining = (end_time_ - time_) - time_low_;
+    proposed_ = !std::isinf(step) ? step : std::isinf(remaining) ? 1.0 : std::max(remaining, 1.0);
+    const double largest = simulation_->options().largest_step;
+    return std::min(largest > 0 ? std::min(proposed_, largest) : proposed_, std::max(remaining, 0.0));
+}
+
+void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
     if (finished())
         return;
-    load(jet, lane);
-    // Event functions and whatever else is observed must be as accurate as the states.
-    double step = step_size_(series_.data(), loaded_, previous_step_);
-    if (std::isnan(step)) {
+    if (std::isnan(proposed_)) {
         announce_contact();
         return finish_undefined();
     }
     const double remaining = (end_time_ - time_) - time_low_;
-    const double proposed = !std::isinf(step) ? step : std::isinf(remaining) ? 1.0 : std::max(remaining, 1.0);
-    largest_step_ = std::max(largest_step_, std::min(proposed, remaining));
+    largest_step_ = std::max(largest_step_, std::min(proposed_, remaining));
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
-    if (proposed < 32 * epsilon * std::max(time_ - start_time_, largest_step_)) {
+    if (proposed_ < 32 * epsilon * std::max(time_ - start_time_, largest_step_)) {
         announce_contact();
-        return finish(Ending::singular, time_ + step_size_.radius(series_.data(), states_));
+        return finish(Ending::singular, time_ + step_size_.radius(std::span(series_).first(states_)));
     }
-    previous_step_ = proposed;
-    step = proposed;
+    previous_step_ = proposed_;
+    double step = proposed_;
     if (simulation_->options().largest_step > 0)
         step = std::min(step, simulation_->options().largest_step);
 
@@ -168,7 +175,7 @@ void Trajectory::advance(const Jet& jet, std::size_t lane) {
                       fmt::format("{} steps were not enough; ask for a shorter time or raise the limit", steps_));
     bool last = step >= remaining;
     step = last ? remaining : step;
-    std::size_t watched = find_contact(step);
+    std::size_t watched = find_contact(step, outlook, lane);
     const bool stopped = make_step(step);
     if (stopped) {
         watched = no_event;
@@ -181,7 +188,7 @@ void Trajectory::advance(const Jet& jet, std::size_t lane) {
         if (tangents_)
             tangents_->advance(mode_, state_, step);
         for (std::size_t i = 0; i < states_; ++i)
-            before_[i] = evaluate_state(i, step);
+            before_[i] = step == outlook.length(lane) ? outlook.state(i, lane) : evaluate_state(i, step);
         state_.swap(before_);
         if (last) {
             time_ = end_time_;
@@ -208,7 +215,10 @@ bool Trajectory::make_step(double& length) {
     if (length > 4 * std::numeric_limits<double>::epsilon() * std::abs(time_))
         contacts_now_ = 0;
     const std::size_t watched = simulation_->compiled().mode(mode_).watched.size();
-    const std::span<const double* const> all(series_);
+    if (!simulation_->probes().empty()) // whose roots are sought in series without gaps
+        for (std::size_t i = 0; i < loaded_; ++i)
+            series(i);
+    const std::span<const Series> all(series_);
     Step step;
     step.start = time_;
     step.length = length;

@@ -12,24 +12,24 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-using Series = std::vector<double>;
+using Coefficients = std::vector<double>;
 
-double step(const std::vector<Series>& states, double tolerance, double previous = 0) {
-    std::vector<const double*> pointers;
-    for (const Series& series : states)
-        pointers.push_back(series.data());
-    return StepSize(static_cast<int>(states[0].size()) - 1, tolerance)(pointers.data(), pointers.size(), previous);
+double step(const std::vector<Coefficients>& states, double tolerance, double previous = 0) {
+    std::vector<Series> series;
+    for (const Coefficients& coefficients : states)
+        series.push_back({coefficients.data()});
+    return StepSize(static_cast<int>(states[0].size()) - 1, tolerance)(series, previous);
 }
 
-Series geometric(int order, double factor, double ratio) {
-    Series c;
+Coefficients geometric(int order, double factor, double ratio) {
+    Coefficients c;
     for (int k = 0; k <= order; ++k)
         c.push_back(factor * std::pow(ratio, k));
     return c;
 }
 
-Series exponential(int order, double rate) {
-    Series c{1};
+Coefficients exponential(int order, double rate) {
+    Coefficients c{1};
     for (int k = 1; k <= order; ++k)
         c.push_back(c.back() * rate / k);
     return c;
@@ -61,18 +61,18 @@ TEST(StepSize, FirstTermLeftOutIsBelowTheTolerance) {
 TEST(StepSize, StaysWithinTheRadiusOfConvergence) {
     // 1/(1 - s/2): radius 2.
     const int order = 16;
-    const Series c = geometric(order, 1, 0.5);
+    const Coefficients c = geometric(order, 1, 0.5);
     const double h = step({c}, 1e-13);
     EXPECT_LT(h, 0.5);
     EXPECT_GT(h, 0.1);
-    const double* pointer = c.data();
-    EXPECT_NEAR(StepSize(order, 1e-13).radius(&pointer, 1), 2, 1e-12);
+    const std::vector<Series> series{{c.data()}};
+    EXPECT_NEAR(StepSize(order, 1e-13).radius(series), 2, 1e-12);
 }
 
 TEST(StepSize, DoesNotDependOnUnits) {
     const int order = 15;
     for (const double unit : {1e-200, 1e-9, 1.0, 1e9, 1e200}) {
-        Series scaled = exponential(order, 2);
+        Coefficients scaled = exponential(order, 2);
         for (double& c : scaled)
             c *= unit;
         EXPECT_NEAR(step({scaled, exponential(order, 0.5)}, 1e-12),
@@ -92,7 +92,7 @@ TEST(StepSize, TheFastestStateDecides) {
 TEST(StepSize, AStateThatPassesZeroDoesNotStopTheMotion) {
     // sin s at s = 0, where its value is zero.
     const int order = 15;
-    Series c(order + 1);
+    Coefficients c(order + 1);
     double factorial = 1;
     for (int k = 1; k <= order; ++k) {
         factorial *= k;
@@ -106,12 +106,12 @@ TEST(StepSize, AStateThatPassesZeroDoesNotStopTheMotion) {
 
 TEST(StepSize, PolynomialsAndConstants) {
     const int order = 12;
-    Series constant(order + 1), line(order + 1), parabola(order + 1);
+    Coefficients constant(order + 1), line(order + 1), parabola(order + 1);
     constant[0] = 5;
     line[0] = 1, line[1] = 4;
     parabola[0] = 1, parabola[2] = -4;
     EXPECT_EQ(step({constant}, 1e-12), infinity);
-    EXPECT_EQ(step({Series(order + 1)}, 1e-12), infinity);
+    EXPECT_EQ(step({Coefficients(order + 1)}, 1e-12), infinity);
     EXPECT_TRUE(std::isfinite(step({line}, 1e-12)));
     EXPECT_GT(step({line}, 1e-12), 0.2);
     EXPECT_GT(step({parabola}, 1e-12), 0.4);
@@ -123,11 +123,11 @@ TEST(StepSize, WhatIsNotFiniteGivesNoStep) {
     const int order = 15;
     for (const double bad : {nan, infinity, -infinity})
         for (const int k : {0, 1, 2, order - 1, order}) {
-            Series c = exponential(order, 1);
+            Coefficients c = exponential(order, 1);
             c[static_cast<std::size_t>(k)] = bad;
             EXPECT_TRUE(std::isnan(step({c}, 1e-12))) << k;
             EXPECT_TRUE(std::isnan(step({exponential(order, 1), c}, 1e-12, 0.1))) << k;
-            Series short_one(order + 1); // log of a negative constant: one coefficient alone
+            Coefficients short_one(order + 1); // log of a negative constant: one coefficient alone
             short_one[static_cast<std::size_t>(k)] = bad;
             EXPECT_TRUE(std::isnan(step({exponential(order, 1), short_one}, 1e-12, 0.1))) << k;
         }
@@ -136,12 +136,12 @@ TEST(StepSize, WhatIsNotFiniteGivesNoStep) {
 TEST(StepSize, GrowingTermsShortenIt) {
     // exp(-100 s^2) about s = -1, whose Taylor coefficients grow long before they fall.
     const int order = 15;
-    Series c(order + 1);
+    Coefficients c(order + 1);
     c[0] = std::exp(-100.0);
     c[1] = 200 * c[0];
     for (std::size_t k = 1; k < static_cast<std::size_t>(order); ++k)
         c[k + 1] = 200 * (c[k] - c[k - 1]) / static_cast<double>(k + 1);
-    Series time(order + 1); // something else by which the function is small
+    Coefficients time(order + 1); // something else by which the function is small
     time[0] = -1, time[1] = 1;
     const double h = step({c, time}, 1e-12, 0.1);
     EXPECT_GT(h, 0);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "graze/flow/series.hpp"
+
 #include <span>
 #include <vector>
 
@@ -109,5 +111,7 @@ private:
 /// Value and derivative; round-off is at most that of Horner's rule.
 double evaluate_polynomial(std::span<const double> c, double s);
 double evaluate_derivative(std::span<const double> c, double s);
+/// The first `size` terms of a series.
+double evaluate_polynomial(const Series& c, std::size_t size, double s);
 
 } // namespace graze

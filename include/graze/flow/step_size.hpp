@@ -1,6 +1,9 @@
 #pragma once
 
+#include "graze/flow/series.hpp"
+
 #include <cstddef>
+#include <span>
 
 namespace graze {
 
@@ -18,27 +21,27 @@ class StepSize {
 public:
     StepSize(int order, double tolerance);
 
-    /// @param states  pointers to order + 1 coefficients of each state
+    /// @param states order + 1 coefficients of each
     /// @param previous the last step, for the size of states that are momentarily zero; 0 when there is none
     /// @return the step; infinity when nothing changes; NaN when a coefficient is
     ///         not finite
-    double operator()(const double* const* states, std::size_t count, double previous) const;
+    double operator()(std::span<const Series> states, double previous) const;
 
     /// Estimate of the radius of convergence, from the last coefficients (for reporting singularities).
-    double radius(const double* const* states, std::size_t count) const;
+    double radius(std::span<const Series> states) const;
 
-    int order() const { return order_; }
+    int order() const { return static_cast<int>(order_); }
 
 private:
     /// For a state that is a polynomial of lower degree, any step is exact: one over which it changes by about its
     /// own size keeps sizes meaningful (they are what round-off is measured by).
-    double polynomial_step(const double* coefficients, double size) const;
-    double decaying(const double* const* states, std::size_t count, double step) const;
+    double polynomial_step(const Series& c, double size) const;
+    double decaying(std::span<const Series> states, double step) const;
     /// Sum of the first terms of a series at s = reference, or of all if those are zero.
-    double size_of(const double* coefficients, double reference) const;
-    double step_for(const double* const* states, std::size_t count, double reference) const;
+    double size_of(const Series& c, double reference) const;
+    double step_for(std::span<const Series> states, double reference) const;
 
-    int order_;
+    std::size_t order_;
     double log_tolerance_; ///< to base 2
 };
 

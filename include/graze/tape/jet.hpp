@@ -51,6 +51,18 @@ public:
     virtual const double* state(std::size_t index) const = 0;
     virtual const double* output(std::size_t index) const = 0;
 
+    /// Sums the series of all states, in each lane at its own time.
+    /// @param times [lane]; all equal in a tangent jet, whose other lanes are derivatives at fixed time
+    /// @param values [state * width() + lane]
+    virtual void evaluate_states(std::span<const double> times, std::span<double> values) const = 0;
+    /// The same for one output. @param values [lane]
+    virtual void evaluate_output(std::size_t index, std::span<const double> times, std::span<double> values) const = 0;
+    /// Bounds an output from below on [0, lengths[lane]] by its partial sums at the end, of which it is a convex
+    /// combination throughout, less their round-off; -infinity if it is not finite. (Not for tangent jets.)
+    /// @param sizes of the series: sum |c_k| length^k
+    virtual void bound_output(std::size_t index, std::span<const double> lengths, std::span<double> least,
+                              std::span<double> sizes) const = 0;
+
 protected:
     Jet() = default;
 };

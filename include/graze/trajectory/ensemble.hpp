@@ -29,6 +29,7 @@ private:
     const Simulation* simulation_;
     std::size_t lanes_;
     JetSet jets_, single_;
+    Outlook outlook_;
     std::vector<std::size_t> waiting_;             ///< unfinished trajectories
     std::vector<std::size_t> seats_;               ///< trajectory in each lane
     std::vector<std::vector<std::size_t>> seated_; ///< for each mode, whose parameters its jet's lanes have

@@ -12,13 +12,13 @@ struct Step {
     double start = 0, length = 0;
     std::size_t mode = 0;
     int order = 0;
-    std::span<const double* const> states;   ///< order + 1 coefficients each
-    std::span<const double* const> events;   ///< of the watched events of the mode
-    std::span<const double* const> observed; ///< of the observed expressions
+    std::span<const Series> states;   ///< order + 1 coefficients each
+    std::span<const Series> events;   ///< of the watched events of the mode
+    std::span<const Series> observed; ///< of the observed expressions
 
     double state(std::size_t index, double s) const { return value(states[index], s); }
-    double value(const double* coefficients, double s) const {
-        return evaluate_polynomial({coefficients, static_cast<std::size_t>(order) + 1}, s);
+    double value(const Series& series, double s) const {
+        return evaluate_polynomial(series, static_cast<std::size_t>(order) + 1, s);
     }
 };
 

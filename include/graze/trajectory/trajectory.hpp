@@ -4,6 +4,7 @@
 #include "graze/flow/step_size.hpp"
 #include "graze/trajectory/observer.hpp"
 #include "graze/trajectory/outcome.hpp"
+#include "graze/trajectory/outlook.hpp"
 #include "graze/trajectory/simulation.hpp"
 
 #include <memory>
@@ -18,7 +19,8 @@ class Tangents;
 
 /// One trajectory of a hybrid system, as a state machine that is handed the jets of its present state one at a
 /// time. Whoever drives it (`run` below for one, `Ensemble` for many in lanes) computes
-/// `jet.compute(state())` for the tape of `mode()` and calls `advance` until `finished()`.
+/// `jet.compute(state())` for the tape of `mode()`, an Outlook for the length that `propose` returns, and then calls
+/// `advance`, until `finished()`.
 ///
 /// Every event function is a polynomial over a step, whose roots are isolated: see docs/method.md.
 class Trajectory {
@@ -50,9 +52,13 @@ public:
     /// False after a contact at zero speed, where derivatives do not exist.
     bool tangents_valid() const;
 
-    /// Makes one step, or one contact without a step, given the jet of state() in mode().
+    /// Begins to make a step, given the jet of state() in mode().
     /// @param jet single or ensemble; @param lane of this trajectory
-    void advance(const Jet& jet, std::size_t lane = 0);
+    /// @return the length of the step if nothing happens before (if it is not a number, `advance` tells why)
+    double propose(const Jet& jet, std::size_t lane = 0);
+    /// Makes that step, or one contact without a step.
+    /// @param outlook on the length that was returned
+    void advance(const Outlook& outlook, std::size_t lane = 0);
 
 private:
     struct Watch {
@@ -77,21 +83,22 @@ private:
     };
     static constexpr std::size_t no_event = static_cast<std::size_t>(-1);
 
-    void load(const Jet& jet, std::size_t lane);
+    void find_series(const Jet& jet, std::size_t lane);
     void begin_arc(double step);
     bool classify(std::size_t watched, double step);
     void announce_contact();
     void remember_contact(std::size_t event, double rate);
     bool complete_chatter(std::size_t watched, double step);
-    bool another_event_within(std::size_t watched, double time) const;
+    bool another_event_within(std::size_t watched, double time);
     void stick(std::size_t watched, std::size_t transition, double remaining, double impulse);
     void come_to_rest(std::size_t event, std::size_t transition, double rate);
     void judge_stand_still();
     void carry_tangents_to_rest(std::size_t watched, double remaining, double per_impulse);
-    std::size_t find_contact(double& step);
+    std::size_t find_contact(double& step, const Outlook& outlook, std::size_t lane);
+    double touch_distance(std::size_t event, double size);
     double on_surface(std::size_t watched, double s);
     void weigh_terms(std::size_t watched);
-    std::size_t leading_coefficient(std::size_t watched, double step) const;
+    std::size_t leading_coefficient(std::size_t watched, double step);
     void make_contact(std::size_t watched, double s);
     void apply_transition(std::size_t transition, double rate);
     void jump(std::size_t index);
@@ -110,11 +117,11 @@ private:
     void finish_undefined();
     bool rates_follow_series(double length);
     std::string where() const;
-    std::span<const double> series(std::size_t index) const {
-        return {series_[index], static_cast<std::size_t>(order_) + 1};
+    std::span<const double> series(std::size_t index);
+    std::span<const double> event_series(std::size_t watched) { return series(states_ + watched); }
+    double evaluate_state(std::size_t index, double s) const {
+        return evaluate_polynomial(series_[index], static_cast<std::size_t>(order_) + 1, s);
     }
-    std::span<const double> event_series(std::size_t watched) const { return series(states_ + watched); }
-    double evaluate_state(std::size_t index, double s) const { return evaluate_polynomial(series(index), s); }
 
     const Simulation* simulation_;
     Observer* observer_;
@@ -129,8 +136,8 @@ private:
     std::vector<double> state_, inputs_, work_, periods_, fields_, jacobian_, row_, kick_, conditions_, before_, after_,
         values_;
     std::vector<double> terms_; ///< what adds up to each coefficient of an event function, without signs
-    std::vector<const double*> series_;
-    std::vector<double> lanes_; ///< coefficients gathered from an ensemble jet
+    std::vector<Series> series_;
+    std::vector<double> gathered_; ///< coefficients from a jet of many lanes, side by side: made where needed
     std::vector<Watch> watches_;
     std::vector<Touch> touches_;
     std::vector<Root> found_touches_;
@@ -143,6 +150,7 @@ private:
     double time_ = 0, time_low_ = 0, start_time_ = 0, end_time_ = 0;
     double previous_step_ = 0, largest_step_ = 0;
     bool arc_start_ = true, stuck_ = false; ///< stuck: the arc begins where contacts have accumulated
+    double proposed_ = 0;                   ///< step by the series alone
     std::size_t served_ = no_event;         ///< event of the contact at which the present arc began
     std::optional<Contact> pending_;        ///< contact still to be announced, when the next jet is known
     std::vector<ContactHistory> histories_; ///< for each event

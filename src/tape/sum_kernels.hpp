@@ -1,0 +1,72 @@
+#pragma once
+
+// What is asked of series once they are known, for all lanes at once. To be included only by the translation unit of an
+// instruction set.
+
+#include "tape/lane_numbers.hpp"
+
+#include <type_traits>
+
+namespace graze::GRAZE_INSTRUCTION_SET {
+
+/// Lanes side by side whatever they mean: in a sum, derivatives are numbers like others.
+template <class V>
+using Plain = std::conditional_t<Numbers<V>::width == 1, double, Ensemble>;
+
+GRAZE_INLINE double absolute(double a) {
+    return a < 0 ? -a : a;
+}
+GRAZE_INLINE double lesser(double a, double b) {
+    return b < a ? b : a;
+}
+GRAZE_INLINE Ensemble absolute(Ensemble a) {
+    return {a.values < 0 ? -a.values : a.values};
+}
+GRAZE_INLINE Ensemble lesser(Ensemble a, Ensemble b) {
+    return {b.values < a.values ? b.values : a.values};
+}
+
+/// Sum of the series at a time of its own in each lane, by Horner's rule.
+template <class V>
+void sum(const double* series, int order, const double* times, double* values) {
+    using L = Plain<V>;
+    constexpr int width = Numbers<V>::width;
+    for (int lane = 0; lane < width; lane += Numbers<L>::width) {
+        const L time = Numbers<L>::load(times + lane);
+        L value = Numbers<L>::load(series + order * width + lane);
+        for (int k = order; k-- > 0;)
+            value = multiply_add(value, time, Numbers<L>::load(series + k * width + lane));
+        Numbers<L>::store(values + lane, value);
+    }
+}
+
+/// With S_m = c_0 + ... + c_m h^m and x = s / h, summation by parts gives
+///   p(s) = sum_{m<n} S_m (x^m - x^{m+1}) + S_n x^n,
+/// a convex combination: p is at least the least partial sum at h. Each term is reduced by its share of the round-off:
+/// k u for the power, n u for the sums, 4 u for the coefficient itself.
+template <class V>
+void bound(const double* series, int order, const double* lengths, double* least, double* sizes) {
+    using L = Plain<V>;
+    constexpr int width = Numbers<V>::width;
+    const double share = -0x1p-53 * (2 * order + 10);
+    for (int lane = 0; lane < width; lane += Numbers<L>::width) {
+        const L length = Numbers<L>::load(lengths + lane);
+        const L first = Numbers<L>::load(series + lane);
+        L size = absolute(first), bound = first + size * share, partial = bound, power = length;
+        for (int k = 1; k <= order; ++k) {
+            const L term = Numbers<L>::load(series + k * width + lane) * power;
+            const L magnitude = absolute(term);
+            partial = partial + (term + magnitude * share);
+            size = size + magnitude;
+            bound = lesser(bound, partial);
+            power = power * length;
+        }
+        Numbers<L>::store(sizes + lane, size);
+        Numbers<L>::store(least + lane, bound);
+    }
+    for (int lane = 0; lane < width; ++lane)
+        if (!(sizes[lane] <= 0x1.fffffffffffffp1023))
+            least[lane] = -__builtin_inf();
+}
+
+} // namespace graze::GRAZE_INSTRUCTION_SET
