@@ -14,7 +14,7 @@ namespace {
 // Lengths are pixels of a picture at 96 per inch.
 constexpr double history_width = 480, history_height = 125, history_gap = 14;
 constexpr double smallest_portrait = 230, largest_portrait = 320, portrait_gap = 62;
-constexpr double bottom_margin = 52, top_margin = 34, right_margin = 18, margin = 8;
+constexpr double bottom_margin = 52, top_margin = 34, right_margin = 18, left_margin = 8;
 constexpr double pixels_of_letter = 6.4, pixels_of_digit = 7.2, pixels_of_line = 17, pixels_of_tic = 75;
 constexpr double invisible = 2e-4; ///< of a panel's size
 
@@ -184,8 +184,8 @@ double GnuplotScript::place_column(double start, bool over_time) {
     for (Panel& panel : panels_) {
         if (panel.x.is_time != over_time)
             continue;
-        panel.label = start + margin + label_lines * pixels_of_line / 2;
-        panel.left = start + 3 * margin + label_lines * pixels_of_line + tics * pixels_of_digit;
+        panel.label = start + left_margin + label_lines * pixels_of_line / 2;
+        panel.left = start + 3 * left_margin + label_lines * pixels_of_line + tics * pixels_of_digit;
         end = panel.left + panel.width;
     }
     return end;

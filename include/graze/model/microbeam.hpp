@@ -33,7 +33,7 @@ struct MicrobeamOptions {
     Quadrature quadrature = Quadrature::simpson;
     int points = 20; ///< intervals of Simpson's rule (even), or nodes of Gauss's
     double gamma = 3e4, thickness = 0.02, width = 0.01, gap = 0.04; ///< gamma, h, b, g0 of section 3.2.4
-    double stop_position = 0.5, stop_distance = -0.004;              ///< x0, d
+    double stop_position = 0.5, stop_distance = -0.004;             ///< x0, d
     double stop_stiffness = 100, frequency = 28, voltage = 0.03, damping = 0.05;
 };
 
