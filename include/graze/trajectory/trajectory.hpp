@@ -83,40 +83,48 @@ private:
     };
     static constexpr std::size_t no_event = static_cast<std::size_t>(-1);
 
+    // One step (trajectory.cpp)
     void find_series(const Jet& jet, std::size_t lane);
-    void begin_arc(double step);
-    bool classify(std::size_t watched, double step);
-    void announce_contact();
-    void remember_contact(std::size_t event, double rate);
-    bool complete_chatter(std::size_t watched, double step);
-    bool another_event_within(std::size_t watched, double time);
-    void stick(std::size_t watched, std::size_t transition, double remaining, double impulse);
-    void come_to_rest(std::size_t event, std::size_t transition, double rate);
-    void judge_stand_still();
-    void carry_tangents_to_rest(std::size_t watched, double remaining, double per_impulse);
+    bool make_step(double& length);
+    void report_passage(std::size_t probe, double at, int direction, bool at_contact);
+    void report_touches(double step);
+    void report_minima(double step);
+    void wrap_cyclic_states(bool snap);
+    void reduce_cyclic_states(std::span<double> state) const;
+    void add_time(double step);
+    bool rates_follow_series(double length);
+    void finish(Ending ending, double time, std::string detail = {});
+    void finish_undefined();
+    std::string where() const;
+    // The contact that comes first in it (contact_search.cpp)
     std::size_t find_contact(double& step, const Outlook& outlook, std::size_t lane);
+    bool find_fall(std::size_t watched, double whole, double length, Root& root);
+    std::span<const double> shifted_series(std::size_t watched);
     double touch_distance(std::size_t event, double size);
     double on_surface(std::size_t watched, double s);
-    void weigh_terms(std::size_t watched);
-    std::size_t leading_coefficient(std::size_t watched, double step);
+    void update_sides(double length);
+    // Transitions (contact.cpp)
     void make_contact(std::size_t watched, double s);
     void apply_transition(std::size_t transition, double rate);
     void jump(std::size_t index);
-    void enter(std::size_t jump, std::size_t mode);
     std::optional<std::size_t> next_mode(std::size_t transition, bool& ends);
-    void report_touches(double step);
-    void report_minima(double step);
-    bool make_step(double& length);
-    void report_passage(std::size_t probe, double at, int direction, bool at_contact);
-    void update_sides(double length);
-    void wrap_cyclic_states(bool snap);
-    void reduce_cyclic_states(std::span<double> state) const;
+    void enter(std::size_t jump, std::size_t mode);
+    void announce_contact();
     void hand_over_contact();
-    void add_time(double step);
-    void finish(Ending ending, double time, std::string detail = {});
-    void finish_undefined();
-    bool rates_follow_series(double length);
-    std::string where() const;
+    // The start of an arc (arc_start.cpp)
+    void begin_arc(double step);
+    bool classify(std::size_t watched, double step);
+    void weigh_terms(std::size_t watched);
+    std::size_t leading_coefficient(std::size_t watched, double step);
+    // Accumulations of contacts (chatter.cpp)
+    void remember_contact(std::size_t event, double rate);
+    bool complete_chatter(std::size_t watched, double step);
+    bool another_event_within(std::size_t watched, double time);
+    void judge_stand_still();
+    void stick(std::size_t watched, std::size_t transition, double remaining, double impulse);
+    void come_to_rest(std::size_t event, std::size_t transition, double rate);
+    void carry_tangents_to_rest(std::size_t watched, double remaining, double per_impulse);
+
     std::span<const double> series(std::size_t index);
     std::span<const double> event_series(std::size_t watched) { return series(states_ + watched); }
     double evaluate_state(std::size_t index, double s) const {
