@@ -1,17 +1,12 @@
 #include "graze/flow/step_size.hpp"
 
+#include "tape/kernel_table.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace graze {
-
-namespace {
-
-/// Of the last two terms to the two before. At the optimal step of a series with a finite radius it is 0.02.
-constexpr double largest_growth = 0.5;
-
-} // namespace
 
 int order_for_tolerance(double tolerance) {
     const double bounded = std::clamp(tolerance, smallest_tolerance, largest_tolerance);
@@ -24,7 +19,7 @@ StepSize::StepSize(int order, double tolerance)
 
 double StepSize::operator()(std::span<const Series> states, double previous) const {
     if (previous > 0)
-        return decaying(states, step_for(states, previous));
+        return step_for(states, previous);
     // Without a previous step the sizes of states that start at zero are unknown: begin with a step over which
     // the state changes by about its own size, and let it settle.
     double reference = std::numeric_limits<double>::infinity();
@@ -41,28 +36,7 @@ double StepSize::operator()(std::span<const Series> states, double previous) con
             return step;
         reference = step;
     }
-    return decaying(states, reference);
-}
-
-/// Where the last terms grow from one to the next, the terms left out are larger still, however small all of them are:
-/// so it is with exp(-100 x^2) far from its peak, over which a step must not lead.
-double StepSize::decaying(std::span<const Series> states, double step) const {
-    if (!std::isfinite(step))
-        return step;
-    for (const Series& c : states) {
-        // In pairs, since every other term of an even or odd function is zero.
-        const double last = std::abs(c[order_]), before = std::abs(c[order_ - 1]);
-        const double earlier = std::abs(c[order_ - 2]), first = std::abs(c[order_ - 3]);
-        if (earlier == 0 && first == 0)
-            continue;
-        for (int sweep = 0; sweep < 20; ++sweep) {
-            const double end = std::max(last * step, before) * step * step, start = std::max(earlier * step, first);
-            if (!(end > largest_growth * start))
-                break;
-            step *= std::sqrt(0.9 * largest_growth * start / end);
-        }
-    }
-    return step;
+    return reference;
 }
 
 double StepSize::polynomial_step(const Series& c, double size) const {
@@ -75,30 +49,12 @@ double StepSize::polynomial_step(const Series& c, double size) const {
 }
 
 double StepSize::step_for(std::span<const Series> states, double reference) const {
-    double high = 0, low = 0, sum = 0;
-    for (const Series& c : states) {
-        const double last = std::abs(c[order_]), before = std::abs(c[order_ - 1]);
-        // Not finite as soon as one is not; a logarithm of a negative number has only a first coefficient that is not.
-        sum += last + before + 0 * (c[0] + c[1] + c[2]);
-        if (last == 0 && before == 0)
-            continue;
-        const double size = size_of(c, reference);
-        high = std::max(high, last / size);
-        low = std::max(low, before / size);
-    }
-    if (!std::isfinite(sum))
-        return std::numeric_limits<double>::quiet_NaN();
-    double step = std::numeric_limits<double>::infinity();
-    if (high == 0 && low == 0) {
+    double step = 0;
+    baseline::kernels(LaneKind::single).steps(states.data(), states.size(), order(), log_tolerance_, &reference, &step);
+    if (std::isinf(step))
         for (const Series& c : states)
             step = std::min(step, polynomial_step(c, size_of(c, reference)));
-        return step;
-    }
-    if (high > 0)
-        step = (log_tolerance_ - std::log2(high)) / static_cast<double>(order_);
-    if (low > 0)
-        step = std::min(step, (log_tolerance_ - std::log2(low)) / static_cast<double>(order_ - 1));
-    return std::exp2(step);
+    return step;
 }
 
 double StepSize::size_of(const Series& c, double reference) const {

@@ -64,6 +64,10 @@ public:
         return memory_.data() + layout_.registers + index * layout_.series;
     }
     const double* output(std::size_t index) const override { return outputs_[index]; }
+    std::span<const Series> series() const override { return series_; }
+    void find_steps(double log_tolerance, std::span<const double> references, std::span<double> steps) const override {
+        table_.steps(series_.data(), series_.size(), order_, log_tolerance, references.data(), steps.data());
+    }
     void evaluate_states(std::span<const double> times, std::span<double> values) const override {
         for (std::size_t i = 0; i < states_; ++i)
             table_.sum(state(i), order_, times.data(), values.data() + i * layout_.number);
@@ -114,6 +118,7 @@ private:
     std::vector<Step> constant_code_;
     std::vector<Copy> constant_copies_; ///< to rates and outputs that are constants
     std::vector<const double*> outputs_;
+    std::vector<Series> series_; ///< states and outputs
 };
 
 TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
@@ -142,6 +147,10 @@ TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
         constant_copies_.push_back({memory_.data() + location.index * layout_.number, series});
         outputs_.push_back(series);
     }
+    for (std::size_t i = 0; i < states_; ++i)
+        series_.push_back({state(i), layout_.number});
+    for (const double* output : outputs_)
+        series_.push_back({output, layout_.number});
     find_constants(tape, table);
     compute_constants();
 }

@@ -5,6 +5,7 @@
 
 #include "graze/symbolic/expression.hpp"
 #include "graze/tape/jet.hpp"
+#include "graze/tape/series.hpp"
 #include "graze/tape/tape.hpp"
 
 namespace graze {
@@ -59,6 +60,8 @@ struct KernelTable {
     void (*literal)(double* result, double value);
     void (*sum)(const double* series, int order, const double* times, double* values);
     void (*bound)(const double* series, int order, const double* lengths, double* least, double* sizes);
+    void (*steps)(const Series* series, std::size_t count, int order, double log_tolerance, const double* references,
+                  double* steps);
     Kernel constant[operation_count]; ///< on numbers; row `number` and `symbol` are empty
 };
 

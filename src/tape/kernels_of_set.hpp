@@ -3,6 +3,7 @@
 // Collects the kernels of one instruction set in tables. To be included only by its translation unit.
 
 #include "tape/kernels.hpp"
+#include "tape/step_kernels.hpp"
 #include "tape/sum_kernels.hpp"
 
 namespace graze::GRAZE_INSTRUCTION_SET {
@@ -80,6 +81,7 @@ constexpr KernelTable make_table() {
     table.literal = &literal<V>;
     table.sum = &sum<V>;
     table.bound = &bound<V>;
+    table.steps = &steps<V>;
     fill_constants<V, Operation::add, Operation::subtract, Operation::multiply, Operation::divide, Operation::power,
                    Operation::negate, Operation::sqrt, Operation::exp, Operation::log, Operation::sin, Operation::cos,
                    Operation::tan, Operation::asin, Operation::acos, Operation::atan, Operation::sinh, Operation::cosh,

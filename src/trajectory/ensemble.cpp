@@ -33,17 +33,34 @@ void Ensemble::run(std::span<Trajectory> trajectories) {
         }
     };
     admit();
+    std::size_t mode = 0;
+    bool seated = false;
     while (waiting_.size() > 1) {
-        const std::size_t mode = fullest_mode(trajectories);
-        fill(trajectories, mode);
+        if (!seated) {
+            mode = fullest_mode(trajectories);
+            take_seats(trajectories, mode);
+            seated = true;
+        }
+        load_states(trajectories);
         Jet& jet = jets_(mode);
         jet.compute(states_);
+        const std::span<double> lengths = outlook_.lengths();
         for (std::size_t lane = 0; lane < lanes_; ++lane)
-            outlook_.lengths()[lane] = seats_[lane] != nobody ? trajectories[seats_[lane]].propose(jet, lane) : 0;
-        outlook_.compute(jet, mode);
+            lengths[lane] = seats_[lane] != nobody ? trajectories[seats_[lane]].previous_step() : 1;
+        outlook_.find_steps(jet);
         for (std::size_t lane = 0; lane < lanes_; ++lane)
             if (seats_[lane] != nobody)
-                trajectories[seats_[lane]].advance(outlook_, lane);
+                lengths[lane] = trajectories[seats_[lane]].propose(jet, lengths[lane], lane);
+        outlook_.look(jet, mode);
+        for (std::size_t lane = 0; lane < lanes_; ++lane) {
+            if (seats_[lane] == nobody)
+                continue;
+            Trajectory& trajectory = trajectories[seats_[lane]];
+            trajectory.advance(outlook_, lane);
+            seated = seated && trajectory.mode() == mode && !trajectory.finished();
+        }
+        if (seated)
+            continue;
         std::erase_if(waiting_, [&](std::size_t i) { return trajectories[i].finished(); });
         admit();
     }
@@ -58,8 +75,8 @@ std::size_t Ensemble::fullest_mode(std::span<const Trajectory> trajectories) {
     return static_cast<std::size_t>(std::max_element(crowd_.begin(), crowd_.end()) - crowd_.begin());
 }
 
-/// Seats the waiting trajectories of one mode, each in its own lane if it had one before, and loads their states.
-void Ensemble::fill(std::span<Trajectory> trajectories, std::size_t mode) {
+/// Seats the waiting trajectories of one mode, each in its own lane if it had one before.
+void Ensemble::take_seats(std::span<const Trajectory> trajectories, std::size_t mode) {
     auto& seated = seated_[mode];
     std::fill(seats_.begin(), seats_.end(), nobody);
     std::size_t taken = 0, newcomers = 0;
@@ -93,6 +110,9 @@ void Ensemble::fill(std::span<Trajectory> trajectories, std::size_t mode) {
         }
         jets_(mode).set_parameters(parameters_);
     }
+}
+
+void Ensemble::load_states(std::span<const Trajectory> trajectories) {
     const std::size_t stand_in = *std::find_if(seats_.begin(), seats_.end(), [](auto i) { return i != nobody; });
     const std::size_t count = simulation_->compiled().states();
     for (std::size_t lane = 0; lane < lanes_; ++lane) {

@@ -31,8 +31,10 @@ void run(Trajectory& trajectory, JetSet& jets) {
     while (!trajectory.finished()) {
         Jet& jet = jets(trajectory.mode());
         jet.compute(trajectory.state());
-        outlook.lengths()[0] = trajectory.propose(jet);
-        outlook.compute(jet, trajectory.mode());
+        outlook.lengths()[0] = trajectory.previous_step();
+        outlook.find_steps(jet);
+        outlook.lengths()[0] = trajectory.propose(jet, outlook.length(0));
+        outlook.look(jet, trajectory.mode());
         trajectory.advance(outlook);
     }
 }

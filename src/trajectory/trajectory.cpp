@@ -112,11 +112,9 @@ bool Trajectory::tangents_valid() const {
 }
 
 void Trajectory::find_series(const Jet& jet, std::size_t lane) {
-    const std::size_t outputs = simulation_->compiled().mode(mode_).watched.size() + simulation_->compiled().observed();
-    const auto width = static_cast<std::size_t>(jet.width());
-    loaded_ = states_ + outputs;
-    for (std::size_t i = 0; i < loaded_; ++i)
-        series_[i] = {(i < states_ ? jet.state(i) : jet.output(i - states_)) + lane, width};
+    loaded_ = 0;
+    for (const Series& series : jet.series())
+        series_[loaded_++] = {series.first + lane, series.stride};
 }
 
 std::span<const double> Trajectory::series(std::size_t index) {
@@ -132,10 +130,11 @@ std::span<const double> Trajectory::series(std::size_t index) {
     return {series.first, size};
 }
 
-double Trajectory::propose(const Jet& jet, std::size_t lane) {
+double Trajectory::propose(const Jet& jet, double step, std::size_t lane) {
     find_series(jet, lane);
     // Event functions and whatever else is observed must be as accurate as the states.
-    const double step = step_size_(std::span(series_).first(loaded_), previous_step_);
+    if (!(previous_step_ > 0) || std::isinf(step))
+        step = step_size_(std::span(series_).first(loaded_), previous_step_);
     const double remaining = (end_time_ - time_) - time_low_;
     proposed_ = !std::isinf(step) ? step : std::isinf(remaining) ? 1.0 : std::max(remaining, 1.0);
     const double largest = simulation_->options().largest_step;
@@ -310,8 +309,8 @@ void Trajectory::wrap_cyclic_states(bool snap) {
         if (!model.states[i].period)
             continue;
         const double period = periods_[i];
-        const double turns = std::floor(state_[i] / period);
-        if (turns != 0) {
+        if (state_[i] < 0 || state_[i] >= period) {
+            const double turns = std::floor(state_[i] / period);
             state_[i] -= turns * period;
             probes_->shift(i, -turns * period);
         }

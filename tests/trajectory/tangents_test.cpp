@@ -217,7 +217,7 @@ TEST(Tangents, ShippedModelsAgainstDifferences) {
                                              {"impact-microactuator", 21, 1e-5},
                                              {"electromagnetic-testbed", 0.45, 1e-4},
                                              {"mems-switch", 13, 1e-7},
-                                             {"ball-and-shaker", 0.5, 1e-6},
+                                             {"ball-and-shaker", 0.5, 4e-6},
                                              {"bouncing-ball", 0.63, 1e-4},
                                              {"dry-friction-oscillator", 20, 1e-4},
                                              {"impact-oscillator-two-stops", 9, 1e-4},

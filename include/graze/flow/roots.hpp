@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/flow/series.hpp"
+#include "graze/tape/series.hpp"
 
 #include <span>
 #include <vector>

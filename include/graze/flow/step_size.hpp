@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/flow/series.hpp"
+#include "graze/tape/series.hpp"
 
 #include <cstddef>
 #include <span>
@@ -30,19 +30,20 @@ public:
     /// Estimate of the radius of convergence, from the last coefficients (for reporting singularities).
     double radius(std::span<const Series> states) const;
 
+    /// To base 2.
+    double log_tolerance() const { return log_tolerance_; }
     int order() const { return static_cast<int>(order_); }
 
 private:
     /// For a state that is a polynomial of lower degree, any step is exact: one over which it changes by about its
     /// own size keeps sizes meaningful (they are what round-off is measured by).
     double polynomial_step(const Series& c, double size) const;
-    double decaying(std::span<const Series> states, double step) const;
     /// Sum of the first terms of a series at s = reference, or of all if those are zero.
     double size_of(const Series& c, double reference) const;
     double step_for(std::span<const Series> states, double reference) const;
 
     std::size_t order_;
-    double log_tolerance_; ///< to base 2
+    double log_tolerance_;
 };
 
 } // namespace graze

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/tape/series.hpp"
 #include "graze/tape/tape.hpp"
 
 #include <memory>
@@ -50,6 +51,18 @@ public:
     /// Coefficients of a state or output: (order() + 1) * width() numbers, valid until the next `compute`.
     virtual const double* state(std::size_t index) const = 0;
     virtual const double* output(std::size_t index) const = 0;
+
+    /// Lane 0 of all states, then of all outputs; other lanes are that many numbers behind.
+    virtual std::span<const Series> series() const = 0;
+
+    /// How far the series of all states and outputs may be followed in each lane: the largest step at which the last
+    /// two terms of each, relative to its size, are at most a tolerance (Jorba and Zou 2005), and do not grow. (Not for
+    /// tangent jets.)
+    /// @param log_tolerance to base 2; @param references [lane] lengths over which sizes are taken, such as the last
+    /// step
+    /// @param steps [lane] infinity where all last two terms are zero, NaN where something is not finite
+    virtual void find_steps(double log_tolerance, std::span<const double> references,
+                            std::span<double> steps) const = 0;
 
     /// Sums the series of all states, in each lane at its own time.
     /// @param times [lane]; all equal in a tangent jet, whose other lanes are derivatives at fixed time

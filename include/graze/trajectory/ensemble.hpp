@@ -24,7 +24,8 @@ public:
 
 private:
     std::size_t fullest_mode(std::span<const Trajectory> trajectories);
-    void fill(std::span<Trajectory> trajectories, std::size_t mode);
+    void take_seats(std::span<const Trajectory> trajectories, std::size_t mode);
+    void load_states(std::span<const Trajectory> trajectories);
 
     const Simulation* simulation_;
     std::size_t lanes_;

@@ -9,15 +9,18 @@
 
 namespace graze {
 
-/// Where steps of the proposed lengths lead to, computed for all lanes of a jet at once: the states at their ends, and
-/// bounds that show which watched events cannot happen within. Nearly all steps need no more than this.
+/// What the lanes of a jet lead to, computed for all of them at once: the lengths of steps; where steps of given
+/// lengths end; and bounds that show which watched events cannot happen within. Nearly all steps need no more than
+/// this.
 class Outlook {
 public:
     Outlook(const Simulation& simulation, int width);
 
-    /// Proposed lengths, one for each lane: to be filled before `compute`.
+    /// Lengths of the last steps, one for each lane: to be filled before `find_steps`, which replaces them.
+    /// Then what `find_steps` has found: lengths to be looked at, to be adjusted before `look`.
     std::span<double> lengths() { return lengths_; }
-    void compute(const Jet& jet, std::size_t mode);
+    void find_steps(const Jet& jet);
+    void look(const Jet& jet, std::size_t mode);
 
     double length(std::size_t lane) const { return lengths_[lane]; }
     double state(std::size_t index, std::size_t lane) const { return states_[index * width_ + lane]; }
@@ -29,6 +32,7 @@ public:
 private:
     const Simulation* simulation_;
     std::size_t width_;
+    double log_tolerance_;
     std::vector<double> lengths_, states_, least_, sizes_;
 };
 

@@ -19,8 +19,8 @@ class Tangents;
 
 /// One trajectory of a hybrid system, as a state machine that is handed the jets of its present state one at a
 /// time. Whoever drives it (`run` below for one, `Ensemble` for many in lanes) computes
-/// `jet.compute(state())` for the tape of `mode()`, an Outlook for the length that `propose` returns, and then calls
-/// `advance`, until `finished()`.
+/// `jet.compute(state())` for the tape of `mode()`, has an Outlook find a step after `previous_step()`, look at what
+/// `propose` makes of it, and calls `advance`, until `finished()`.
 ///
 /// Every event function is a polynomial over a step, whose roots are isolated: see docs/method.md.
 class Trajectory {
@@ -52,10 +52,12 @@ public:
     /// False after a contact at zero speed, where derivatives do not exist.
     bool tangents_valid() const;
 
+    /// The last step that the series allowed; 0 at first.
+    double previous_step() const { return previous_step_; }
     /// Begins to make a step, given the jet of state() in mode().
-    /// @param jet single or ensemble; @param lane of this trajectory
+    /// @param jet single or ensemble; @param lane of this trajectory; @param step that the outlook has found
     /// @return the length of the step if nothing happens before (if it is not a number, `advance` tells why)
-    double propose(const Jet& jet, std::size_t lane = 0);
+    double propose(const Jet& jet, double step, std::size_t lane = 0);
     /// Makes that step, or one contact without a step.
     /// @param outlook on the length that was returned
     void advance(const Outlook& outlook, std::size_t lane = 0);

@@ -1,0 +1,179 @@
+#pragma once
+
+// How far series may be followed, for all lanes at once. To be included only by the translation unit of an instruction
+// set.
+
+#include "tape/sum_kernels.hpp"
+
+#include "graze/tape/series.hpp"
+
+namespace graze::GRAZE_INSTRUCTION_SET {
+
+typedef long long Integers __attribute__((vector_size(8 * lanes)));
+
+GRAZE_INLINE double greater(double a, double b) {
+    return b > a ? b : a;
+}
+GRAZE_INLINE double where_zero(double a, double yes, double no) {
+    return a == 0 ? yes : no;
+}
+GRAZE_INLINE Ensemble greater(Ensemble a, Ensemble b) {
+    return {b.values > a.values ? b.values : a.values};
+}
+GRAZE_INLINE Ensemble where_zero(Ensemble a, Ensemble yes, Ensemble no) {
+    return {a.values == 0 ? yes.values : no.values};
+}
+
+/// Splits a positive number into an exponent of 2 and a factor from 1 to 2.
+template <class Real, class Integer>
+GRAZE_INLINE void split_exponent(Real a, Real& exponent, Real& factor) {
+    const Integer bits = __builtin_bit_cast(Integer, a);
+    factor = __builtin_bit_cast(Real, (bits & 0x000fffffffffffff) | 0x3ff0000000000000);
+    exponent = __builtin_bit_cast(Real, (bits >> 52) | 0x4330000000000000) - (0x1p52 + 1023);
+}
+/// 2 to the power of the nearest integer, and what is left of the exponent.
+template <class Real, class Integer>
+GRAZE_INLINE void raise_integer(Real exponent, Real& power, Real& rest) {
+    const Real shifted = exponent + 0x1.8p52; // its last bits are the integer's
+    rest = exponent - (shifted - 0x1.8p52);
+    power = __builtin_bit_cast(Real, (__builtin_bit_cast(Integer, shifted) + 1023) << 52);
+}
+GRAZE_INLINE void split_exponent(double a, double& exponent, double& factor) {
+    split_exponent<double, long long>(a, exponent, factor);
+}
+GRAZE_INLINE void raise_integer(double exponent, double& power, double& rest) {
+    raise_integer<double, long long>(exponent, power, rest);
+}
+GRAZE_INLINE void split_exponent(Ensemble a, Ensemble& exponent, Ensemble& factor) {
+    split_exponent<Pack, Integers>(a.values, exponent.values, factor.values);
+}
+GRAZE_INLINE void raise_integer(Ensemble exponent, Ensemble& power, Ensemble& rest) {
+    raise_integer<Pack, Integers>(exponent.values, power.values, rest.values);
+}
+
+template <class L>
+GRAZE_INLINE L number(double value) {
+    return Numbers<L>::of(value);
+}
+
+/// Base 2, of positive normal numbers, to 12 digits: with t = (a - r) / (a + r), ln(a / r) = 2 (t + t^3/3 + ...).
+template <class L>
+GRAZE_INLINE L logarithm(L a) {
+    constexpr double root = 1.4142135623730951, per_unit = 2.8853900817779268; // sqrt 2, 2 / ln 2
+    L exponent, factor;
+    split_exponent(a, exponent, factor);
+    const L t = (factor - number<L>(root)) / (factor + number<L>(root));
+    const L square = t * t;
+    L sum = number<L>(1.0 / 13);
+    for (int k = 11; k > 0; k -= 2)
+        sum = multiply_add(sum, square, number<L>(1.0 / k));
+    return exponent + multiply_add(sum * t, number<L>(per_unit), number<L>(0.5));
+}
+
+/// 2^a to 12 digits, for |a| < 1000.
+template <class L>
+GRAZE_INLINE L power_of_two(L a) {
+    constexpr double unit = 0.69314718055994531; // ln 2
+    L power, rest;
+    raise_integer(a, power, rest);
+    const L x = rest * unit;
+    L sum = number<L>(1);
+    for (int k = 10; k > 0; --k)
+        sum = multiply_add(sum, x * (1.0 / k), number<L>(1));
+    return sum * power;
+}
+
+template <class L>
+GRAZE_INLINE L integer_power(L a, int exponent) {
+    L power = number<L>(1);
+    for (; exponent > 0; exponent /= 2) {
+        if (exponent % 2 == 1)
+            power = power * a;
+        a = a * a;
+    }
+    return power;
+}
+
+/// Of the last two terms to the two before. At the optimal step of a series with a finite radius it is 0.02.
+inline constexpr double largest_growth = 0.5;
+
+/// Shortens the step of one lane until no terms grow at the end of the series.
+inline double shortened(const Series* series, std::size_t count, std::size_t order, int lane, double step) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto size_at = [&](std::size_t k) {
+            return __builtin_fabs(series[i].first[k * series[i].stride + static_cast<std::size_t>(lane)]);
+        };
+        const double last = size_at(order), before = size_at(order - 1);
+        const double earlier = size_at(order - 2), first = size_at(order - 3);
+        if (earlier == 0 && first == 0)
+            continue;
+        for (int sweep = 0; sweep < 20; ++sweep) {
+            const double end = greater(last * step, before) * step * step, start = greater(earlier * step, first);
+            if (!(end > largest_growth * start))
+                break;
+            step *= ::sqrt(0.9 * largest_growth * start / end);
+        }
+    }
+    return step;
+}
+
+/// The largest step at which the last two terms of every series, relative to its size, are at most 2^log_tolerance, and
+/// smaller than those before them.
+/// @param references lengths over which sizes are taken
+/// @param steps infinity where the last two terms are all zero, NaN where something is not finite
+template <class V>
+void steps(const Series* series, std::size_t count, int order, double log_tolerance, const double* references,
+           double* steps) {
+    using L = Plain<V>;
+    constexpr int width = Numbers<V>::width;
+    constexpr double infinity = __builtin_inf();
+    const auto n = static_cast<std::size_t>(order);
+    double limits[2][width], sums[width], growths[width];
+    for (int lane = 0; lane < width; lane += Numbers<L>::width) {
+        const L reference = Numbers<L>::load(references + lane);
+        const L almost_all = integer_power(reference, order - 1);
+        L high = number<L>(0), low = high, sum = high;
+        const auto at = [&](std::size_t i, std::size_t k) __attribute__((always_inline)) {
+            return Numbers<L>::load(series[i].first + k * series[i].stride + lane);
+        };
+        for (std::size_t i = 0; i < count; ++i) {
+            const L c0 = at(i, 0), c1 = at(i, 1), c2 = at(i, 2);
+            const L last = absolute(at(i, n)), before = absolute(at(i, n - 1));
+            // Not finite as soon as one is not; a logarithm of a negative number has only a first coefficient that
+            // is not.
+            sum = sum + (last + before) + (c0 + c1 + c2) * 0.0;
+            const L first_terms = absolute(c0) + reference * (absolute(c1) + reference * absolute(c2));
+            const L size = where_zero(first_terms, (before + reference * last) * almost_all, first_terms);
+            high = greater(high, last / size);
+            low = greater(low, before / size);
+        }
+        const L at_last = (number<L>(log_tolerance) - logarithm(high)) * (1.0 / order);
+        const L at_before = (number<L>(log_tolerance) - logarithm(low)) * (1.0 / (order - 1));
+        const L limit = lesser(where_zero(high, number<L>(1000), at_last), where_zero(low, number<L>(1000), at_before));
+        const L step = power_of_two(greater(lesser(limit, number<L>(1000)), number<L>(-1000)));
+        // Where the last terms grow from one to the next, the terms left out are larger still, however small all of
+        // them are: so it is with exp(-100 x^2) far from its peak, over which a step must not lead. In pairs, since
+        // every other term of an even or odd function is zero.
+        L growth = number<L>(0);
+        for (std::size_t i = 0; i < count; ++i) {
+            const L end = greater(absolute(at(i, n)) * step, absolute(at(i, n - 1))) * (step * step);
+            const L start = greater(absolute(at(i, n - 2)) * step, absolute(at(i, n - 3)));
+            growth = greater(growth, where_zero(start, start, end - start * largest_growth));
+        }
+        Numbers<L>::store(limits[0] + lane, high);
+        Numbers<L>::store(limits[1] + lane, low);
+        Numbers<L>::store(sums + lane, sum);
+        Numbers<L>::store(growths + lane, growth);
+        Numbers<L>::store(steps + lane, step);
+    }
+    for (int lane = 0; lane < width; ++lane) {
+        if (!(sums[lane] < infinity))
+            steps[lane] = __builtin_nan("");
+        else if (limits[0][lane] == 0 && limits[1][lane] == 0)
+            steps[lane] = infinity;
+        else if (growths[lane] > 0)
+            steps[lane] = shortened(series, count, n, lane, steps[lane]);
+    }
+}
+
+} // namespace graze::GRAZE_INSTRUCTION_SET
