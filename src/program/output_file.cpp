@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -48,6 +50,9 @@ FileReplacement::FileReplacement(const std::string& path) : path_(path) {
         temporary_ = (target.parent_path() / fmt::format(".{}.{}-{}{}", stem, getpid(), attempt, ending)).string();
         const int file = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file >= 0) {
+            // Who may read what is there now may read what replaces it, and nobody else.
+            if (std::filesystem::exists(status))
+                fchmod(file, static_cast<mode_t>(status.permissions()) & 0777);
             close(file);
             return;
         }

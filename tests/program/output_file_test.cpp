@@ -1,0 +1,66 @@
+#include "program/output_file.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "run_graze.hpp"
+
+#include <gmock/gmock.h>
+
+namespace graze::testing {
+
+namespace {
+
+using std::filesystem::perms;
+
+perms permissions_of(const std::string& path) {
+    return std::filesystem::status(path).permissions();
+}
+
+} // namespace
+
+TEST(OutputFile, ReplacesTheWholeFileOrNothing) {
+    const Folder folder;
+    const std::string path = folder / "table.csv";
+    write_file(path, "old and long");
+    {
+        const FileReplacement abandoned(path);
+        std::ofstream(abandoned.temporary_path()) << "half";
+        EXPECT_TRUE(abandoned.temporary_path().ends_with(".csv"));
+    }
+    EXPECT_EQ(contents(path), "old and long");
+    write_file(path, "new");
+    EXPECT_EQ(contents(path), "new");
+    EXPECT_EQ(folder.files(), 1U);
+}
+
+TEST(OutputFile, KeepsWhoMayReadIt) {
+    const Folder folder;
+    const std::string path = folder / "private.csv";
+    write_file(path, "old");
+    for (const perms permissions : {perms(0600), perms(0664)}) {
+        std::filesystem::permissions(path, permissions);
+        write_file(path, "new");
+        EXPECT_EQ(permissions_of(path), permissions);
+    }
+}
+
+TEST(OutputFile, FollowsLinks) {
+    const Folder folder;
+    const std::string path = folder / "table.csv", link = folder / "link";
+    write_file(path, "old");
+    std::filesystem::create_symlink("table.csv", link);
+    write_file(link, "new");
+    EXPECT_TRUE(std::filesystem::is_symlink(link));
+    EXPECT_EQ(contents(path), "new");
+}
+
+TEST(OutputFile, SaysWhatIsWrong) {
+    const Folder folder;
+    EXPECT_THROW(require_writable(""), InputError);
+    EXPECT_THROW(require_writable(folder / "."), InputError);
+    EXPECT_THROW(require_writable(folder / "missing/table.csv"), InputError);
+    EXPECT_THROW(write_file("/dev/full", "x"), InputError);
+    EXPECT_NO_THROW(write_file("/dev/null", "x"));
+    EXPECT_EQ(folder.files(), 0U);
+}
+
+} // namespace graze::testing
