@@ -18,15 +18,20 @@ constexpr double bottom_margin = 52, top_margin = 34, right_margin = 18, left_ma
 constexpr double pixels_of_letter = 6.4, pixels_of_digit = 7.2, pixels_of_line = 17, pixels_of_tic = 75;
 constexpr double invisible = 2e-4; ///< of a panel's size
 
-/// What gnuplot's enhanced text would take for markup is taken as it stands; for double quotes.
+/// What gnuplot's enhanced text would take for markup, and what it would have a shell run, is taken as it stands; for
+/// double quotes.
 std::string plain(const std::string& text) {
     std::string result;
     for (const char c : text) {
+        if (c == '`') {
+            result += "\\140"; // by its code: in no other way do all versions leave it alone
+            continue;
+        }
         if (std::string_view("_^{}@&~\\").find(c) != std::string_view::npos)
             result += c == '\\' ? "\\\\\\" : "\\\\";
         if (c == '"')
             result += '\\';
-        result += c == '\n' ? ' ' : c;
+        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     }
     return result;
 }
@@ -232,11 +237,11 @@ std::string GnuplotScript::label(const Coordinate& coordinate, double room, bool
         return with_unit(name_text(quantity.name), quantity.unit);
     const auto letters = static_cast<std::size_t>(room / pixels_of_letter);
     const std::string words = short_text(quantity);
-    const std::string broken =
-        in_two_lines(words + std::string(quantity.unit.empty() ? 0 : quantity.unit.size() + 3, '#'), letters);
+    const std::size_t room_of_unit = quantity.unit.empty() ? 0 : quantity.unit.size() + 3;
+    const std::string broken = in_two_lines(words + std::string(room_of_unit, '#'), letters);
     if (words.empty() || broken.empty() || (!two_lines && broken.find('\n') != std::string::npos))
         return "";
-    return with_unit(lines(broken.substr(0, broken.find('#'))), quantity.unit);
+    return with_unit(lines(broken.substr(0, broken.size() - room_of_unit)), quantity.unit);
 }
 
 void GnuplotScript::write_curve(const Panel& panel) {

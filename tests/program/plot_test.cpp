@@ -46,6 +46,19 @@ TEST_F(Plot, KnowsOtherKindsAndComesWithATable) {
     }
 }
 
+TEST_F(Plot, TakesNoTextOfAModelForACommand) {
+    const std::string trace = folder / "trace", model = folder / "model.toml";
+    const std::string text = "`echo>" + trace + "` \\u0007 #1 \\\" a_b^c{d}@e&f~g\\\\";
+    std::ofstream(model) << ("[states]\nx = { initial = 1, unit = \"" + text + "\", text = \"" + text +
+                             "\" }\ny = 0\n[modes.only.rates]\nx = \"y\"\ny = \"-x\"\n");
+    const std::string picture = folder / "picture.svg";
+    const Printed run = run_graze("simulate " + model + " --time 6 --plot " + picture);
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(trace));
+    EXPECT_THAT(contents(picture), HasSubstr("`echo"));
+    EXPECT_THAT(contents(picture), HasSubstr("#1"));
+}
+
 TEST_F(Plot, KeepsItsCommandsToBeDrawnAgain) {
     const std::string picture = folder / "it's_mine.svg", commands = folder / "mine.gp";
     EXPECT_EQ(run_graze("simulate mems-switch --quantity q gap --plot " + picture + " --plot-data " + commands).code,
