@@ -3,7 +3,7 @@
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/check_symmetry.hpp"
-#include "model/model_validate.hpp"
+#include "model/model_expressions.hpp"
 
 #include <fmt/format.h>
 

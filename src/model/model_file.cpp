@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <sstream>
 #include <system_error>
 
 namespace graze {
@@ -398,13 +397,21 @@ Model read_model(const std::string& path) {
     if (std::filesystem::is_directory(path, error))
         throw InputError({path, 0, 0}, "this is a directory, not a model file", "give the name of a file");
     std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    if (file)
-        text << file.rdbuf();
-    if (!file || file.bad())
+    std::string text;
+    constexpr std::size_t block = 1 << 16, most = 1 << 28;
+    while (file && text.size() <= most) { // some devices never end
+        const std::size_t size = text.size();
+        text.resize(size + block);
+        file.read(&text[size], block);
+        text.resize(size + static_cast<std::size_t>(file.gcount()));
+    }
+    if (text.size() > most)
+        throw InputError({path, 0, 0}, fmt::format("there are more than {} bytes in this file", most),
+                         "give the name of a model file");
+    if (!file.eof())
         throw InputError({path, 0, 0}, "the model file cannot be read",
                          std::filesystem::exists(path, error) ? "check its permissions" : "there is no such file");
-    return parse_model(std::move(text).str(), path);
+    return parse_model(text, path);
 }
 
 } // namespace graze

@@ -1,7 +1,8 @@
 #include "model/model_places.hpp"
 
+#include "symbolic/lexer.hpp"
+
 #include <algorithm>
-#include <cctype>
 
 namespace graze {
 
@@ -9,10 +10,6 @@ namespace {
 
 bool continues_character(char byte) {
     return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
-}
-
-bool is_name_character(char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
 /// Length in the file and in the string's value (UTF-8) of the escape at `position`.

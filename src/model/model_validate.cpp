@@ -4,12 +4,13 @@
 #include "graze/symbolic/parser.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/model_expand.hpp"
+#include "model/model_expressions.hpp"
+#include "symbolic/lexer.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <set>
@@ -20,9 +21,8 @@ namespace {
 
 /// Names of modes, events, ... may also contain hyphens: they never occur in expressions.
 bool is_valid_label(std::string_view name) {
-    return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
-    });
+    return !name.empty() &&
+           std::all_of(name.begin(), name.end(), [](char c) { return is_name_character(c) || c == '-'; });
 }
 
 /// What each name of an expression stands for: parameter, state or definition.
@@ -318,46 +318,6 @@ std::string name_remedy(std::string_view name, const std::vector<std::string>& k
     constexpr std::size_t most = 20;
     return fmt::format("known: {}{}", fmt::join(known.begin(), known.begin() + std::min(known.size(), most), ", "),
                        known.size() > most ? ", ..." : "");
-}
-
-std::vector<ModelExpression> model_expressions(const Model& model) {
-    std::vector<ModelExpression> result;
-    const auto add_each_state = [&](const std::string& path, const std::vector<Expression>& expressions) {
-        for (std::size_t i = 0; i < expressions.size(); ++i)
-            result.push_back({path + "." + model.states[i].name, expressions[i]});
-    };
-    for (const Parameter& parameter : model.parameters)
-        if (parameter.expression)
-            result.push_back({"parameters." + parameter.name + ".value", *parameter.expression, true});
-    for (const State& state : model.states) {
-        result.push_back({"states." + state.name + ".initial", state.initial, true});
-        if (state.period)
-            result.push_back({"states." + state.name + ".period", *state.period, true});
-    }
-    for (const Definition& definition : model.definitions)
-        result.push_back({"definitions." + definition.name + ".value", definition.value});
-    for (const Mode& mode : model.modes)
-        add_each_state("modes." + mode.name + ".rates", mode.rates);
-    for (const Event& event : model.events)
-        result.push_back({"events." + event.name + ".function", event.function});
-    for (const Jump& jump : model.jumps)
-        add_each_state("jumps." + jump.name, jump.map);
-    for (std::size_t i = 0; i < model.transitions.size(); ++i)
-        for (std::size_t k = 0; k < model.transitions[i].next.size(); ++k)
-            for (const Condition& condition : model.transitions[i].next[k].when)
-                result.push_back({fmt::format("transitions.{}.next.{}.when", i + 1, k + 1), condition.function});
-    for (const Section& section : model.sections) {
-        const std::string path = "sections." + section.name;
-        if (section.state)
-            result.push_back({path + ".value", section.value, true});
-        else
-            result.push_back({path + ".function", section.function});
-    }
-    for (const Symmetry& symmetry : model.symmetries)
-        add_each_state("symmetries." + symmetry.name + ".map", symmetry.map);
-    for (const Quantity& quantity : model.quantities)
-        result.push_back({"quantities." + quantity.name + ".value", quantity.value});
-    return result;
 }
 
 void validate_names(const Model& model, const Places& places) {

@@ -9,16 +9,6 @@
 
 namespace graze {
 
-/// One expression of a model, with its path (such as "modes.flight.rates.x").
-struct ModelExpression {
-    std::string path;
-    Expression expression;
-    bool in_parameters = false; ///< may contain parameters only
-};
-
-/// All expressions of a model, conditions included, in the order of the file.
-std::vector<ModelExpression> model_expressions(const Model& model);
-
 /// "did you mean 'x'?", or what there is when nothing is near.
 std::string name_remedy(std::string_view name, const std::vector<std::string>& known);
 
