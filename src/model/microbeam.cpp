@@ -50,6 +50,10 @@ void require_sensible(const MicrobeamOptions& o) {
 }
 
 /// Collects the parts of the model; each function adds one of them.
+///
+/// Operands of sums and products are printed in the order in which they came into being, while compilers choose the
+/// order in which they evaluate operands. So every name is known from where it is declared on, and terms that are
+/// composed are composed before they are added.
 class MicrobeamBuilder {
 public:
     explicit MicrobeamBuilder(const MicrobeamOptions& options)
@@ -114,6 +118,7 @@ private:
 
     void add_parameter(const std::string& name, double value, const std::string& text) {
         model_.parameters.push_back({name, "", text, value, std::nullopt});
+        symbol(name);
     }
 
     void add_parameters() {
@@ -130,6 +135,7 @@ private:
                           (options_.stop_distance > 0 ? "positive" : "negative"));
         model_.parameters.push_back({"fringe", "", "strength of the fringe field, Eq. (3.12)", std::nullopt,
                                      0.204 + 0.6 * pow(symbol("h") / symbol("b"), 0.24)});
+        symbol("fringe");
     }
 
     void add_states() {
@@ -141,6 +147,7 @@ private:
             model_.states.push_back({numbered("v", i), "", numbered("velocity of mode ", i), zero, {}, false});
         }
         model_.states.push_back({"theta", "", "phase of the pulse train", zero, number(2 * std::numbers::pi), false});
+        model_.state_symbols();
     }
 
     void add_stretching() {
@@ -255,8 +262,10 @@ private:
         }
         for (int i = 1; i <= count(); ++i) {
             const Expression frequency = symbol(numbered("frequency_", i));
-            Expression rate = -2 * symbol("zeta") * frequency * v(i) - pow(frequency, 2.0) * q(i) -
-                              symbol("gamma") / 2 * symbol("stretch") * symbol(numbered("slope_", i));
+            const Expression drag = 2 * symbol("zeta") * frequency * v(i);
+            const Expression bending = pow(frequency, 2.0) * q(i);
+            const Expression stretching = symbol("gamma") / 2 * symbol("stretch") * symbol(numbered("slope_", i));
+            Expression rate = -drag - bending - stretching;
             if (on) {
                 rate = rate + pow(symbol("V"), 2.0) * symbol(numbered("pull_", i));
             }
@@ -310,12 +319,12 @@ private:
             kinetic = added(kinetic, pow(v(i), 2.0) / 2);
             bending = added(bending, pow(symbol(numbered("frequency_", i)) * q(i), 2.0) / 2);
         }
+        const Expression stretching = symbol("gamma") * pow(symbol("stretch"), 2.0) / 8;
         model_.quantities = {
             {"midspan", "", "deflection at mid-span", partial_deflection(0.5, 1)},
             {"penetration", "", "depth of the beam in the stop, negative when clear of it", -symbol("clearance")},
             {"contact_velocity", "", "velocity of the beam at the stop's place", symbol("velocity")},
-            {"energy", "", "kinetic, bending and stretching energy of the beam",
-             kinetic + bending + symbol("gamma") / 8 * pow(symbol("stretch"), 2.0)},
+            {"energy", "", "kinetic, bending and stretching energy of the beam", kinetic + bending + stretching},
         };
     }
 
