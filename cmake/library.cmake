@@ -18,14 +18,6 @@ foreach(folder IN LISTS GRAZE_FOLDERS)
     set(before_${folder} ${earlier})
 endforeach()
 include(cmake/kernels.cmake)
-if(GRAZE_SANITIZERS)
-    # Checks at every access of the unrolled kernels take minutes to compile; bounds and arithmetic stay checked.
-    set_property(
-        SOURCE src/tape/jet_baseline.cpp src/tape/jet_avx2.cpp src/tape/jet_avx512.cpp APPEND
-        PROPERTY COMPILE_OPTIONS -fno-sanitize=null,alignment,object-size,pointer-overflow
-                 -fno-sanitize-address-use-after-scope
-    )
-endif()
 include(cmake/catalogue.cmake OPTIONAL)
 
 target_compile_features(graze PUBLIC cxx_std_20)
