@@ -2,6 +2,7 @@
 
 #include "graze/tape/series.hpp"
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
