@@ -63,16 +63,9 @@ std::string kind_of(const State& state) {
     return state.drifting ? " (drifting)" : "";
 }
 
-void add_row(Table& table, std::string_view item, std::string_view name, std::string_view value, std::string_view unit,
-             std::string_view text) {
-    table.add(item);
-    table.add(name);
-    table.add(value);
-    table.add(unit);
-    table.add(text);
-}
-
-void add_row(Table& table, std::string_view item, std::string_view name, double value, std::string_view unit,
+/// @param value a number or a text
+template <typename Value>
+void add_row(Table& table, std::string_view item, std::string_view name, const Value& value, std::string_view unit,
              std::string_view text) {
     table.add(item);
     table.add(name);

@@ -1,6 +1,7 @@
 #include "graze/trajectory/ensemble.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace graze {
 
@@ -19,6 +20,9 @@ Ensemble::Ensemble(const Simulation& simulation, InstructionSet set)
       parameters_(simulation.compiled().parameters() * lanes_) {}
 
 void Ensemble::run(std::span<Trajectory> trajectories) {
+    for (const Trajectory& trajectory : trajectories)
+        if (&trajectory.simulation() != simulation_)
+            throw std::invalid_argument("a trajectory of one simulation cannot run in an ensemble of another");
     for (auto& seated : seated_)
         std::fill(seated.begin(), seated.end(), nobody);
     // With several modes, more than one laneful is kept at hand so that lanes of the mode in turn can be filled.

@@ -1,5 +1,7 @@
 #include "graze/trajectory/trajectory.hpp"
 
+#include <stdexcept>
+
 namespace graze {
 
 JetSet::JetSet(const Simulation& simulation, LaneKind kind, InstructionSet set)
@@ -26,6 +28,10 @@ void JetSet::set_parameters(std::span<const double> parameters) {
 }
 
 void run(Trajectory& trajectory, JetSet& jets) {
+    if (&trajectory.simulation() != &jets.simulation())
+        throw std::invalid_argument("a trajectory of one simulation cannot run on the jets of another");
+    if (jets.width() != 1)
+        throw std::invalid_argument("one trajectory cannot run on jets of several lanes");
     jets.set_parameters(trajectory.parameters());
     Outlook outlook(trajectory.simulation(), 1);
     while (!trajectory.finished()) {

@@ -11,8 +11,7 @@ Tangents::Tangents(const Simulation& simulation, std::span<const double> paramet
       jets_(simulation, LaneKind::tangent), lanes_(static_cast<std::size_t>(jets_.width()) - 1),
       parameters_(parameters.begin(), parameters.end()), parameter_seeds_(parameter_count_ * directions),
       matrix_(states_ * directions), next_(states_ * directions), seeds_(states_ * (lanes_ + 1)),
-      sums_(std::max<std::size_t>(states_, 1) * (lanes_ + 1)), parameter_lanes_(parameter_count_ * (lanes_ + 1)),
-      shift_(directions) {
+      sums_(std::max<std::size_t>(states_, 1) * (lanes_ + 1)), parameter_lanes_(parameter_count_ * (lanes_ + 1)) {
     for (std::size_t d = 0; d < directions; ++d) {
         const auto seed = seeds.subspan(d * (states_ + parameter_count_), states_ + parameter_count_);
         for (std::size_t i = 0; i < states_; ++i)
@@ -73,13 +72,6 @@ void Tangents::coefficient(std::size_t mode, std::span<const double> state, std:
 void Tangents::advance(std::size_t mode, std::span<const double> state, double s) {
     evaluate(mode, state, s, next_, 0, {});
     matrix_.swap(next_);
-}
-
-void Tangents::pass_contact(std::span<const double> row, double rate, std::span<const double> field_before,
-                            std::span<const double> jacobian, std::span<const double> field_after) {
-    for (std::size_t d = 0; d < directions_; ++d)
-        shift_[d] = -row[d] / rate;
-    pass_jump(shift_, field_before, jacobian, field_after);
 }
 
 void Tangents::pass_jump(std::span<const double> shift, std::span<const double> field_before,

@@ -35,12 +35,10 @@ public:
 
     /// Moves along the arc.
     void advance(std::size_t mode, std::span<const double> state, double s);
-    /// Passes a contact at which the event function has the derivatives `row` and falls at `rate`.
+    /// Passes a jump that comes `shift` (derivatives, directions) later than time says: at a contact, minus the
+    /// derivatives of the event function over its rate.
     /// @param field_before, field_after rates of the states; @param jacobian of the jump, states x (states +
     ///        parameters)
-    void pass_contact(std::span<const double> row, double rate, std::span<const double> field_before,
-                      std::span<const double> jacobian, std::span<const double> field_after);
-    /// Passes a jump that comes `shift` (derivatives, directions) later than time says.
     void pass_jump(std::span<const double> shift, std::span<const double> field_before,
                    std::span<const double> jacobian, std::span<const double> field_after);
     /// Adds `column` times `row` to the matrix.
@@ -53,7 +51,7 @@ private:
     std::size_t states_, parameter_count_, directions_;
     JetSet jets_;
     std::size_t lanes_; ///< directions a pass
-    std::vector<double> parameters_, parameter_seeds_, matrix_, next_, seeds_, sums_, times_, parameter_lanes_, shift_;
+    std::vector<double> parameters_, parameter_seeds_, matrix_, next_, seeds_, sums_, times_, parameter_lanes_;
     bool valid_ = true;
 };
 

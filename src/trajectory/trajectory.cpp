@@ -33,6 +33,9 @@ Trajectory::Trajectory(const Simulation& simulation, std::span<const double> par
     series_.resize(states_ + most_watched + compiled.observed());
     watches_.resize(most_watched);
     together_.reserve(most_watched);
+    histories_.resize(compiled.model().events.size());
+    event_sizes_.resize(histories_.size());
+    surface_values_.resize(histories_.size());
     periods_.resize(states_);
     compiled.periods().evaluate(parameters_, periods_, work_);
     std::vector<double> phase_values(simulation.probes().size());
@@ -77,9 +80,10 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     served_ = no_event;
     pending_.reset();
     together_.clear();
-    histories_.assign(simulation_->model().events.size(), {});
-    event_sizes_.assign(simulation_->model().events.size(), 0.0);
-    surface_values_.assign(simulation_->model().events.size(), 0.0);
+    touches_.clear();
+    std::fill(histories_.begin(), histories_.end(), ContactHistory{});
+    std::fill(event_sizes_.begin(), event_sizes_.end(), 0.0);
+    std::fill(surface_values_.begin(), surface_values_.end(), 0.0);
     contacts_ = 0;
     contacts_now_ = 0;
     tangents_.reset();

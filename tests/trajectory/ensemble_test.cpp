@@ -10,6 +10,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <stdexcept>
 #include <thread>
 
 using namespace graze;
@@ -247,6 +248,17 @@ TEST(Ensemble, MayBeCarriedOnAndUsedAgain) {
         EXPECT_TRUE(result_of(alone, transcript) == result_of(trajectories[i], transcripts[i])) << i;
     }
     ensemble.run({});
+}
+
+TEST(Ensemble, RefusesTrajectoriesOfOtherSimulations) {
+    const Simulation one(load_model("bouncing-ball")), other(load_model("mems-switch"));
+    Observer observer;
+    std::vector<Trajectory> trajectories;
+    trajectories.emplace_back(other, other.model().parameter_values(), observer);
+    EXPECT_THROW(Ensemble(one).run(trajectories), std::invalid_argument);
+    JetSet jets(one, LaneKind::single), lanes(other, LaneKind::tangent);
+    EXPECT_THROW(run(trajectories.front(), jets), std::invalid_argument);
+    EXPECT_THROW(run(trajectories.front(), lanes), std::invalid_argument);
 }
 
 TEST(Ensemble, ThreadsShareASimulation) {

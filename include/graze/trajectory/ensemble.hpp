@@ -15,9 +15,11 @@ namespace graze {
 /// One ensemble belongs to one thread; several may share a Simulation.
 class Ensemble {
 public:
+    /// @param simulation must outlive the ensemble
     explicit Ensemble(const Simulation& simulation, InstructionSet set = best_instruction_set());
 
     /// Runs all to their ends. Those already finished are left alone.
+    /// @throws std::invalid_argument for a trajectory of another simulation
     void run(std::span<Trajectory> trajectories);
 
     int lanes() const { return static_cast<int>(lanes_); }

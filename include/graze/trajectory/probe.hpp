@@ -2,9 +2,9 @@
 
 #include "graze/model/model.hpp"
 
-#include <optional>
+#include <cstddef>
 #include <string>
-#include <vector>
+#include <string_view>
 
 namespace graze {
 

@@ -4,7 +4,7 @@
 #include "graze/tape/jet.hpp"
 #include "graze/trajectory/probe.hpp"
 
-#include <memory>
+#include <cstddef>
 #include <span>
 #include <vector>
 

@@ -7,6 +7,7 @@
 #include "graze/trajectory/outlook.hpp"
 #include "graze/trajectory/simulation.hpp"
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,7 +26,8 @@ class Tangents;
 /// Every event function is a polynomial over a step, whose roots are isolated: see docs/method.md.
 class Trajectory {
 public:
-    /// @param parameters of the compiled model, in its order; @param observer must outlive the trajectory
+    /// @param parameters of the compiled model, in its order; @param simulation, observer must outlive the trajectory
+    /// @throws InputError unless there are as many parameters as the model has
     Trajectory(const Simulation& simulation, std::span<const double> parameters, Observer& observer);
     ~Trajectory();
     Trajectory(Trajectory&&) noexcept;
@@ -177,6 +179,7 @@ public:
     /// Parameters [parameter * width + lane] for all modes, also those made later.
     void set_parameters(std::span<const double> parameters);
     int width() const { return width_; }
+    const Simulation& simulation() const { return *simulation_; }
 
 private:
     const Simulation* simulation_;
@@ -188,6 +191,7 @@ private:
 };
 
 /// Drives one trajectory to its end.
+/// @throws std::invalid_argument for jets of another simulation, or of several lanes
 void run(Trajectory& trajectory, JetSet& jets);
 
 } // namespace graze
