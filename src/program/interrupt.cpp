@@ -13,23 +13,31 @@ void note_interrupt(int /*signal*/) {
     interrupted = 1;
 }
 
-} // namespace
-
-struct InterruptGuard::Handlers {
-    struct sigaction interrupt;
-};
-
-InterruptGuard::InterruptGuard() : before_(std::make_unique<Handlers>()) {
-    interrupted = 0;
+void catch_signal(int signal, struct sigaction& before) {
     struct sigaction action {};
     action.sa_handler = note_interrupt;
     action.sa_flags = static_cast<int>(SA_RESETHAND);
     sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, &before_->interrupt);
+    sigaction(signal, &action, &before);
+    if (before.sa_handler == SIG_IGN) // as shells start what is to go on in the background
+        sigaction(signal, &before, nullptr);
+}
+
+} // namespace
+
+struct InterruptGuard::Handlers {
+    struct sigaction interrupt, terminate;
+};
+
+InterruptGuard::InterruptGuard() : before_(std::make_unique<Handlers>()) {
+    interrupted = 0;
+    catch_signal(SIGINT, before_->interrupt);
+    catch_signal(SIGTERM, before_->terminate);
 }
 
 InterruptGuard::~InterruptGuard() {
     sigaction(SIGINT, &before_->interrupt, nullptr);
+    sigaction(SIGTERM, &before_->terminate, nullptr);
 }
 
 bool InterruptGuard::requested() {

@@ -4,7 +4,8 @@
 
 namespace graze {
 
-/// While it lives, Ctrl-C (SIGINT) sets a flag instead of ending the process; the second one does end it.
+/// While it lives, Ctrl-C (SIGINT) and SIGTERM set a flag instead of ending the process; the second one of a kind does
+/// end it. Those that the process was started to ignore stay ignored.
 class InterruptGuard {
 public:
     InterruptGuard();

@@ -1,4 +1,4 @@
-// Ctrl-C, with a process of its own.
+// Ctrl-C and SIGTERM, with a process of their own.
 
 #include "run_graze.hpp"
 
@@ -13,7 +13,9 @@ extern char** environ;
 
 namespace graze::testing {
 
-TEST(Interrupt, WritesWhatWasComputed) {
+class Interrupt : public ::testing::TestWithParam<int> {};
+
+TEST_P(Interrupt, WritesWhatWasComputed) {
     const Folder folder;
     const std::string file = folder / "run.csv", messages = folder / "messages";
     std::vector<std::string> words{GRAZE_PROGRAM, "simulate",  "electromagnetic-testbed",
@@ -34,7 +36,7 @@ TEST(Interrupt, WritesWhatWasComputed) {
     for (int i = 0; i < 600 && contents(messages).empty(); ++i)
         usleep(100'000);
     EXPECT_FALSE(std::filesystem::exists(file)) << "half a file";
-    kill(child, SIGINT);
+    kill(child, GetParam());
     int status = 0;
     waitpid(child, &status, 0);
     ASSERT_TRUE(WIFEXITED(status));
@@ -43,5 +45,7 @@ TEST(Interrupt, WritesWhatWasComputed) {
     EXPECT_GT(Csv(contents(file)).rows.size(), 100U);
     EXPECT_EQ(folder.files(), 2U);
 }
+
+INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values(SIGINT, SIGTERM));
 
 } // namespace graze::testing
