@@ -86,7 +86,7 @@ std::optional<Refusal> refusal_of(std::string_view name) {
         return Refusal{"time (" + quoted + ") cannot be used in an expression",
                        "declare a phase: a state with a constant rate, cyclic if the forcing is periodic"};
     if (name == "or")
-        return Refusal{"'or' cannot join conditions", "write one transition for each alternative"};
+        return Refusal{"'or' cannot join conditions", "list the mode once more in `next`, with the other condition"};
     if (name == "not")
         return Refusal{"'not' cannot stand in a condition", "turn the comparison round: 'a <= b' for 'not a > b'"};
     return std::nullopt;
