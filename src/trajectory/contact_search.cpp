@@ -82,8 +82,10 @@ bool Trajectory::find_fall(std::size_t w, double whole, double length, Root& roo
                roots_.first_falling(c.subspan(leading - 1), length, RootStart::deflate, root);
     }
     const RootFinder::Enclosure enclosure = RootFinder::enclosure(c, length, start);
-    const double touch =
-        touch_distance(event, whole < previous_step_ ? series_size(c, previous_step_) : enclosure.size);
+    // A deflated polynomial is a rate: its size is none of the function's.
+    const bool whole_function = start == RootStart::as_is && !(whole < previous_step_);
+    const double touch = touch_distance(
+        event, whole_function ? enclosure.size : series_size(event_series(w), std::max(length, previous_step_)));
     // The deflated polynomial is positive where the polynomial itself may be as small as a touch.
     if (watch.side > 0 && enclosure.least > (start == RootStart::as_is ? touch : infinity))
         return false;

@@ -178,7 +178,10 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
                       fmt::format("{} steps were not enough; ask for a shorter time or raise the limit", steps_));
     bool last = step >= remaining;
     step = last ? remaining : step;
-    std::size_t watched = find_contact(step, outlook, lane);
+    const double whole = step;
+    const std::size_t jumping = limit_to_branch(step);
+    last = last && step == whole;
+    std::size_t watched = step > 0 ? find_contact(step, outlook, lane) : no_event;
     const bool stopped = make_step(step);
     if (stopped) {
         watched = no_event;
@@ -199,9 +202,9 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
         } else {
             add_time(step);
         }
-        if (!rates_follow_series(step))
-            return;
         wrap_cyclic_states(false);
+        if (jumping != states_ && !stopped)
+            return finish_at_branch(jumping);
     }
     if (!finished() && (stopped || observer_->stop()))
         finish(Ending::stopped, time_);
@@ -345,28 +348,45 @@ std::string Trajectory::where() const {
     return fmt::format("in mode '{}' at time {:.15g}", simulation_->model().modes[mode_].name, time_);
 }
 
-/// Where what is under a root has a double zero, series lead through it onto the other branch of the root, with no sign
-/// of it but that the rates found behind are others. (x' = -sqrt(x) has the solution (1 - t/2)^2 only until t = 2.)
-bool Trajectory::rates_follow_series(double length) {
-    const auto& mode = simulation_->compiled().mode(mode_);
-    if (!mode.has_roots || !(length > 0))
-        return true;
-    std::copy(state_.begin(), state_.end(), inputs_.begin());
+/// A state whose rate the series do not follow at s; the number of states if there is none.
+std::size_t Trajectory::jumping_rate(double s, double length) {
+    for (std::size_t i = 0; i < states_; ++i)
+        inputs_[i] = evaluate_state(i, s);
     values_.resize(states_);
-    mode.rates.evaluate(inputs_, values_, work_);
+    simulation_->compiled().mode(mode_).rates.evaluate(inputs_, values_, work_);
     const double share = std::max(1e-6, 1000 * simulation_->options().tolerance) / length;
     for (std::size_t i = 0; i < states_; ++i) {
-        const double foreseen = evaluate_derivative(series(i), length), difference = std::abs(values_[i] - foreseen);
-        if (!(difference > 0.5 * (std::abs(values_[i]) + std::abs(foreseen))) ||
-            difference <= share * series_size(series(i), length))
-            continue;
-        finish(Ending::undefined, time_,
-               fmt::format("the rate of state '{}' jumps in the step that ends {}: what stands under a root or a power "
-                           "reaches zero there; make that an event",
-                           simulation_->model().states[i].name, where()));
-        return false;
+        const double foreseen = evaluate_derivative(series(i), s), difference = std::abs(values_[i] - foreseen);
+        if (difference > 0.5 * (std::abs(values_[i]) + std::abs(foreseen)) &&
+            difference > share * series_size(series(i), length))
+            return i;
     }
-    return true;
+    return states_;
+}
+
+/// Where what is under a root has a double zero, series lead through it onto the other branch of the root, with no sign
+/// of it but that the rates found behind are others. (x' = -sqrt(x) has the solution (1 - t/2)^2 only until t = 2.)
+/// Ends the step there, before anything of what lies behind is seen. Returns the state whose rate jumps.
+std::size_t Trajectory::limit_to_branch(double& step) {
+    if (!simulation_->compiled().mode(mode_).has_roots || !(step > 0))
+        return states_;
+    const double whole = step;
+    const std::size_t jumping = jumping_rate(whole, whole);
+    if (jumping == states_)
+        return states_;
+    double low = 0, high = whole;
+    for (double middle = 0.5 * high; middle > low && middle < high; middle = 0.5 * (low + high))
+        (jumping_rate(middle, whole) == states_ ? low : high) = middle;
+    step = low;
+    return jumping;
+}
+
+void Trajectory::finish_at_branch(std::size_t state) {
+    finish(
+        Ending::undefined, time_,
+        fmt::format("the rate of state '{}' jumps {}: what stands under a root or a power reaches zero; end the mode "
+                    "by an event before it does",
+                    simulation_->model().states[state].name, where()));
 }
 
 void Trajectory::finish_undefined() {

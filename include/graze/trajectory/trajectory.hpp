@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace graze {
@@ -96,7 +97,9 @@ private:
     void wrap_cyclic_states(bool snap);
     void reduce_cyclic_states(std::span<double> state) const;
     void add_time(double step);
-    bool rates_follow_series(double length);
+    std::size_t jumping_rate(double s, double length);
+    std::size_t limit_to_branch(double& step);
+    void finish_at_branch(std::size_t state);
     void finish(Ending ending, double time, std::string detail = {});
     void finish_undefined();
     std::string where() const;
