@@ -90,10 +90,6 @@ private:
 
     // One step (trajectory.cpp)
     void find_series(const Jet& jet, std::size_t lane);
-    bool make_step(double& length);
-    void report_passage(std::size_t probe, double at, int direction, bool at_contact);
-    void report_touches(double step);
-    void report_minima(double step);
     void wrap_cyclic_states(bool snap);
     void reduce_cyclic_states(std::span<double> state) const;
     void add_time(double step);
@@ -103,6 +99,11 @@ private:
     void finish(Ending ending, double time, std::string detail = {});
     void finish_undefined();
     std::string where() const;
+    // What the observer is told of it (report.cpp)
+    bool make_step(double& length);
+    void report_passage(std::size_t probe, double at, int direction, bool at_contact);
+    void report_touches(double step);
+    void report_minima(double step);
     // The contact that comes first in it (contact_search.cpp)
     std::size_t find_contact(double& step, const Outlook& outlook, std::size_t lane);
     bool find_fall(std::size_t watched, double whole, double length, Root& root);

@@ -1,0 +1,97 @@
+// What the observer is told of a step.
+
+#include "graze/trajectory/trajectory.hpp"
+
+#include "trajectory/probe_tracker.hpp"
+#include "trajectory/series.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+/// Tells the observer what happens within the step. Returns true when the observer stops the trajectory at a
+/// passage: the step then ends there.
+bool Trajectory::make_step(double& length) {
+    ++steps_;
+    // A step that time cannot tell from none is no progress: contacts must not go on for ever in it.
+    if (length > 4 * std::numeric_limits<double>::epsilon() * std::abs(time_))
+        contacts_now_ = 0;
+    const std::size_t watched = simulation_->compiled().mode(mode_).watched.size();
+    if (!simulation_->probes().empty()) // whose roots are sought in series without gaps
+        for (std::size_t i = 0; i < loaded_; ++i)
+            series(i);
+    const std::span<const Series> all(series_);
+    Step step;
+    step.start = time_;
+    step.length = length;
+    step.mode = mode_;
+    step.order = order_;
+    step.states = all.first(states_);
+    step.events = all.subspan(states_, watched);
+    step.observed = all.subspan(states_ + watched, simulation_->compiled().observed());
+    report_touches(length);
+    bool stopped = false;
+    if (!simulation_->probes().empty()) {
+        for (const ProbeTracker::Found& found : probes_->search(step)) {
+            if (stopped && found.at > length)
+                break;
+            report_passage(found.probe, found.at, found.direction, found.at_contact);
+            if (observer_->stop() && !stopped) {
+                stopped = true;
+                length = step.length = found.at;
+            }
+        }
+        if (stopped)
+            probes_->cut(length);
+    }
+    observer_->step(step);
+    if (simulation_->options().minima)
+        report_minima(length);
+    return stopped;
+}
+
+void Trajectory::report_passage(std::size_t index, double at, int direction, bool at_contact) {
+    const Probe& probe = simulation_->probes()[index];
+    for (std::size_t i = 0; i < states_; ++i)
+        before_[i] = evaluate_state(i, at);
+    reduce_cyclic_states(before_);
+    if (probe.kind == Probe::Kind::phase &&
+        periods_[probe.state] - before_[probe.state] < roundoff * periods_[probe.state])
+        before_[probe.state] = 0;
+    observer_->passage({index, time_ + (at + time_low_), direction, mode_, at_contact, before_});
+}
+
+void Trajectory::report_touches(double length) {
+    const auto& mode = simulation_->compiled().mode(mode_);
+    for (const Touch& touch : touches_) {
+        if (touch.root.at > length)
+            continue;
+        Contact contact;
+        contact.kind = ContactKind::touch;
+        contact.time = time_ + (touch.root.at + time_low_);
+        contact.event = mode.watched[touch.watched];
+        contact.transition = mode.transitions[touch.watched];
+        contact.mode_before = contact.mode_after = mode_;
+        contact.value = touch.root.value;
+        for (std::size_t i = 0; i < states_; ++i)
+            before_[i] = evaluate_state(i, touch.root.at);
+        reduce_cyclic_states(before_);
+        contact.before = contact.after = before_;
+        observer_->contact(contact);
+    }
+    touches_.clear();
+}
+
+void Trajectory::report_minima(double length) {
+    const auto& mode = simulation_->compiled().mode(mode_);
+    for (std::size_t w = 0; w < mode.watched.size(); ++w) {
+        StepMinimum report;
+        report.event = mode.watched[w];
+        report.minimum = roots_.minimum(event_series(w), length);
+        report.time = time_ + (report.minimum.at + time_low_);
+        observer_->minimum(report);
+    }
+}
+
+} // namespace graze
