@@ -190,19 +190,7 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
     if (watched != no_event) {
         make_contact(watched, step);
     } else {
-        update_sides(step);
-        if (tangents_)
-            tangents_->advance(mode_, state_, step);
-        for (std::size_t i = 0; i < states_; ++i)
-            before_[i] = step == outlook.length(lane) ? outlook.state(i, lane) : evaluate_state(i, step);
-        state_.swap(before_);
-        if (last) {
-            time_ = end_time_;
-            time_low_ = 0;
-        } else {
-            add_time(step);
-        }
-        wrap_cyclic_states(false);
+        move_along(step, last, outlook, lane);
         if (jumping != states_ && !stopped)
             return finish_at_branch(jumping);
     }
@@ -211,6 +199,24 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
     // An arc that begins exactly at the end still has its contact to announce: one more call does it.
     if (!finished() && !arc_start_ && time_ >= end_time_)
         finish(Ending::end_time, time_);
+}
+
+/// Goes to the end of a step within which nothing happens to the motion.
+/// @param last whether that is the end of the trajectory
+void Trajectory::move_along(double step, bool last, const Outlook& outlook, std::size_t lane) {
+    update_sides(step);
+    if (tangents_)
+        tangents_->advance(mode_, state_, step);
+    for (std::size_t i = 0; i < states_; ++i)
+        before_[i] = step == outlook.length(lane) ? outlook.state(i, lane) : evaluate_state(i, step);
+    state_.swap(before_);
+    if (last) {
+        time_ = end_time_;
+        time_low_ = 0;
+    } else {
+        add_time(step);
+    }
+    wrap_cyclic_states(false);
 }
 
 /// Cyclic states of a copy of the state brought within their periods.

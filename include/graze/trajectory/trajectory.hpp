@@ -90,6 +90,7 @@ private:
 
     // One step (trajectory.cpp)
     void find_series(const Jet& jet, std::size_t lane);
+    void move_along(double step, bool last, const Outlook& outlook, std::size_t lane);
     void wrap_cyclic_states(bool snap);
     void reduce_cyclic_states(std::span<double> state) const;
     void add_time(double step);
