@@ -53,9 +53,12 @@ std::optional<CatalogueEntry> find_in_catalogue(std::string_view name) {
     return std::nullopt;
 }
 
+bool is_model_path(std::string_view name_or_path) {
+    return name_or_path.find('/') != std::string_view::npos || name_or_path.ends_with(".toml");
+}
+
 Model load_model(const std::string& name_or_path) {
-    const bool is_path = name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".toml");
-    if (is_path)
+    if (is_model_path(name_or_path))
         return read_model(name_or_path);
     if (const auto entry = find_in_catalogue(name_or_path))
         return parse_model(entry->text, name_or_path);

@@ -93,6 +93,14 @@ private:
         }
     }
 
+    /// A number that is written as an expression, such as 30*pi/180, depends on nothing and is there to be changed.
+    static void set_value(Parameter& parameter, const Expression& value) {
+        if (value.is_number())
+            parameter.value = value.node().value;
+        else
+            parameter.expression = value;
+    }
+
     void read_parameters(const TomlEntry& group) {
         auto item = model_.parameters.begin();
         for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
@@ -101,7 +109,7 @@ private:
                 if (part.name == "value" && part.node->is_number())
                     parameter.value = number(part);
                 else if (part.name == "value")
-                    parameter.expression = expression(part);
+                    set_value(parameter, expression(part));
                 else
                     (part.name == "unit" ? parameter.unit : parameter.text) = reader_.string(part);
             }

@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <map>
 #include <memory>
 #include <sstream>
+#include <type_traits>
 
 namespace graze {
 
@@ -59,6 +61,24 @@ constexpr const char* simulate_examples = R"(Examples:
 const std::map<std::string, TableFormat> formats{
     {"table", TableFormat::table}, {"csv", TableFormat::csv}, {"json", TableFormat::json}};
 
+/// Refuses what an unset variable of a script leaves: it would silently count as if the option were not there.
+CLI::Validator not_empty() {
+    return CLI::Validator([](std::string& text) { return text.empty() ? "its value is empty" : std::string(); }, "");
+}
+
+CLI::Validator whole_number(long least, long most) {
+    return CLI::Validator(
+        [=](std::string& text) {
+            long value = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            const bool whole = error == std::errc() && end == text.data() + text.size();
+            return whole && value >= least && value <= most
+                       ? std::string()
+                       : fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
+        },
+        "");
+}
+
 void declare_output(CLI::App& command, OutputArguments& output, const std::string& file_option) {
     command.add_option("--format", output.format, "table (default), csv or json")
         ->type_name("FORMAT")
@@ -66,11 +86,12 @@ void declare_output(CLI::App& command, OutputArguments& output, const std::strin
         ->group("Output");
     command.add_option("--digits", output.digits, "Significant digits of numbers; 17 (default) lose nothing")
         ->type_name("N")
-        ->check(CLI::Range(1, 17).description(""))
+        ->check(whole_number(1, 17))
         ->group("Output");
     if (!file_option.empty())
         command.add_option(file_option, output.file, "Write the table there instead of to standard output")
             ->type_name("FILE")
+            ->check(not_empty())
             ->group("Output");
 }
 
@@ -81,7 +102,8 @@ void declare_check(CLI::App& app, CheckArguments& arguments) {
     command
         .add_option("--graph", arguments.graph,
                     "Draw the modes and the transitions between them (svg, png or pdf by Graphviz; dot without it)")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->check(not_empty());
     declare_output(command, arguments.output, "--output");
 }
 
@@ -90,7 +112,7 @@ void declare_models(CLI::App& app, ModelsArguments& arguments) {
     command.footer(models_examples);
     command.add_option("NAME", arguments.name, "The model to tell about")->type_name("");
     command.add_flag("--show", arguments.show, "Print the model file");
-    command.add_option("--write", arguments.file, "Write the model file there")->type_name("FILE");
+    command.add_option("--write", arguments.file, "Write the model file there")->type_name("FILE")->check(not_empty());
     command.add_option("--beam-modes", arguments.beam_modes, "Eigenmodes of the microbeam (1)")
         ->type_name("N")
         ->group("Microbeam");
@@ -119,7 +141,10 @@ public:
 template <typename Target>
 CLI::Option* add(CLI::App& command, const char* group, const char* name, Target& target, const char* type,
                  const char* text) {
-    return command.add_option(name, target, text)->type_name(type)->group(group);
+    CLI::Option* option = command.add_option(name, target, text)->type_name(type)->group(group);
+    return std::is_same_v<Target, std::string> || std::is_same_v<Target, std::vector<std::string>>
+               ? option->check(not_empty())
+               : option;
 }
 
 void declare_length(CLI::App& command, SimulateArguments& arguments) {
@@ -167,7 +192,8 @@ void declare_method(CLI::App& command, SimulateArguments& arguments) {
     add(command, group, "--tolerance", arguments.tolerance, "TOL", "Relative error of each step (1e-12)");
     add(command, group, "--order", arguments.order, "N", "Of the Taylor polynomials (chosen by tolerance)");
     add(command, group, "--largest-step", arguments.largest_step, "T", "Bound on steps (none)");
-    add(command, group, "--steps", arguments.steps, "N", "End after so many steps (100 million)");
+    add(command, group, "--steps", arguments.steps, "N", "End after so many steps (100 million)")
+        ->check(whole_number(1, 1'000'000'000'000));
     command.add_flag("--progress", arguments.progress, "Show progress even if standard error is no terminal")
         ->group(group);
     command.add_flag("--quiet", arguments.quiet, "Say how the trajectory ended only if it broke off")->group(group);
@@ -237,6 +263,16 @@ std::string explain_conversion(const std::string& message, const std::string& he
                        option == "--format" ? "choose table, csv or json" : help);
 }
 
+/// @param message of CLI11, as "--time: 1 required T missing"
+std::string explain_missing(const std::string& message, const std::string& help) {
+    const std::size_t colon = message.find(": "), required = message.find(" required ");
+    const std::size_t missing = message.rfind(" missing");
+    if (colon == std::string::npos || required == std::string::npos || missing == std::string::npos)
+        return fmt::format("{}; {}", message, help);
+    const std::string option = message.substr(0, colon), type = message.substr(required + 10, missing - required - 10);
+    return fmt::format("{}: its value is missing; write {} {}", option, option, type);
+}
+
 } // namespace
 
 void declare_arguments(CLI::App& app, Arguments& arguments) {
@@ -281,6 +317,8 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app) {
     }
     if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr)
         return explain_conversion(error.what(), help);
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
+        return explain_missing(error.what(), help);
     return fmt::format("{}; {}", error.what(), help);
 }
 

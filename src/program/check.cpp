@@ -1,4 +1,5 @@
 #include "graze/model/check.hpp"
+#include "graze/model/catalogue.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/describe.hpp"
@@ -10,6 +11,9 @@ namespace graze {
 
 int check_command(const CheckArguments& arguments, const Console& console) {
     const Model model = load_program_model(arguments.model);
+    require_distinct({{"the model", is_model_path(arguments.model) ? arguments.model : ""},
+                      {"--graph", arguments.graph},
+                      {"--output", arguments.output.file}});
     for (const std::string& warning : model_warnings(model))
         console.err << "graze: warning: " << arguments.model << ": " << warning << '\n';
     if (!arguments.graph.empty())

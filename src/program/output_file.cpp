@@ -81,6 +81,26 @@ void require_writable(const std::string& path) {
     const FileReplacement attempt(path);
 }
 
+void require_distinct(const std::vector<NamedFile>& files) {
+    const auto is_regular = [](const std::string& path) { // or may become so, unlike /dev/null
+        std::error_code error;
+        return std::filesystem::is_regular_file(path, error) || !std::filesystem::exists(path, error);
+    };
+    const auto target = [](const std::string& path) {
+        std::error_code error;
+        const auto absolute = std::filesystem::absolute(path, error);
+        const auto canonical = std::filesystem::weakly_canonical(absolute, error);
+        return error ? absolute : canonical;
+    };
+    for (std::size_t i = 0; i < files.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (!files[i].path.empty() && !files[j].path.empty() && is_regular(files[i].path) &&
+                target(files[i].path) == target(files[j].path))
+                throw InputError({files[i].name, 0, 0},
+                                 fmt::format("'{}' is the file of {} too", files[i].path, files[j].name),
+                                 "choose another name");
+}
+
 void write_file(const std::string& path, std::string_view contents) {
     FileReplacement file(path);
     errno = 0;

@@ -2,12 +2,22 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace graze {
 
 /// Checks that a file can be written there, leaving nothing behind: call it before work that would be lost.
 /// @throws InputError when it cannot
 void require_writable(const std::string& path);
+
+struct NamedFile {
+    std::string name; ///< the option that asks for it, or "the model"
+    std::string path; ///< empty: there is none
+};
+
+/// Checks that no two of them are the same file, of which one would be lost.
+/// @throws InputError when two are
+void require_distinct(const std::vector<NamedFile>& files);
 
 /// A file that appears whole under its name, or not at all: it is written under another name beside it.
 class FileReplacement {

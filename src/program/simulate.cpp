@@ -1,3 +1,4 @@
+#include "graze/model/catalogue.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/trajectory/recorder.hpp"
 #include "graze/trajectory/trajectory.hpp"
@@ -207,6 +208,10 @@ private:
     /// Before anything is computed that could be lost.
     void check_outputs() {
         wants_table_ = wants_table(arguments_, arguments_.output.format != TableFormat::table);
+        require_distinct({{"the model", is_model_path(arguments_.model) ? arguments_.model : ""},
+                          {"--output", arguments_.output.file},
+                          {"--plot", arguments_.plot},
+                          {"--plot-data", arguments_.plot_data}});
         if (wants_table_ && !arguments_.output.file.empty())
             require_writable(arguments_.output.file);
         if (arguments_.plot.empty() && (!arguments_.plot_data.empty() || !arguments_.portraits.empty()))

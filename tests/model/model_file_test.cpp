@@ -176,7 +176,7 @@ TEST(ModelFile, ReadsEverythingInTheOrderOfTheFile) {
     ASSERT_TRUE(model.parameters[3].expression);
     EXPECT_FALSE(model.parameters[3].value);
     EXPECT_EQ(to_string(*model.parameters[4].expression), "period/2");
-    EXPECT_TRUE(model.parameters[5].expression);
+    EXPECT_EQ(model.parameters[5].value, 2.0); // depends on nothing
 
     ASSERT_EQ(model.states.size(), 5U);
     EXPECT_EQ(model.states[0].name, "z");
@@ -332,6 +332,18 @@ TEST(ModelFile, SmoothModelNeedsOnlyStatesAndAMode) {
     EXPECT_TRUE(model.events.empty());
     EXPECT_EQ(model.jumps.size(), 1U);
     EXPECT_EQ(contents(parse_model(write_model(model), "again.toml")), contents(model));
+}
+
+TEST(ModelFile, NumbersWrittenAsExpressionsCanBeSet) {
+    Model model = parse_model(R"(parameters.angle = "30*pi/180"
+parameters.twice = "2*angle"
+states.x = "twice"
+modes.m.rates.x = 0)",
+                              "test.toml");
+    EXPECT_NEAR(model.initial_state()[0], 3.141592653589793 / 3, 1e-15);
+    model.set_parameter("angle", 0.25);
+    EXPECT_EQ(model.initial_state()[0], 0.5);
+    EXPECT_THROW(model.set_parameter("twice", 1), InputError);
 }
 
 TEST(ModelFile, ReadsManyStatesInOrder) {

@@ -27,6 +27,36 @@ struct Mistake {
     std::string line, message;
 };
 
+TEST(Program, EmptyValuesAreNoneOfTheDefaults) {
+    for (const std::string option : {"--time", "--mode", "--set", "--section", "--output", "--plot", "--every"}) {
+        const Printed run = run_graze(std::vector<std::string>{"simulate", "mems-switch", option, ""});
+        EXPECT_EQ(run.code, exit_bad_input) << option;
+        EXPECT_THAT(run.err, HasSubstr(option + ": its value is empty")) << option;
+    }
+}
+
+TEST(Program, NoFileIsAskedForTwice) {
+    const Folder folder;
+    const std::string model = folder / "model.toml", text = "states.x = 1\nmodes.m.rates.x = \"-x\"\n";
+    std::ofstream(model) << text;
+    const std::string same = folder / "./model.toml", picture = folder / "picture.svg";
+    for (const std::string& line :
+         {"check " + model + " --output " + same, "check " + model + " --format csv --output " + same,
+          "simulate " + model + " --time 1 --output " + same,
+          "simulate " + model + " --time 1 --plot-data " + same + " --plot " + picture,
+          "simulate " + model + " --time 1 --plot " + picture + " --output " + picture,
+          "simulate " + model + " --time 1 --plot " + picture + " --plot-data " + picture}) {
+        const Printed run = run_graze(line);
+        EXPECT_EQ(run.code, exit_bad_input) << line;
+        EXPECT_THAT(run.err, HasSubstr("choose another name")) << line;
+    }
+    EXPECT_EQ(contents(model), text);
+    EXPECT_FALSE(std::filesystem::exists(picture));
+    EXPECT_EQ(
+        run_graze("simulate " + model + " --time 1 --output /dev/null --plot-data /dev/null --plot " + picture).code,
+        0);
+}
+
 class BadInput : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(BadInput, GivesOneMessageWithARemedy) {
@@ -52,6 +82,13 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{"simulate mems-switch --digits 40", "--digits"}, Mistake{"check", "the model is missing"},
                       Mistake{"check bouncing-bal", "bouncing-ball"},
                       Mistake{"check mems-switch --graph modes.gif", ".svg"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Numbers, BadInput,
+    ::testing::Values(Mistake{"simulate mems-switch --steps -1", "--steps: '-1' is not a whole number from 1"},
+                      Mistake{"simulate mems-switch --steps 0", "--steps: '0' is not a whole number from 1"},
+                      Mistake{"simulate mems-switch --digits -1", "--digits: '-1' is not a whole number from 1 to 17"},
+                      Mistake{"simulate mems-switch --time", "--time: its value is missing; write --time T"}));
 
 INSTANTIATE_TEST_SUITE_P(Values, BadInput,
                          ::testing::Values(Mistake{"simulate mems-switch --set omga=1", "'omega'"},

@@ -20,7 +20,10 @@ struct CatalogueEntry {
 const std::vector<CatalogueEntry>& catalogue();
 std::optional<CatalogueEntry> find_in_catalogue(std::string_view name);
 
-/// The model of this name or in this file: a name without a slash or ".toml" is looked up in the catalogue.
+/// Whether this is the path of a model file: it contains a slash or ends in ".toml". Other names are in the catalogue.
+bool is_model_path(std::string_view name_or_path);
+
+/// The model of this name or in this file.
 /// @throws InputError when there is neither (with the nearest name)
 Model load_model(const std::string& name_or_path);
 
