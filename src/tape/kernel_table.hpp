@@ -44,6 +44,8 @@ struct KernelTable {
     int width; ///< doubles for each number
     /// Row `linear_combination` is empty.
     Kernel series[series_operation_count][highest_order + 1];
+    /// Instead of those, where not null, at the last order of a series: nothing is done there for the next.
+    Kernel closing[series_operation_count][highest_order + 1];
     /// By number of terms; for orders above 0.
     Kernel combination[combination_kernels];
     Kernel combination_value; ///< at order 0, where the constant is added

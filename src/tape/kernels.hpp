@@ -11,6 +11,7 @@
 #include "tape/kernel_table.hpp"
 #include "tape/lane_numbers.hpp"
 
+#include <type_traits>
 #include <utility>
 
 namespace graze::GRAZE_INSTRUCTION_SET {
@@ -91,26 +92,70 @@ GRAZE_INLINE V convolution(const double* a, const double* b) {
     return total<terms>(sums);
 }
 
-/// Sum of a[j] a[k-j], 0 < j < k; k >= 2.
+/// The convolutions of two orders at once: what limits lanes is how fast coefficients can be loaded, and this way each
+/// does for two products. (The same sums in the same sequence as those of `convolution`.)
+template <class V, int k, int terms = k - 1>
+class TwoConvolutions {
+public:
+    GRAZE_INLINE TwoConvolutions(const double* a, const double* b) : b_(at<V>(b, k)) {
+        [&]<int... j>(Indices<j...>) __attribute__((always_inline)) {
+            (add<j>(at<V>(a, j + 1), at<V>(b, k - 1 - j)), ...);
+        }
+        (std::make_integer_sequence<int, terms>{});
+    }
+    /// Sum of a[j] b[k-j], 0 < j <= terms.
+    GRAZE_INLINE V first() const { return total<terms>(first_); }
+    /// Sum of a[j] b[k+1-j], 0 < j <= terms + 1, given the last a[j].
+    GRAZE_INLINE V second(V last) {
+        accumulate<terms>(second_, last, b_);
+        return total<terms + 1>(second_);
+    }
+
+private:
+    template <int j>
+    GRAZE_INLINE void add(V a, V b) {
+        accumulate<j>(first_, a, b);
+        accumulate<j>(second_, a, b_);
+        b_ = b;
+    }
+
+    V first_[4], second_[4];
+    V b_; ///< the last one loaded
+};
+
+/// From this order on, ensembles compute the convolutions of an even and the next odd order together. What is known of
+/// the odd one waits where its coefficient will be.
+inline constexpr int first_pair = 4;
+template <class V, int k>
+inline constexpr bool starts_pair = std::is_same_v<V, Ensemble> && (k >= first_pair) && (k % 2 == 0);
+template <class V, int k>
+inline constexpr bool ends_pair = std::is_same_v<V, Ensemble> && (k > first_pair) && (k % 2 == 1);
+
+/// Sum of a[j] a[k-j], 0 < j < k, given that over j < k/2; k >= 2.
+template <class V, int k>
+GRAZE_INLINE V self_convolution(const double* a, V half) {
+    if constexpr (k % 2 == 1) {
+        return half + half;
+    } else {
+        const V middle = at<V>(a, k / 2);
+        return multiply_add(middle, middle, half + half);
+    }
+}
 template <class V, int k>
 GRAZE_INLINE V self_convolution(const double* a) {
     if constexpr (k == 2) {
         const V middle = at<V>(a, 1);
         return middle * middle;
     } else {
-        const V half = convolution<V, k, (k - 1) / 2>(a, a);
-        if constexpr (k % 2 == 1) {
-            return half + half;
-        } else {
-            const V middle = at<V>(a, k / 2);
-            return multiply_add(middle, middle, half + half);
-        }
+        return self_convolution<V, k>(a, convolution<V, k, (k - 1) / 2>(a, a));
     }
 }
 
+// Those that come in pairs have a second kernel at even orders, `closing`, for the last order of a series.
+
 template <class V>
 struct Multiply {
-    template <int k>
+    template <int k, bool closing = false>
     GRAZE_INLINE static void run(const KernelOperands& o, int) {
         const V a0 = at<V>(o.left, 0);
         const V b = at<V>(o.right, k);
@@ -122,14 +167,26 @@ struct Multiply {
             if constexpr (k == 1)
                 put(o.result, k, multiply_add(a0, b, a * b0));
             else
-                put(o.result, k, multiply_add(a0, b, multiply_add(a, b0, convolution<V, k>(o.left, o.right))));
+                put(o.result, k, multiply_add(a0, b, multiply_add(a, b0, inner<k, closing>(o, a))));
+        }
+    }
+    template <int k, bool closing>
+    GRAZE_INLINE static V inner(const KernelOperands& o, V a) {
+        if constexpr (ends_pair<V, k>) {
+            return at<V>(o.result, k);
+        } else if constexpr (starts_pair<V, k> && !closing) {
+            TwoConvolutions<V, k> sums(o.left, o.right);
+            put(o.result, k + 1, sums.second(a));
+            return sums.first();
+        } else {
+            return convolution<V, k>(o.left, o.right);
         }
     }
 };
 
 template <class V>
 struct Square {
-    template <int k>
+    template <int k, bool closing = false>
     GRAZE_INLINE static void run(const KernelOperands& o, int) {
         const V a = at<V>(o.left, k);
         if constexpr (k == 0) {
@@ -140,15 +197,43 @@ struct Square {
             if constexpr (k == 1)
                 put(o.result, k, twice * a);
             else
-                put(o.result, k, multiply_add(twice, a, self_convolution<V, k>(o.left)));
+                put(o.result, k, multiply_add(twice, a, inner<k, closing>(o)));
+        }
+    }
+    template <int k, bool closing>
+    GRAZE_INLINE static V inner(const KernelOperands& o) {
+        if constexpr (ends_pair<V, k>) {
+            return self_convolution<V, k>(o.left, at<V>(o.result, k));
+        } else if constexpr (starts_pair<V, k> && !closing) {
+            TwoConvolutions<V, k, k / 2 - 1> sums(o.left, o.left);
+            put(o.result, k + 1, sums.second(at<V>(o.left, k / 2)));
+            return self_convolution<V, k>(o.left, sums.first());
+        } else {
+            return self_convolution<V, k>(o.left);
         }
     }
 };
 
+/// Coefficients of a quotient depend on one another: `convolution` of the quotient and its divisor, and what is known
+/// of that of the next order once `finish` has computed the coefficient of this one.
+template <class V, int k, bool closing, class Finish>
+GRAZE_INLINE void divide_by(const double* divisor, double* quotient, Finish finish) {
+    if constexpr (ends_pair<V, k>) {
+        put(quotient, k, finish(at<V>(quotient, k)));
+    } else if constexpr (starts_pair<V, k> && !closing) {
+        TwoConvolutions<V, k> sums(quotient, divisor);
+        const V result = finish(sums.first());
+        put(quotient, k, result);
+        put(quotient, k + 1, sums.second(result));
+    } else {
+        put(quotient, k, finish(convolution<V, k>(quotient, divisor)));
+    }
+}
+
 /// q b = a; the reciprocal of b at order 0 is kept in `third`.
 template <class V>
 struct Divide {
-    template <int k>
+    template <int k, bool closing = false>
     GRAZE_INLINE static void run(const KernelOperands& o, int) {
         const V a = at<V>(o.left, k);
         if constexpr (k == 0) {
@@ -158,17 +243,20 @@ struct Divide {
         } else {
             const V reciprocal = at<V>(o.third, 0);
             const V slope = -(at<V>(o.result, 0) * reciprocal);
-            V known = slope * at<V>(o.right, k);
-            if constexpr (k > 1)
-                known = multiply_add(slope, at<V>(o.right, k), -(convolution<V, k>(o.right, o.result) * reciprocal));
-            put(o.result, k, multiply_add(a, reciprocal, known));
+            if constexpr (k == 1)
+                put(o.result, k, multiply_add(a, reciprocal, slope * at<V>(o.right, k)));
+            else
+                divide_by<V, k, closing>(
+                    o.right, o.result, [&](V sum) __attribute__((always_inline)) {
+                        return multiply_add(a, reciprocal, multiply_add(slope, at<V>(o.right, k), -(sum * reciprocal)));
+                    });
         }
     }
 };
 
 template <class V>
 struct Reciprocal {
-    template <int k>
+    template <int k, bool closing = false>
     GRAZE_INLINE static void run(const KernelOperands& o, int) {
         const V a = at<V>(o.left, k);
         if constexpr (k == 0) {
@@ -179,7 +267,10 @@ struct Reciprocal {
             if constexpr (k == 1)
                 put(o.result, k, slope * a);
             else
-                put(o.result, k, multiply_add(slope, a, -(convolution<V, k>(o.left, o.result) * reciprocal)));
+                divide_by<V, k, closing>(
+                    o.left, o.result, [&](V sum) __attribute__((always_inline)) {
+                        return multiply_add(slope, a, -(sum * reciprocal));
+                    });
         }
     }
 };

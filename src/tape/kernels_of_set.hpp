@@ -44,14 +44,25 @@ constexpr void fill_combinations(Kernel (&row)[combination_kernels], Indices<cou
     ((row[count] = &chained<&Family::template run<count>>), ...);
 }
 
+template <class V, class Family, int... k>
+constexpr void fill_closing(Kernel (&row)[highest_order + 1], Indices<k...>) {
+    ((row[k] = starts_pair<V, k> ? &chained<&Family::template run<k, starts_pair<V, k>>> : row[k]), ...);
+}
+template <class V, class Family>
+constexpr void fill_pairs(KernelTable& table, SeriesOperation operation) {
+    fill<Family>(table, operation);
+    fill_closing<V, Family>(table.closing[static_cast<int>(operation)],
+                            std::make_integer_sequence<int, highest_order + 1>{});
+}
+
 template <class V>
 constexpr KernelTable make_table() {
     KernelTable table{};
     table.width = Numbers<V>::width;
-    fill<Multiply<V>>(table, SeriesOperation::multiply);
-    fill<Divide<V>>(table, SeriesOperation::divide);
-    fill<Square<V>>(table, SeriesOperation::square);
-    fill<Reciprocal<V>>(table, SeriesOperation::reciprocal);
+    fill_pairs<V, Multiply<V>>(table, SeriesOperation::multiply);
+    fill_pairs<V, Divide<V>>(table, SeriesOperation::divide);
+    fill_pairs<V, Square<V>>(table, SeriesOperation::square);
+    fill_pairs<V, Reciprocal<V>>(table, SeriesOperation::reciprocal);
     fill<SquareRoot<V>>(table, SeriesOperation::sqrt);
     fill<Power<V>>(table, SeriesOperation::power_constant);
     fill<Derivative<V>>(table, SeriesOperation::derivative);

@@ -19,10 +19,14 @@ namespace graze::GRAZE_INSTRUCTION_SET {
 inline constexpr int lanes = GRAZE_LANES;
 typedef double Pack __attribute__((vector_size(8 * lanes)));
 
-/// Independent lanes.
-struct Ensemble {
-    Pack values;
+/// Lanes that have nothing to do with each other.
+template <int count>
+struct Packs {
+    static constexpr int parts = count;
+    Pack part[parts];
 };
+/// Independent trajectories. While one pack waits for what its operations need, processors work on the other.
+using Ensemble = Packs<2>;
 /// A number (lane 0 of the first part) and its derivatives in some directions (all other lanes).
 struct Tangent {
     static constexpr int width = lanes == 2 ? 4 : 8;
@@ -72,72 +76,77 @@ GRAZE_INLINE Pack with_first(Pack first, Pack others) {
 #endif
 }
 
-GRAZE_INLINE Ensemble operator+(Ensemble a, Ensemble b) {
-    return {a.values + b.values};
-}
-GRAZE_INLINE Ensemble operator-(Ensemble a, Ensemble b) {
-    return {a.values - b.values};
-}
-GRAZE_INLINE Ensemble operator-(Ensemble a) {
-    return {-a.values};
-}
-GRAZE_INLINE Ensemble operator*(Ensemble a, Ensemble b) {
-    return {a.values * b.values};
-}
-GRAZE_INLINE Ensemble operator*(Ensemble a, double b) {
-    return {a.values * b};
-}
-GRAZE_INLINE Ensemble operator/(Ensemble a, Ensemble b) {
-    return {a.values / b.values};
-}
-GRAZE_INLINE Ensemble multiply_add(Ensemble a, Ensemble b, Ensemble c) {
-    return {multiply_add(a.values, b.values, c.values)};
-}
-
-template <class Function>
-GRAZE_INLINE Tangent for_parts(Function&& function) {
-    Tangent result;
-    for (int i = 0; i < Tangent::parts; ++i)
+template <class V, class Function>
+GRAZE_INLINE V for_parts(Function&& function) {
+    V result;
+    for (int i = 0; i < V::parts; ++i)
         result.part[i] = function(i);
     return result;
 }
-#define GRAZE_FOR_PARTS(expression) for_parts([&](int i) __attribute__((always_inline)) { return expression; })
+#define GRAZE_FOR_PARTS(V, expression) for_parts<V>([&](int i) __attribute__((always_inline)) { return expression; })
+
+template <int n>
+GRAZE_INLINE Packs<n> operator+(Packs<n> a, Packs<n> b) {
+    return GRAZE_FOR_PARTS(Packs<n>, a.part[i] + b.part[i]);
+}
+template <int n>
+GRAZE_INLINE Packs<n> operator-(Packs<n> a, Packs<n> b) {
+    return GRAZE_FOR_PARTS(Packs<n>, a.part[i] - b.part[i]);
+}
+template <int n>
+GRAZE_INLINE Packs<n> operator-(Packs<n> a) {
+    return GRAZE_FOR_PARTS(Packs<n>, -a.part[i]);
+}
+template <int n>
+GRAZE_INLINE Packs<n> operator*(Packs<n> a, Packs<n> b) {
+    return GRAZE_FOR_PARTS(Packs<n>, a.part[i] * b.part[i]);
+}
+template <int n>
+GRAZE_INLINE Packs<n> operator*(Packs<n> a, double b) {
+    return GRAZE_FOR_PARTS(Packs<n>, a.part[i] * b);
+}
+template <int n>
+GRAZE_INLINE Packs<n> operator/(Packs<n> a, Packs<n> b) {
+    return GRAZE_FOR_PARTS(Packs<n>, a.part[i] / b.part[i]);
+}
+template <int n>
+GRAZE_INLINE Packs<n> multiply_add(Packs<n> a, Packs<n> b, Packs<n> c) {
+    return GRAZE_FOR_PARTS(Packs<n>, multiply_add(a.part[i], b.part[i], c.part[i]));
+}
 
 GRAZE_INLINE Tangent operator+(Tangent a, Tangent b) {
-    return GRAZE_FOR_PARTS(a.part[i] + b.part[i]);
+    return GRAZE_FOR_PARTS(Tangent, a.part[i] + b.part[i]);
 }
 GRAZE_INLINE Tangent operator-(Tangent a, Tangent b) {
-    return GRAZE_FOR_PARTS(a.part[i] - b.part[i]);
+    return GRAZE_FOR_PARTS(Tangent, a.part[i] - b.part[i]);
 }
 GRAZE_INLINE Tangent operator-(Tangent a) {
-    return GRAZE_FOR_PARTS(-a.part[i]);
+    return GRAZE_FOR_PARTS(Tangent, -a.part[i]);
 }
 GRAZE_INLINE Tangent operator*(Tangent a, double b) {
-    return GRAZE_FOR_PARTS(a.part[i] * b);
+    return GRAZE_FOR_PARTS(Tangent, a.part[i] * b);
 }
 /// The value of c, and its directions increased by those of a times b.
 GRAZE_INLINE Tangent add_directions(Tangent a, Pack b, Tangent c) {
-    Tangent result = GRAZE_FOR_PARTS(multiply_add(a.part[i], b, c.part[i]));
+    Tangent result = GRAZE_FOR_PARTS(Tangent, multiply_add(a.part[i], b, c.part[i]));
     result.part[0] = with_first(c.part[0], result.part[0]);
     return result;
 }
 GRAZE_INLINE Tangent operator*(Tangent a, Tangent b) {
     const Pack value = splat(a.part[0][0]);
-    const Tangent product = GRAZE_FOR_PARTS(value * b.part[i]);
+    const Tangent product = GRAZE_FOR_PARTS(Tangent, value * b.part[i]);
     return add_directions(a, splat(b.part[0][0]), product);
 }
 GRAZE_INLINE Tangent operator/(Tangent a, Tangent b) {
     const Pack divisor = splat(b.part[0][0]);
     const Tangent numerator = add_directions(b, splat(-(a.part[0][0] / b.part[0][0])), a);
-    return GRAZE_FOR_PARTS(numerator.part[i] / divisor);
+    return GRAZE_FOR_PARTS(Tangent, numerator.part[i] / divisor);
 }
 GRAZE_INLINE Tangent multiply_add(Tangent a, Tangent b, Tangent c) {
     const Pack value = splat(a.part[0][0]);
-    const Tangent sum = GRAZE_FOR_PARTS(multiply_add(value, b.part[i], c.part[i]));
+    const Tangent sum = GRAZE_FOR_PARTS(Tangent, multiply_add(value, b.part[i], c.part[i]));
     return add_directions(a, splat(b.part[0][0]), sum);
 }
-#undef GRAZE_FOR_PARTS
-
 template <class V>
 struct Numbers;
 
@@ -149,31 +158,32 @@ struct Numbers<double> {
     GRAZE_INLINE static double of(double number) { return number; }
 };
 
-template <>
-struct Numbers<Ensemble> {
-    static constexpr int width = lanes;
-    GRAZE_INLINE static Ensemble load(const double* from) {
-        Ensemble number;
-        __builtin_memcpy(&number.values, from, sizeof(Pack));
-        return number;
-    }
-    GRAZE_INLINE static void store(double* to, Ensemble number) { __builtin_memcpy(to, &number.values, sizeof(Pack)); }
-    GRAZE_INLINE static Ensemble of(double number) { return {splat(number)}; }
+template <class V>
+GRAZE_INLINE V load_parts(const double* from) {
+    V number;
+    for (int i = 0; i < V::parts; ++i)
+        __builtin_memcpy(&number.part[i], from + i * lanes, sizeof(Pack));
+    return number;
+}
+template <class V>
+GRAZE_INLINE void store_parts(double* to, V number) {
+    for (int i = 0; i < V::parts; ++i)
+        __builtin_memcpy(to + i * lanes, &number.part[i], sizeof(Pack));
+}
+
+template <int n>
+struct Numbers<Packs<n>> {
+    static constexpr int width = n * lanes;
+    GRAZE_INLINE static Packs<n> load(const double* from) { return load_parts<Packs<n>>(from); }
+    GRAZE_INLINE static void store(double* to, Packs<n> number) { store_parts(to, number); }
+    GRAZE_INLINE static Packs<n> of(double number) { return GRAZE_FOR_PARTS(Packs<n>, ((void)i, splat(number))); }
 };
 
 template <>
 struct Numbers<Tangent> {
     static constexpr int width = Tangent::width;
-    GRAZE_INLINE static Tangent load(const double* from) {
-        Tangent number;
-        for (int i = 0; i < Tangent::parts; ++i)
-            __builtin_memcpy(&number.part[i], from + i * lanes, sizeof(Pack));
-        return number;
-    }
-    GRAZE_INLINE static void store(double* to, Tangent number) {
-        for (int i = 0; i < Tangent::parts; ++i)
-            __builtin_memcpy(to + i * lanes, &number.part[i], sizeof(Pack));
-    }
+    GRAZE_INLINE static Tangent load(const double* from) { return load_parts<Tangent>(from); }
+    GRAZE_INLINE static void store(double* to, Tangent number) { store_parts(to, number); }
     GRAZE_INLINE static Tangent of(double number) {
         Tangent result{};
         result.part[0][0] = number;
@@ -272,8 +282,9 @@ inline double evaluate(double a) {
 }
 template <Operation function>
 inline Ensemble evaluate(Ensemble a) {
-    for (int lane = 0; lane < lanes; ++lane)
-        a.values[lane] = value_of<function>(a.values[lane]);
+    for (Pack& part : a.part)
+        for (int lane = 0; lane < lanes; ++lane)
+            part[lane] = value_of<function>(part[lane]);
     return a;
 }
 template <Operation function>
@@ -287,11 +298,12 @@ inline void evaluate_sine_and_cosine(double a, double& sine, double& cosine) {
     cosine = ::cos(a);
 }
 inline void evaluate_sine_and_cosine(Ensemble a, Ensemble& sine, Ensemble& cosine) {
-    for (int lane = 0; lane < lanes; ++lane) {
-        const double argument = a.values[lane];
-        sine.values[lane] = ::sin(argument);
-        cosine.values[lane] = ::cos(argument);
-    }
+    for (int i = 0; i < Ensemble::parts; ++i)
+        for (int lane = 0; lane < lanes; ++lane) {
+            const double argument = a.part[i][lane];
+            sine.part[i][lane] = ::sin(argument);
+            cosine.part[i][lane] = ::cos(argument);
+        }
 }
 inline void evaluate_sine_and_cosine(Tangent a, Tangent& sine, Tangent& cosine) {
     const double s = ::sin(a.part[0][0]);
@@ -304,8 +316,9 @@ inline double power(double a, double exponent) {
     return ::pow(a, exponent);
 }
 inline Ensemble power(Ensemble a, Ensemble exponent) {
-    for (int lane = 0; lane < lanes; ++lane)
-        a.values[lane] = ::pow(a.values[lane], exponent.values[lane]);
+    for (int i = 0; i < Ensemble::parts; ++i)
+        for (int lane = 0; lane < lanes; ++lane)
+            a.part[i][lane] = ::pow(a.part[i][lane], exponent.part[i][lane]);
     return a;
 }
 inline Tangent power(Tangent a, Tangent exponent) {

@@ -6,8 +6,9 @@
 
 namespace graze {
 
-Layout::Layout(const Tape& tape, int order, int width) : number(static_cast<std::size_t>(width)) {
-    series = (static_cast<std::size_t>(order) + 1) * number;
+Layout::Layout(const Tape& tape, int highest, int width)
+    : order(static_cast<std::uint32_t>(highest)), number(static_cast<std::size_t>(width)) {
+    series = (order + 1) * number;
     registers = (tape.constants * number + 7) / 8 * 8;
     reciprocals = registers + tape.registers * series;
     const auto keeps_reciprocal = [](const Instruction& instruction) {
@@ -169,7 +170,9 @@ Kernel StepFinder::kernel_of(const Instruction& instruction, int order, KernelOp
     default:
         break;
     }
-    return table_.series[static_cast<int>(instruction.operation)][order];
+    const auto row = static_cast<int>(instruction.operation);
+    const bool last = static_cast<std::uint32_t>(order) == std::min(layout_.order, tape_.degrees[instruction.result]);
+    return last && table_.closing[row][order] ? table_.closing[row][order] : table_.series[row][order];
 }
 
 } // namespace graze

@@ -8,8 +8,9 @@ namespace graze {
 
 /// Where everything is, in doubles from the start of the jet's memory.
 struct Layout {
-    Layout(const Tape& tape, int order, int width);
+    Layout(const Tape& tape, int highest, int width);
 
+    std::uint32_t order;
     std::size_t number; ///< size of a number
     std::size_t series; ///< size of a series
     std::size_t registers, reciprocals, constant_outputs;

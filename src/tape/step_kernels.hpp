@@ -17,11 +17,13 @@ GRAZE_INLINE double greater(double a, double b) {
 GRAZE_INLINE double where_zero(double a, double yes, double no) {
     return a == 0 ? yes : no;
 }
-GRAZE_INLINE Ensemble greater(Ensemble a, Ensemble b) {
-    return {b.values > a.values ? b.values : a.values};
+template <int n>
+GRAZE_INLINE Packs<n> greater(Packs<n> a, Packs<n> b) {
+    return GRAZE_FOR_PARTS(Packs<n>, b.part[i] > a.part[i] ? b.part[i] : a.part[i]);
 }
-GRAZE_INLINE Ensemble where_zero(Ensemble a, Ensemble yes, Ensemble no) {
-    return {a.values == 0 ? yes.values : no.values};
+template <int n>
+GRAZE_INLINE Packs<n> where_zero(Packs<n> a, Packs<n> yes, Packs<n> no) {
+    return GRAZE_FOR_PARTS(Packs<n>, a.part[i] == 0 ? yes.part[i] : no.part[i]);
 }
 
 /// Splits a positive number into an exponent of 2 and a factor from 1 to 2.
@@ -44,11 +46,15 @@ GRAZE_INLINE void split_exponent(double a, double& exponent, double& factor) {
 GRAZE_INLINE void raise_integer(double exponent, double& power, double& rest) {
     raise_integer<double, long long>(exponent, power, rest);
 }
-GRAZE_INLINE void split_exponent(Ensemble a, Ensemble& exponent, Ensemble& factor) {
-    split_exponent<Pack, Integers>(a.values, exponent.values, factor.values);
+template <int n>
+GRAZE_INLINE void split_exponent(Packs<n> a, Packs<n>& exponent, Packs<n>& factor) {
+    for (int i = 0; i < n; ++i)
+        split_exponent<Pack, Integers>(a.part[i], exponent.part[i], factor.part[i]);
 }
-GRAZE_INLINE void raise_integer(Ensemble exponent, Ensemble& power, Ensemble& rest) {
-    raise_integer<Pack, Integers>(exponent.values, power.values, rest.values);
+template <int n>
+GRAZE_INLINE void raise_integer(Packs<n> exponent, Packs<n>& power, Packs<n>& rest) {
+    for (int i = 0; i < n; ++i)
+        raise_integer<Pack, Integers>(exponent.part[i], power.part[i], rest.part[i]);
 }
 
 template <class L>
@@ -129,43 +135,41 @@ void steps(const Series* series, std::size_t count, int order, double log_tolera
     constexpr double infinity = __builtin_inf();
     const auto n = static_cast<std::size_t>(order);
     double limits[2][width], sums[width], growths[width];
-    for (int lane = 0; lane < width; lane += Numbers<L>::width) {
-        const L reference = Numbers<L>::load(references + lane);
-        const L almost_all = integer_power(reference, order - 1);
-        L high = number<L>(0), low = high, sum = high;
-        const auto at = [&](std::size_t i, std::size_t k) __attribute__((always_inline)) {
-            return Numbers<L>::load(series[i].first + k * series[i].stride + lane);
-        };
-        for (std::size_t i = 0; i < count; ++i) {
-            const L c0 = at(i, 0), c1 = at(i, 1), c2 = at(i, 2);
-            const L last = absolute(at(i, n)), before = absolute(at(i, n - 1));
-            // Not finite as soon as one is not; a logarithm of a negative number has only a first coefficient that
-            // is not.
-            sum = sum + (last + before) + (c0 + c1 + c2) * 0.0;
-            const L first_terms = absolute(c0) + reference * (absolute(c1) + reference * absolute(c2));
-            const L size = where_zero(first_terms, (before + reference * last) * almost_all, first_terms);
-            high = greater(high, last / size);
-            low = greater(low, before / size);
-        }
-        const L at_last = (number<L>(log_tolerance) - logarithm(high)) * (1.0 / order);
-        const L at_before = (number<L>(log_tolerance) - logarithm(low)) * (1.0 / (order - 1));
-        const L limit = lesser(where_zero(high, number<L>(1000), at_last), where_zero(low, number<L>(1000), at_before));
-        const L step = power_of_two(greater(lesser(limit, number<L>(1000)), number<L>(-1000)));
-        // Where the last terms grow from one to the next, the terms left out are larger still, however small all of
-        // them are: so it is with exp(-100 x^2) far from its peak, over which a step must not lead. In pairs, since
-        // every other term of an even or odd function is zero.
-        L growth = number<L>(0);
-        for (std::size_t i = 0; i < count; ++i) {
-            const L end = greater(absolute(at(i, n)) * step, absolute(at(i, n - 1))) * (step * step);
-            const L start = greater(absolute(at(i, n - 2)) * step, absolute(at(i, n - 3)));
-            growth = greater(growth, where_zero(start, start, end - start * largest_growth));
-        }
-        Numbers<L>::store(limits[0] + lane, high);
-        Numbers<L>::store(limits[1] + lane, low);
-        Numbers<L>::store(sums + lane, sum);
-        Numbers<L>::store(growths + lane, growth);
-        Numbers<L>::store(steps + lane, step);
+    const L reference = Numbers<L>::load(references);
+    const L almost_all = integer_power(reference, order - 1);
+    L high = number<L>(0), low = high, sum = high;
+    const auto at = [&](std::size_t i, std::size_t k) __attribute__((always_inline)) {
+        return Numbers<L>::load(series[i].first + k * series[i].stride);
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        const L c0 = at(i, 0), c1 = at(i, 1), c2 = at(i, 2);
+        const L last = absolute(at(i, n)), before = absolute(at(i, n - 1));
+        // Not finite as soon as one is not; a logarithm of a negative number has only a first coefficient that
+        // is not.
+        sum = sum + (last + before) + (c0 + c1 + c2) * 0.0;
+        const L first_terms = absolute(c0) + reference * (absolute(c1) + reference * absolute(c2));
+        const L size = where_zero(first_terms, (before + reference * last) * almost_all, first_terms);
+        high = greater(high, last / size);
+        low = greater(low, before / size);
     }
+    const L at_last = (number<L>(log_tolerance) - logarithm(high)) * (1.0 / order);
+    const L at_before = (number<L>(log_tolerance) - logarithm(low)) * (1.0 / (order - 1));
+    const L limit = lesser(where_zero(high, number<L>(1000), at_last), where_zero(low, number<L>(1000), at_before));
+    const L step = power_of_two(greater(lesser(limit, number<L>(1000)), number<L>(-1000)));
+    // Where the last terms grow from one to the next, the terms left out are larger still, however small all of
+    // them are: so it is with exp(-100 x^2) far from its peak, over which a step must not lead. In pairs, since
+    // every other term of an even or odd function is zero.
+    L growth = number<L>(0);
+    for (std::size_t i = 0; i < count; ++i) {
+        const L end = greater(absolute(at(i, n)) * step, absolute(at(i, n - 1))) * (step * step);
+        const L start = greater(absolute(at(i, n - 2)) * step, absolute(at(i, n - 3)));
+        growth = greater(growth, where_zero(start, start, end - start * largest_growth));
+    }
+    Numbers<L>::store(limits[0], high);
+    Numbers<L>::store(limits[1], low);
+    Numbers<L>::store(sums, sum);
+    Numbers<L>::store(growths, growth);
+    Numbers<L>::store(steps, step);
     for (int lane = 0; lane < width; ++lane) {
         if (!(sums[lane] < infinity))
             steps[lane] = __builtin_nan("");

@@ -5,13 +5,19 @@
 
 #include "tape/lane_numbers.hpp"
 
-#include <type_traits>
-
 namespace graze::GRAZE_INSTRUCTION_SET {
 
 /// Lanes side by side whatever they mean: in a sum, derivatives are numbers like others.
 template <class V>
-using Plain = std::conditional_t<Numbers<V>::width == 1, double, Ensemble>;
+struct PlainNumbers {
+    using Type = Packs<V::parts>;
+};
+template <>
+struct PlainNumbers<double> {
+    using Type = double;
+};
+template <class V>
+using Plain = typename PlainNumbers<V>::Type;
 
 GRAZE_INLINE double absolute(double a) {
     return a < 0 ? -a : a;
@@ -19,25 +25,24 @@ GRAZE_INLINE double absolute(double a) {
 GRAZE_INLINE double lesser(double a, double b) {
     return b < a ? b : a;
 }
-GRAZE_INLINE Ensemble absolute(Ensemble a) {
-    return {a.values < 0 ? -a.values : a.values};
+template <int n>
+GRAZE_INLINE Packs<n> absolute(Packs<n> a) {
+    return GRAZE_FOR_PARTS(Packs<n>, a.part[i] < 0 ? -a.part[i] : a.part[i]);
 }
-GRAZE_INLINE Ensemble lesser(Ensemble a, Ensemble b) {
-    return {b.values < a.values ? b.values : a.values};
+template <int n>
+GRAZE_INLINE Packs<n> lesser(Packs<n> a, Packs<n> b) {
+    return GRAZE_FOR_PARTS(Packs<n>, b.part[i] < a.part[i] ? b.part[i] : a.part[i]);
 }
 
 /// Sum of the series at a time of its own in each lane, by Horner's rule.
 template <class V>
 void sum(const double* series, int order, const double* times, double* values) {
     using L = Plain<V>;
-    constexpr int width = Numbers<V>::width;
-    for (int lane = 0; lane < width; lane += Numbers<L>::width) {
-        const L time = Numbers<L>::load(times + lane);
-        L value = Numbers<L>::load(series + order * width + lane);
-        for (int k = order; k-- > 0;)
-            value = multiply_add(value, time, Numbers<L>::load(series + k * width + lane));
-        Numbers<L>::store(values + lane, value);
-    }
+    const L time = Numbers<L>::load(times);
+    L value = at<L>(series, order);
+    for (int k = order; k-- > 0;)
+        value = multiply_add(value, time, at<L>(series, k));
+    Numbers<L>::store(values, value);
 }
 
 /// With S_m = c_0 + ... + c_m h^m and x = s / h, summation by parts gives
@@ -49,21 +54,18 @@ void bound(const double* series, int order, const double* lengths, double* least
     using L = Plain<V>;
     constexpr int width = Numbers<V>::width;
     const double share = -0x1p-53 * (2 * order + 10);
-    for (int lane = 0; lane < width; lane += Numbers<L>::width) {
-        const L length = Numbers<L>::load(lengths + lane);
-        const L first = Numbers<L>::load(series + lane);
-        L size = absolute(first), bound = first + size * share, partial = bound, power = length;
-        for (int k = 1; k <= order; ++k) {
-            const L term = Numbers<L>::load(series + k * width + lane) * power;
-            const L magnitude = absolute(term);
-            partial = partial + (term + magnitude * share);
-            size = size + magnitude;
-            bound = lesser(bound, partial);
-            power = power * length;
-        }
-        Numbers<L>::store(sizes + lane, size);
-        Numbers<L>::store(least + lane, bound);
+    const L length = Numbers<L>::load(lengths);
+    L size = absolute(at<L>(series, 0)), bound = at<L>(series, 0) + size * share, partial = bound, power = length;
+    for (int k = 1; k <= order; ++k) {
+        const L term = at<L>(series, k) * power;
+        const L magnitude = absolute(term);
+        partial = partial + (term + magnitude * share);
+        size = size + magnitude;
+        bound = lesser(bound, partial);
+        power = power * length;
     }
+    Numbers<L>::store(sizes, size);
+    Numbers<L>::store(least, bound);
     for (int lane = 0; lane < width; ++lane)
         if (!(sizes[lane] <= 0x1.fffffffffffffp1023))
             least[lane] = -__builtin_inf();
