@@ -70,10 +70,43 @@ bool RootFinder::surely_positive(std::span<const double> c, double length, RootS
     return enclosure(c, length, start).least > 0 && length > 0;
 }
 
+int RootFinder::trend(std::span<const double> c, double length) {
+    // As in `enclosure`, of the derivative; the factor k has a round-off of its own.
+    const double share = unit_roundoff * static_cast<double>(2 * c.size() + 9);
+    double low = 0, high = 0, power = 1, least = infinity, greatest = -infinity;
+    for (std::size_t k = 1; k < c.size(); ++k) {
+        const double term = static_cast<double>(k) * c[k] * power, uncertainty = share * std::abs(term);
+        low += term - uncertainty;
+        high += term + uncertainty;
+        least = std::min(least, low);
+        greatest = std::max(greatest, high);
+        power *= length;
+    }
+    if (!(high - low < infinity) || !(length > 0) || c.size() < 2)
+        return 0;
+    return least > 0 ? 1 : greatest < 0 ? -1 : 0;
+}
+
 bool RootFinder::first_falling(std::span<const double> c, double length, RootStart start, Root& root, double touch,
                                std::vector<Root>* touches) {
     if (!touches && surely_positive(c, length, start))
         return false;
+    switch (trend(c, length)) {
+    case 1:
+        if (start == RootStart::deflate || evaluate(c, 0).sign() > 0)
+            return false;
+        break;
+    case -1:
+        if (start == RootStart::as_is && evaluate(c, 0).sign() > 0 && evaluate(c, length).sign() < 0) {
+            const double end = evaluate_polynomial(c, length);
+            const double at = roots::refine(c, 0, length, 1, length * c[0] / (c[0] - end));
+            root = {RootKind::falling, at, evaluate_polynomial(c, at)};
+            return true;
+        }
+        break;
+    default:
+        break;
+    }
     Isolation isolation(*this, c, length, start);
     if (!isolation.usable())
         return false;

@@ -96,6 +96,8 @@ public:
 
 private:
     class Isolation;
+    /// 1 if one pass over the coefficients shows that c rises throughout [0, length], -1 if that it falls, else 0.
+    static int trend(std::span<const double> c, double length);
     /// A part [left, left + width] of the unit interval whose coefficients are uncertain by scale * bound.
     struct Node {
         double left, width, scale;
