@@ -188,7 +188,8 @@ void Lexer::refuse_character() const {
     if (rest.starts_with("&&"))
         source_.fail(offset_, "unexpected '&&'", "write 'and'");
     if (rest.starts_with("||"))
-        source_.fail(offset_, "'||' cannot join conditions", "list the mode once more in `next`, with the other condition");
+        source_.fail(offset_, "'||' cannot join conditions",
+                     "list the mode once more in `next`, with the other condition");
     if (rest.front() == '!')
         source_.fail(offset_, "'!' cannot stand in a condition", "turn the comparison round: 'a <= b' for 'not a > b'");
     if (rest.front() == '%')

@@ -115,7 +115,7 @@ TEST_F(ParserTest, RefusedNames) {
     expect_error_at("time*x", 0, "time ('time')", "phase");
     expect_error_at("ln(x)", 0, "'ln' is not a known function", "write log(x)");
     expect_error_at("pow(x, 2)", 0, "'pow' is not a known function", "write a^b");
-    expect_error_at("x or y", 2, "'or' cannot join", "transition");
+    expect_error_at("x or y", 2, "'or' cannot join", "the mode once more");
 }
 
 TEST_F(ParserTest, Parentheses) {
@@ -178,7 +178,7 @@ TEST_F(ParserTest, OtherSpellings) {
     expect_error_at("x != 2", 2, "'!=' cannot be tested", "inequality");
     expect_error_at("x % 2", 2, "'%' is not analytic", "cyclic");
     expect_error_at("x && y", 2, "unexpected '&&'", "write 'and'");
-    expect_error_at("x || y", 2, "'||' cannot join", "transition");
+    expect_error_at("x || y", 2, "'||' cannot join", "the mode once more");
     expect_error_at("!x", 0, "'!'", "turn the comparison round");
     expect_error_at("x # comment", 2, "unexpected character '#'", "");
     expect_error_at("x; y", 1, "unexpected character ';'", "");
@@ -236,7 +236,7 @@ TEST_F(ParserTest, MalformedConditions) {
     expect_condition_error("(x > 0) and y > 0", 3, "'>' stands inside parentheses", "");
     expect_condition_error("x == 0", 2, "'==' cannot be tested", "event");
     expect_condition_error("x != 0", 2, "'!=' cannot be tested", "event");
-    expect_condition_error("x > 0 or y > 0", 6, "'or' cannot join", "one transition for each");
+    expect_condition_error("x > 0 or y > 0", 6, "'or' cannot join", "the mode once more");
     expect_condition_error("not x > 0", 0, "'not' cannot stand", "turn the comparison round");
     expect_condition_error("x > 0 && y > 0", 6, "unexpected '&&'", "write 'and'");
     expect_condition_error("x > 0)", 5, "closes no parenthesis", "");
