@@ -179,8 +179,9 @@ mode = "right"
     std::size_t impact = 0;
     for (double rate = 0.4; rate > 1e-30; rate *= 0.85, ++impact) {
         time += std::atanh(rate / 0.6);
-        if (impact < 40)
+        if (impact < 40) {
             EXPECT_NEAR(times.at(impact), time, 1e-13 * time);
+        }
     }
     const std::vector<double> rests = times_of(experiment, ContactKind::sticking);
     ASSERT_EQ(rests.size(), 1U);
