@@ -8,9 +8,16 @@
 
 namespace graze {
 
+namespace {
+
+/// Above, coefficients close to a singularity would leave the range of doubles.
+constexpr int highest_order_chosen = 20;
+
+} // namespace
+
 int order_for_tolerance(double tolerance) {
     const double bounded = std::clamp(tolerance, smallest_tolerance, largest_tolerance);
-    return std::max(4, static_cast<int>(std::ceil(1 - std::log(bounded) / 2)));
+    return std::clamp(static_cast<int>(std::ceil(1 - 0.55 * std::log(bounded))), 4, highest_order_chosen);
 }
 
 StepSize::StepSize(int order, double tolerance)

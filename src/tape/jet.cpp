@@ -213,6 +213,13 @@ void TapeJet::set_states(std::span<const double> states) {
     if (states.size() != states_ * layout_.number)
         throw std::invalid_argument("wrong number of states for a jet");
     double* to = memory_.data() + layout_.registers;
+    if (layout_.number == 1) {
+        for (const double value : states) {
+            *to = value;
+            to += layout_.series;
+        }
+        return;
+    }
     for (const double* from = states.data(); from != states.data() + states.size(); from += layout_.number) {
         std::copy_n(from, layout_.number, to);
         to += layout_.series;

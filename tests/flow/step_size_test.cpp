@@ -36,8 +36,8 @@ Coefficients exponential(int order, double rate) {
 }
 
 TEST(StepSize, OrderGrowsWithTheDigitsAskedFor) {
-    EXPECT_EQ(order_for_tolerance(1e-8), 11);
-    EXPECT_EQ(order_for_tolerance(1e-12), 15);
+    EXPECT_EQ(order_for_tolerance(1e-8), 12);
+    EXPECT_EQ(order_for_tolerance(1e-12), 17);
     EXPECT_EQ(order_for_tolerance(1e-16), 20);
     EXPECT_EQ(order_for_tolerance(1e-300), order_for_tolerance(1e-16));
     EXPECT_GE(order_for_tolerance(1), 4);

@@ -12,7 +12,8 @@ inline constexpr double smallest_tolerance = 1e-16;
 inline constexpr double largest_tolerance = 1e-2;
 
 /// The order at which a step costs least per unit of time for a relative error of `tolerance`:
-/// 1 - ln(tolerance) / 2, rounded up (Jorba and Zou 2005, section 3.2).
+/// 1 - 0.55 ln(tolerance), rounded up, from 4 to 20. (1 - ln(tolerance) / 2 is best where the work of a step grows with
+/// the square of its order, Jorba and Zou 2005, section 3.2; here it grows a little less.)
 int order_for_tolerance(double tolerance);
 
 /// Chooses steps from the last two coefficients of each state (Jorba and Zou 2005), each state being measured
