@@ -25,8 +25,7 @@ void Trajectory::make_contact(std::size_t w, double s) {
     }
     if (tangents_) {
         row_.resize(tangents_->directions());
-        tangents_->evaluate(mode_, state_, s, {}, w, row_);
-        tangents_->advance(mode_, state_, s);
+        tangents_->advance(mode_, state_, s, w, row_);
         if (std::abs(rate) * previous_step_ <= roundoff * series_size(event_series(w), previous_step_))
             tangents_->invalidate();
         else

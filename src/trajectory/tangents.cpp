@@ -19,27 +19,33 @@ Tangents::Tangents(const Simulation& simulation, std::span<const double> paramet
         for (std::size_t j = 0; j < parameter_count_; ++j)
             parameter_seeds_[j * directions + d] = seed[states_ + j];
     }
+    if (directions_ <= lanes_) {
+        fill(parameter_lanes_, parameters_, parameter_seeds_, 0);
+        jets_.set_parameters(parameter_lanes_);
+    }
+}
+
+void Tangents::fill(std::span<double> lanes, std::span<const double> values, std::span<const double> tangents,
+                    std::size_t first) const {
+    const std::size_t width = lanes_ + 1, count = std::min(lanes_, directions_ - first);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        lanes[i * width] = values[i];
+        for (std::size_t l = 0; l < lanes_; ++l)
+            lanes[i * width + 1 + l] = l < count ? tangents[i * directions_ + first + l] : 0.0;
+    }
 }
 
 template <class Use>
 void Tangents::for_each_pass(std::size_t mode, std::span<const double> state, Use use) {
-    const std::size_t width = lanes_ + 1;
+    Jet& jet = jets_(mode);
     for (std::size_t first = 0; first < directions_; first += lanes_) {
-        const std::size_t count = std::min(lanes_, directions_ - first);
-        const auto fill = [&](std::span<double> lanes, std::span<const double> values,
-                              const std::vector<double>& tangents) {
-            for (std::size_t i = 0; i < values.size(); ++i) {
-                lanes[i * width] = values[i];
-                for (std::size_t l = 0; l < lanes_; ++l)
-                    lanes[i * width + 1 + l] = l < count ? tangents[i * directions_ + first + l] : 0.0;
-            }
-        };
-        fill(seeds_, state, matrix_);
-        fill(parameter_lanes_, parameters_, parameter_seeds_);
-        Jet& jet = jets_(mode);
-        jet.set_parameters(parameter_lanes_);
+        if (directions_ > lanes_) {
+            fill(parameter_lanes_, parameters_, parameter_seeds_, first);
+            jet.set_parameters(parameter_lanes_);
+        }
+        fill(seeds_, state, matrix_, first);
         jet.compute(seeds_);
-        use(jet, first, count);
+        use(jet, first, std::min(lanes_, directions_ - first));
     }
 }
 
@@ -69,8 +75,9 @@ void Tangents::coefficient(std::size_t mode, std::span<const double> state, std:
     });
 }
 
-void Tangents::advance(std::size_t mode, std::span<const double> state, double s) {
-    evaluate(mode, state, s, next_, 0, {});
+void Tangents::advance(std::size_t mode, std::span<const double> state, double s, std::size_t series,
+                       std::span<double> row) {
+    evaluate(mode, state, s, next_, series, row);
     matrix_.swap(next_);
 }
 

@@ -33,8 +33,9 @@ public:
     /// Derivatives of coefficient k of an output at the start of the arc.
     void coefficient(std::size_t mode, std::span<const double> state, std::size_t series, int k, std::span<double> row);
 
-    /// Moves along the arc.
-    void advance(std::size_t mode, std::span<const double> state, double s);
+    /// Moves along the arc. @param series, row as of `evaluate`
+    void advance(std::size_t mode, std::span<const double> state, double s, std::size_t series = 0,
+                 std::span<double> row = {});
     /// Passes a jump that comes `shift` (derivatives, directions) later than time says: at a contact, minus the
     /// derivatives of the event function over its rate.
     /// @param field_before, field_after rates of the states; @param jacobian of the jump, states x (states +
@@ -45,6 +46,9 @@ public:
     void add_product(std::span<const double> column, std::span<const double> row);
 
 private:
+    /// Values and the directions from `first` on, for a jet.
+    void fill(std::span<double> lanes, std::span<const double> values, std::span<const double> tangents,
+              std::size_t first) const;
     template <class Use>
     void for_each_pass(std::size_t mode, std::span<const double> state, Use use);
 
