@@ -26,10 +26,11 @@ foreach(folder IN LISTS GRAZE_FOLDERS ITEMS program)
     # What is tested is fast enough already; tests are compiled more often than they are run.
     target_compile_options(test_${folder} PRIVATE $<$<CONFIG:Release>:-O1>)
     gtest_discover_tests(
-        test_${folder} TEST_PREFIX ${folder}. TEST_FILTER "-*Slow.*" DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600
+        test_${folder} TEST_PREFIX ${folder}. TEST_FILTER "-*Slow.*" DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES
+        PROPERTIES TIMEOUT 600
     )
     gtest_discover_tests(
-        test_${folder} TEST_PREFIX ${folder}. TEST_FILTER "*Slow.*" DISCOVERY_TIMEOUT 60
+        test_${folder} TEST_PREFIX ${folder}. TEST_FILTER "*Slow.*" DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES
         PROPERTIES TIMEOUT 1200 LABELS slow
     )
 endforeach()
