@@ -58,7 +58,7 @@ GRAZE_INLINE double convolution_by_four(const double* a, const double* b) {
     };
     __m256d sums = _mm256_mul_pd(_mm256_loadu_pd(a + 1), term(0));
     [&]<int... j>(Indices<j...>) __attribute__((always_inline)) {
-        ((sums = _mm256_fmadd_pd(_mm256_loadu_pd(a + 5 + 4 * j), term(4 + 4 * j), sums)), ...);
+        ((sums = _mm256_fmadd_pd(_mm256_loadu_pd(a + 5 + std::ptrdiff_t{4} * j), term(4 + 4 * j), sums)), ...);
     }
     (std::make_integer_sequence<int, terms / 4 - 1>{});
     __m128d low = _mm256_castpd256_pd128(sums);

@@ -161,13 +161,13 @@ struct Numbers<double> {
 template <class V>
 GRAZE_INLINE V load_parts(const double* from) {
     V number;
-    for (int i = 0; i < V::parts; ++i)
+    for (std::ptrdiff_t i = 0; i < V::parts; ++i)
         __builtin_memcpy(&number.part[i], from + i * lanes, sizeof(Pack));
     return number;
 }
 template <class V>
 GRAZE_INLINE void store_parts(double* to, V number) {
-    for (int i = 0; i < V::parts; ++i)
+    for (std::ptrdiff_t i = 0; i < V::parts; ++i)
         __builtin_memcpy(to + i * lanes, &number.part[i], sizeof(Pack));
 }
 

@@ -39,7 +39,7 @@ LinearForm SeriesBuilder::apply(Operation operation, LinearForm left, LinearForm
     case Operation::multiply:
         return multiply(std::move(left), std::move(right));
     case Operation::divide:
-        return divide(std::move(left), std::move(right));
+        return divide(std::move(left), right);
     case Operation::power:
         return power(std::move(left), std::move(right));
     default:
@@ -102,7 +102,7 @@ LinearForm SeriesBuilder::multiply(LinearForm left, LinearForm right) {
     return scaled({constants_.apply(Operation::multiply, a.coefficient, b.coefficient), multiply(a.reg, b.reg)});
 }
 
-LinearForm SeriesBuilder::divide(LinearForm left, LinearForm right) {
+LinearForm SeriesBuilder::divide(LinearForm left, const LinearForm& right) {
     if (right.is_constant())
         return scale(std::move(left), constants_.apply(Operation::divide, one_, right.constant));
     const Scaled b = split(right);

@@ -43,7 +43,7 @@ std::vector<Expression> all_observed(const std::vector<Probe>& probes, const std
 
 } // namespace
 
-Simulation::Simulation(const Model& model, std::vector<Probe> probes, std::vector<Expression> observed,
+Simulation::Simulation(const Model& model, std::vector<Probe> probes, const std::vector<Expression>& observed,
                        SimulationOptions options)
     : options_(validated(options)), probes_(std::move(probes)),
       order_(options.order != 0 ? options.order : order_for_tolerance(options.tolerance)),

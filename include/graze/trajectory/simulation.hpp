@@ -26,7 +26,7 @@ struct SimulationOptions {
 class Simulation {
 public:
     /// @param observed further expressions whose series observers want to see
-    Simulation(const Model& model, std::vector<Probe> probes = {}, std::vector<Expression> observed = {},
+    Simulation(const Model& model, std::vector<Probe> probes = {}, const std::vector<Expression>& observed = {},
                SimulationOptions options = {});
 
     const Model& model() const { return compiled_.model(); }
