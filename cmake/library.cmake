@@ -1,6 +1,10 @@
 # One folder per word of the architecture; each may use only those before it. Each is compiled once, as objects of which
 # the library consists and on which its tests are linked together with the folders before it.
-set(GRAZE_FOLDERS symbolic model tape flow trajectory)
+set(GRAZE_FOLDERS symbolic model tape flow trajectory sweep results study)
+
+# What a folder needs besides.
+set(GRAZE_NEEDS_sweep Threads::Threads)
+set(GRAZE_NEEDS_results SQLite::SQLite3 hdf5::hdf5)
 
 add_library(graze)
 add_library(graze::graze ALIAS graze)
@@ -12,6 +16,7 @@ foreach(folder IN LISTS GRAZE_FOLDERS)
         set_target_properties(graze_${folder} PROPERTIES POSITION_INDEPENDENT_CODE ON)
         target_include_directories(graze_${folder} PUBLIC include PRIVATE src)
         target_link_libraries(graze_${folder} PUBLIC fmt::fmt PRIVATE graze_options graze_headers)
+        target_link_libraries(graze_${folder} PUBLIC ${GRAZE_NEEDS_${folder}})
         target_sources(graze PRIVATE $<TARGET_OBJECTS:graze_${folder}>)
         list(APPEND earlier ${folder})
     endif()
@@ -24,7 +29,9 @@ target_compile_features(graze PUBLIC cxx_std_20)
 target_include_directories(
     graze PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
 )
-target_link_libraries(graze PRIVATE $<BUILD_INTERFACE:graze_options> fmt::fmt)
+target_link_libraries(
+    graze PRIVATE $<BUILD_INTERFACE:graze_options> fmt::fmt Threads::Threads SQLite::SQLite3 $<BUILD_INTERFACE:hdf5::hdf5>
+)
 set_target_properties(
     graze PROPERTIES LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION} SOVERSION
                      ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}

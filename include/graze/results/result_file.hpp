@@ -1,0 +1,114 @@
+#pragma once
+
+#include "graze/sweep/attractor.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace graze {
+
+/// A named column of numbers.
+struct ResultColumn {
+    std::string name, unit;
+};
+
+enum class RunStatus { unfinished, complete };
+
+/// What is known of a run besides its points.
+struct RunRecord {
+    std::string name; ///< letters, digits, '.', '_' and '-'
+    std::string kind; ///< simulate, sweep, basin
+    std::string model_name;
+    std::string model;                     ///< text of the model file, whole, as run
+    std::string settings;                  ///< JSON object
+    std::string fingerprint;               ///< changes when anything does that the numbers depend on
+    std::string version;                   ///< of graze
+    std::vector<ResultColumn> coordinates; ///< what varies from point to point: parameters, initial states
+    std::vector<ResultColumn> states;
+    std::vector<ResultColumn> values; ///< of samples
+    std::vector<std::string> samplings, modes, directions;
+    std::size_t points = 0; ///< planned
+    RunStatus status = RunStatus::unfinished;
+};
+
+/// One point with what was found there.
+struct PointRecord {
+    std::size_t number = 0, chain = 0, direction = 0; ///< direction: index in RunRecord::directions
+    std::vector<double> coordinates;
+    PointResult result;
+};
+
+/// The results of a study in one SQLite file (docs/result-file.md). One process writes, any number read meanwhile.
+/// Points are written in transactions: after a kill, those of the last moments are missing, and no point is there in
+/// part.
+class ResultFile {
+public:
+    enum class Access { read, write };
+    /// Opens the file; to write, makes it if there is none.
+    /// @throws InputError when it is no such file, comes from an unknown version, cannot be opened, or another process
+    ///         writes to it
+    ResultFile(const std::string& path, Access access);
+    ~ResultFile();
+    ResultFile(const ResultFile&) = delete;
+    ResultFile& operator=(const ResultFile&) = delete;
+
+    /// All runs, in the order in which they were begun.
+    std::vector<RunRecord> runs() const;
+    std::optional<RunRecord> find_run(const std::string& name) const;
+    /// Begins a run: replaces the one of that name. @throws InputError when it cannot be written
+    void begin_run(const RunRecord& run);
+    /// Removes a run with all that belongs to it.
+    void remove_run(const std::string& name);
+    /// Adds a point to a run. Written for good within a second, or by `flush`.
+    void add_point(const std::string& run, const PointRecord& point);
+    void flush();
+    /// Marks a run as complete.
+    void complete_run(const std::string& run);
+
+    /// How many points of a run are there.
+    std::size_t point_count(const std::string& run) const;
+    /// The last point of each chain (by number / chain_length), without samples; those without any are left out.
+    std::vector<PointRecord> last_points(const std::string& run, std::size_t chain_length) const;
+    /// One point with its samples.
+    std::optional<PointRecord> point(const std::string& run, std::size_t number) const;
+    /// The point of a run whose coordinate is nearest to a value, among those of one direction (or all).
+    std::optional<PointRecord> nearest_point(const std::string& run, const std::string& coordinate, double value,
+                                             std::optional<std::size_t> direction) const;
+
+    /// Rows of a query, for pictures, exports and tables: numbers, texts, or nothing.
+    class Rows {
+    public:
+        bool next();
+        std::size_t columns() const;
+        std::string column_name(std::size_t column) const;
+        bool is_null(std::size_t column) const;
+        bool is_text(std::size_t column) const;
+        bool is_integer(std::size_t column) const;
+        double number(std::size_t column) const;
+        std::int64_t integer(std::size_t column) const;
+        std::string text(std::size_t column) const;
+        ~Rows();
+        Rows(Rows&&) noexcept;
+
+    private:
+        friend class ResultFile;
+        struct State;
+        explicit Rows(std::unique_ptr<State> state);
+        std::unique_ptr<State> state_;
+    };
+    /// @param sql one SELECT; @param values bound to its parameters ?1, ?2, ...
+    /// @throws InputError when it is no such thing
+    Rows query(const std::string& sql, const std::vector<double>& values = {}) const;
+
+    const std::string& path() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace graze

@@ -1,0 +1,83 @@
+#pragma once
+
+#include "graze/sweep/sampling.hpp"
+#include "graze/trajectory/outcome.hpp"
+
+#include <complex>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace graze {
+
+/// What a motion settles on.
+enum class Label {
+    periodic,       ///< a stable periodic orbit, confirmed by Newton's method
+    quasi_periodic, ///< averages converge fast, the largest Lyapunov exponent is zero
+    chaotic,        ///< the largest Lyapunov exponent is positive
+    unsettled,      ///< none of these could be shown within the cycles allowed
+    escaped,        ///< a state left the bounds that were given
+    singular,       ///< the solution ceases to exist, as by snap-through
+    chattering,     ///< contacts accumulate and the model does not say what then
+    ended,          ///< the model ends the motion; or the time or count asked for is reached (plain simulation)
+    failed,         ///< Outcome says why
+};
+/// Stable name for tables and files, such as "quasi-periodic".
+std::string_view name_of(Label label);
+
+/// How attractors are looked for. Returns are passages of `section`.
+struct AttractorOptions {
+    std::string section;            ///< of the model
+    std::size_t cycles = 150;       ///< returns after which the search gives up
+    std::size_t keep = 100;         ///< last returns that are sampled when the motion is not periodic
+    std::size_t largest_period = 6; ///< in returns
+    /// Returns that come this close (relative to the spread of the states) are tried by Newton's method.
+    double recurrence = 1e-3;
+    /// Displacement, relative to the spread of the states, of a motion that sits on an unstable orbit.
+    double disturbance = 1e-6;
+    std::size_t lyapunov_cycles = 200; ///< returns over which the exponent is averaged; 0: no exponents
+    double longest_return =
+        0; ///< time without a return after which a point is given up as unsettled; 0: 1e6 time units
+    /// Bounds of states: (state, (least, greatest)); leaving them is an escape.
+    std::vector<std::pair<std::size_t, std::pair<double, double>>> bounds;
+    /// @throws InputError naming the option that is out of range
+    void validate(const Model& model) const;
+};
+
+/// How a plain simulation ends: whichever comes first; 0 means never.
+struct TransientOptions {
+    std::string section;            ///< whose passages are periods; may be empty
+    double skip_time = 0, time = 0; ///< time of which nothing is sampled; then time that is
+    std::size_t skip_periods = 0, periods = 0;
+    std::size_t contacts = 0; ///< contacts at the events `counted`
+    std::vector<std::size_t> counted;
+    std::vector<std::pair<std::size_t, std::pair<double, double>>> bounds;
+    double greatest_speed = 0; ///< of approach at a counted contact, after which the simulation ends; 0: any
+    /// @throws InputError naming the option that is out of range, or that the simulation need not end
+    void validate(const Model& model) const;
+};
+
+/// What was found at one point of a sweep or basin.
+struct PointResult {
+    Label label = Label::unsettled;
+    std::size_t period = 0; ///< of a periodic orbit, in returns
+    double duration = 0;    ///< and in time
+    /// Labels of the transitions in one period or, when not periodic, empty; repeats as in "impact^2 release".
+    std::string signature;
+    std::optional<bool> symmetric; ///< whether a periodic orbit is its own image under the model's (first) symmetry
+    std::vector<std::complex<double>> multipliers; ///< of the return map, largest first
+    double residual = 0; ///< by which the orbit fails to close, relative to the spread of the states
+    std::optional<double> lyapunov, lyapunov_error; ///< largest exponent, per unit of time, and its standard error
+    std::size_t cycles = 0;                         ///< returns simulated until the result was known
+    std::size_t periods_run = 0;                    ///< all returns simulated, for Newton's method and exponents too
+    double time = 0;                                ///< of the motion, in all
+    std::vector<double> state; ///< at its end; on the section for attractors. The next point may go on from here
+    std::size_t mode = 0;
+    Outcome outcome;   ///< of the trajectory
+    SampleSet samples; ///< over one period, the last `keep` returns, or the time asked for
+};
+
+} // namespace graze

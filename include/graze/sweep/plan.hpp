@@ -1,0 +1,62 @@
+#pragma once
+
+#include "graze/sweep/point_search.hpp"
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace graze {
+
+/// Where a point begins.
+struct PointStart {
+    std::vector<double> parameters; ///< of the model, in its order
+    std::vector<double> state;      ///< not used when it is carried over from the point before
+    std::size_t mode = 0;
+};
+
+/// The points of a sweep, basin or ensemble: chains of equal length, within which states may be carried along.
+/// Points are numbered chain after chain, and are made when they are needed.
+struct Plan {
+    std::size_t chains = 1;
+    std::size_t chain_length = 1;
+    bool carry = false; ///< each point of a chain begins where the one before ended, if that was regular
+    /// @param point number; must give the same whenever asked, from any thread
+    std::function<PointStart(std::size_t point)> start;
+
+    std::size_t points() const { return chains * chain_length; }
+};
+
+/// What has been done of one chain in an earlier, interrupted execution.
+struct ChainProgress {
+    std::size_t done = 0;      ///< points
+    bool regular = false;      ///< whether the last can be carried on from
+    std::vector<double> state; ///< at its end
+    std::size_t mode = 0;
+};
+
+struct ExecutionOptions {
+    int jobs = 1; ///< threads
+    InstructionSet instruction_set = best_instruction_set();
+    const std::atomic<bool>* stop = nullptr; ///< looked at between points and legs of points
+    /// Also asked; called from any thread.
+    std::function<bool()> interrupted;
+};
+
+/// Whether the next point of a chain can begin where this one ended.
+bool can_be_carried_on(const PointResult& result);
+
+/// Runs the points of a plan on several threads, and in SIMD lanes within each. Results do not depend on either.
+/// @param progress for each chain what is done already; empty: nothing
+/// @param sink receives results, in order within each chain; called from one thread at a time, with the numbers of
+///        the point and the start it had
+/// @return false when it was stopped
+/// @throws what `sink` throws, after all threads have ended
+bool execute(const Plan& plan, const SearchFactory& searches, std::span<const ChainProgress> progress,
+             const ExecutionOptions& options,
+             const std::function<void(std::size_t point, const PointStart& start, PointResult& result)>& sink);
+
+} // namespace graze
