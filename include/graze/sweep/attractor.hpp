@@ -38,7 +38,7 @@ struct AttractorOptions {
     double recurrence = 1e-3;
     /// Displacement, relative to the spread of the states, of a motion that sits on an unstable orbit.
     double disturbance = 1e-6;
-    std::size_t lyapunov_cycles = 200; ///< returns over which the exponent is averaged; 0: no exponents
+    std::size_t lyapunov_cycles = 60; ///< the last of `cycles`, over which the exponent is averaged; 0: none
     double longest_return =
         0; ///< time without a return after which a point is given up as unsettled; 0: 1e6 time units
     /// Bounds of states: (state, (least, greatest)); leaving them is an escape.

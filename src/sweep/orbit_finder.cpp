@@ -1,0 +1,184 @@
+#include "sweep/orbit_finder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t most_iterations = 10;
+/// Relative to the extent of the states. Newton's method doubles the digits of the last correction.
+constexpr double small_correction = 1e-9;
+constexpr double large_correction = 0.5;
+/// How well a recorded orbit must close, and how different its returns are to be if they are different.
+constexpr double closed = 1e-8;
+constexpr double same = 1e-7;
+/// Share of the time of a return before which none can come.
+constexpr double soonest = 1e-3;
+
+} // namespace
+
+OrbitFinder::OrbitFinder(const SectionMap& map, const SampleRecorder::Layout& layout, const Function& image,
+                         const std::vector<std::size_t>& image_modes)
+    : map_(&map), image_(&image), image_modes_(&image_modes), watcher_(map, 2, {}), recorder_(layout, 0) {}
+
+void OrbitFinder::begin(std::span<const double> parameters, std::span<const double> periods,
+                        std::span<const double> point, std::size_t mode, std::size_t period,
+                        std::span<const double> scale, double duration) {
+    parameters_.assign(parameters.begin(), parameters.end());
+    periods_.assign(periods.begin(), periods.end());
+    point_.assign(point.begin(), point.end());
+    scale_ = Eigen::Map<const Eigen::VectorXd>(scale.data(), static_cast<Eigen::Index>(scale.size()));
+    mode_ = mode;
+    period_ = period;
+    duration_ = duration;
+    iterations_ = 0;
+    returns_ = 0;
+    symmetric_.reset();
+    workspace_ = map_->workspace(parameters);
+    trajectory_.emplace(map_->simulation(), parameters, watcher_);
+    const std::size_t states = map_->states(), stride = states + parameters.size();
+    seeds_.assign(states * stride, 0);
+    for (std::size_t i = 0; i < states; ++i)
+        seeds_[i * stride + i] = 1;
+    // Remembers as many returns as there are in the orbit.
+    watcher_ = ReturnWatcher(*map_, std::max<std::size_t>(period, 2), {});
+    guard_ = 3 * duration;
+    start_iteration();
+}
+
+void OrbitFinder::start_iteration() {
+    stage_ = Stage::iterating;
+    map_->settle_on_section(workspace_, point_);
+    watcher_.begin(parameters_, periods_, nullptr);
+    watcher_.stop_after(period_);
+    watcher_.start_leg(0, soonest * duration_ / static_cast<double>(period_));
+    trajectory_->start(point_, mode_, 0, guard_);
+    trajectory_->carry_tangents(seeds_, map_->states());
+}
+
+bool OrbitFinder::fail() {
+    stage_ = Stage::failed;
+    return false;
+}
+
+bool OrbitFinder::arrived() const {
+    return trajectory_->outcome().ending == Ending::stopped && watcher_.returns() >= period_ &&
+           trajectory_->mode() == mode_;
+}
+
+bool OrbitFinder::is_active(std::size_t state) const {
+    return std::find(jacobian_.active.begin(), jacobian_.active.end(), state) != jacobian_.active.end();
+}
+
+bool OrbitFinder::proceed() {
+    if (stage_ == Stage::iterating) {
+        returns_ += watcher_.returns();
+        return arrived() ? iterate() : fail();
+    }
+    if (stage_ == Stage::recording) {
+        returns_ += watcher_.returns();
+        return arrived() ? record() : fail();
+    }
+    return compare();
+}
+
+bool OrbitFinder::iterate() {
+    if (!trajectory_->tangents_valid())
+        return fail();
+    const auto states = static_cast<Eigen::Index>(map_->states());
+    Eigen::MatrixXd tangents = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+        trajectory_->tangents().data(), states, states);
+    const std::span<const double> image = watcher_.recent(0).state;
+    if (!map_->project(workspace_, mode_, image, tangents))
+        return fail();
+    jacobian_ = return_jacobian(*map_, tangents);
+    Eigen::VectorXd defect(states);
+    subtract_states(image, point_, periods_, {defect.data(), map_->states()});
+    const Eigen::VectorXd correction = newton_correction(jacobian_, defect, scale_);
+    const double size = correction.cwiseQuotient(scale_).cwiseAbs().maxCoeff();
+    if (!std::isfinite(size) || size > large_correction || ++iterations_ > most_iterations)
+        return fail();
+    for (std::size_t i = 0; i < point_.size(); ++i)
+        point_[i] += correction[static_cast<Eigen::Index>(i)];
+    if (size > small_correction) {
+        start_iteration();
+        return true;
+    }
+    multipliers_ = return_multipliers(*map_, jacobian_, scale_, direction_);
+    stage_ = Stage::recording;
+    map_->settle_on_section(workspace_, point_);
+    recorder_.begin(parameters_);
+    recorder_.set_origin(0);
+    watcher_.begin(parameters_, periods_, &recorder_);
+    watcher_.stop_after(period_);
+    watcher_.start_leg(0, soonest * duration_ / static_cast<double>(period_));
+    trajectory_->start(point_, mode_, 0, guard_);
+    return true;
+}
+
+bool OrbitFinder::record() {
+    const auto distance = [&](std::span<const double> a, std::span<const double> b) {
+        Eigen::VectorXd difference(scale_.size());
+        subtract_states(a, b, periods_, {difference.data(), map_->states()});
+        double largest = 0;
+        for (const std::size_t i : jacobian_.active) {
+            const auto state = static_cast<Eigen::Index>(i);
+            largest = std::max(largest, std::abs(difference[state]) / scale_[state]);
+        }
+        return largest;
+    };
+    residual_ = distance(watcher_.recent(0).state, point_);
+    if (!(residual_ < closed))
+        return fail();
+    duration_ = watcher_.recent(0).time;
+    contacts_ = watcher_.contacts(period_);
+    recorded_.clear();
+    for (std::size_t k = period_; k-- > 0;)
+        recorded_.push_back(watcher_.recent(k).state);
+    // The orbit may close after fewer returns.
+    for (std::size_t d = 1; d < period_; ++d)
+        if (period_ % d == 0 && watcher_.recent(period_ - d).mode == mode_ &&
+            distance(recorded_[d - 1], point_) < same) {
+            duration_ *= static_cast<double>(d) / static_cast<double>(period_);
+            period_ = d;
+            iterations_ = 0;
+            start_iteration();
+            return true;
+        }
+    if (image_->outputs() == 0) {
+        stage_ = Stage::found;
+        return false;
+    }
+    std::vector<double> image(map_->states());
+    std::vector<double> inputs(point_), work(image_->workspace());
+    inputs.insert(inputs.end(), parameters_.begin(), parameters_.end());
+    image_->evaluate(inputs, image, work);
+    stage_ = Stage::comparing;
+    watcher_.begin(parameters_, periods_, nullptr);
+    watcher_.stop_after(1);
+    watcher_.start_leg(0, soonest * duration_ / static_cast<double>(period_));
+    trajectory_->start(image, (*image_modes_)[mode_], 0, guard_);
+    return true;
+}
+
+bool OrbitFinder::compare() {
+    stage_ = Stage::found;
+    symmetric_ = false;
+    if (trajectory_->outcome().ending != Ending::stopped || watcher_.returns() < 1)
+        return false;
+    ++returns_;
+    std::vector<double> difference(map_->states());
+    for (const std::vector<double>& state : recorded_) {
+        subtract_states(watcher_.recent(0).state, state, periods_, difference);
+        bool equal = true;
+        for (const std::size_t i : jacobian_.active)
+            equal = equal && std::abs(difference[i]) < 10 * same * scale_[static_cast<Eigen::Index>(i)];
+        if (equal)
+            symmetric_ = true;
+    }
+    return false;
+}
+
+} // namespace graze

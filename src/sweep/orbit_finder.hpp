@@ -1,0 +1,78 @@
+#pragma once
+
+#include "graze/sweep/attractor.hpp"
+#include "sweep/return_watcher.hpp"
+#include "sweep/sample_recorder.hpp"
+#include "sweep/section_map.hpp"
+
+#include <Eigen/Core>
+
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace graze {
+
+/// A periodic orbit near a state, by Newton's method on the return map: a state machine that asks for its trajectory to
+/// be run. When it has converged the orbit is run once more: it is sampled, its least period found, and whether it is
+/// its own image under the symmetry.
+class OrbitFinder {
+public:
+    OrbitFinder(const SectionMap& map, const SampleRecorder::Layout& layout, const Function& image,
+                const std::vector<std::size_t>& image_modes);
+
+    /// @param point where all begins; @param period in returns; @param scale of each state; @param duration about that
+    ///        of the period
+    void begin(std::span<const double> parameters, std::span<const double> periods, std::span<const double> point,
+               std::size_t mode, std::size_t period, std::span<const double> scale, double duration);
+    Trajectory& trajectory() { return *trajectory_; }
+    /// To be called when the trajectory has finished. @return false when done, one way or the other
+    bool proceed();
+
+    bool found() const { return stage_ == Stage::found; }
+    std::span<const double> point() const { return point_; }
+    std::size_t mode() const { return mode_; }
+    std::size_t period() const { return period_; }
+    double duration() const { return duration_; }
+    double residual() const { return residual_; }
+    const Eigen::MatrixXd& jacobian() const { return jacobian_.matrix; }
+    bool is_active(std::size_t state) const;
+    const std::vector<std::complex<double>>& multipliers() const { return multipliers_; }
+    const Eigen::VectorXd& leading_direction() const { return direction_; }
+    const std::vector<std::uint32_t>& contacts() const { return contacts_; }
+    std::optional<bool> symmetric() const { return symmetric_; }
+    SampleSet& samples() { return recorder_.samples(); }
+    std::size_t returns() const { return returns_; } ///< run since `begin`
+
+private:
+    enum class Stage { iterating, recording, comparing, found, failed };
+    void start_iteration();
+    bool iterate();
+    bool record();
+    bool compare();
+    bool fail();
+    bool arrived() const;
+
+    const SectionMap* map_;
+    const Function* image_;
+    const std::vector<std::size_t>* image_modes_;
+    ReturnWatcher watcher_;
+    SampleRecorder recorder_;
+    SectionMap::Workspace workspace_;
+    std::optional<Trajectory> trajectory_;
+    std::vector<double> parameters_, periods_, point_, seeds_;
+    Eigen::VectorXd scale_, direction_;
+    ReturnJacobian jacobian_;
+    std::vector<std::complex<double>> multipliers_;
+    std::vector<std::uint32_t> contacts_;
+    std::vector<std::vector<double>> recorded_; ///< states at the returns of the orbit
+    std::optional<bool> symmetric_;
+    std::size_t mode_ = 0, period_ = 0, iterations_ = 0, returns_ = 0;
+    double duration_ = 0, residual_ = 0, guard_ = 0;
+    Stage stage_ = Stage::failed;
+};
+
+} // namespace graze

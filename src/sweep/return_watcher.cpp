@@ -1,0 +1,175 @@
+#include "sweep/return_watcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Share of the time since the last return within which two things count as simultaneous.
+constexpr double simultaneous = 1e-10;
+/// Extents smaller than this share of the largest that a state ever had are noise.
+constexpr double least_extent = 1e-6;
+constexpr std::size_t most_steps = 100'000; ///< without a return
+
+} // namespace
+
+ReturnWatcher::ReturnWatcher(const SectionMap& map, std::size_t kept,
+                             std::vector<std::pair<std::size_t, std::pair<double, double>>> bounds)
+    : map_(&map), bounds_(std::move(bounds)), scale_(map.states(), 1), difference_(map.states()), least_(map.states()),
+      greatest_(map.states()), widest_(map.states()), ring_(kept) {}
+
+void ReturnWatcher::begin(std::span<const double> parameters, std::span<const double> periods,
+                          SampleRecorder* recorder) {
+    workspace_ = map_->workspace(parameters);
+    periods_.assign(periods.begin(), periods.end());
+    recorder_ = recorder;
+    next_ = returns_ = 0;
+    escaped_ = stuck_ = false;
+    std::fill(widest_.begin(), widest_.end(), 0.0);
+    std::fill(scale_.begin(), scale_.end(), 1.0);
+    thresholds_ = nullptr;
+}
+
+void ReturnWatcher::start_leg(double time, double shortest) {
+    leg_start_ = time;
+    shortest_ = shortest;
+    pending_ = stop_ = false;
+    recurrent_ = steps_ = 0;
+    current_.contacts.clear();
+    std::fill(least_.begin(), least_.end(), infinity);
+    std::fill(greatest_.begin(), greatest_.end(), -infinity);
+}
+
+void ReturnWatcher::check_bounds(std::span<const double> state) {
+    for (const auto& [index, range] : bounds_)
+        escaped_ = escaped_ || !(state[index] >= range.first && state[index] <= range.second);
+    stop_ = stop_ || escaped_;
+}
+
+void ReturnWatcher::step(const Step& step) {
+    for (std::size_t i = 0; i < least_.size(); ++i) {
+        const double value = step.states[i][0];
+        least_[i] = std::min(least_[i], value);
+        greatest_[i] = std::max(greatest_[i], value);
+    }
+    for (const auto& [index, range] : bounds_) {
+        const double value = step.state(index, step.length);
+        escaped_ = escaped_ || !(value >= range.first && value <= range.second);
+    }
+    stuck_ = ++steps_ > most_steps;
+    stop_ = stop_ || escaped_ || stuck_;
+}
+
+void ReturnWatcher::contact(const Contact& contact) {
+    if (recorder_)
+        recorder_->contact(contact);
+    if (contact.kind == ContactKind::touch)
+        return;
+    current_.contacts.push_back(
+        static_cast<std::uint32_t>(2 * contact.transition + (contact.kind == ContactKind::sticking ? 1 : 0)));
+    // Where the section is the surface of an event, a return is over when its jump is made.
+    if (pending_) {
+        pending_ = false;
+        arrive(pending_time_, contact.mode_after, contact.after);
+    }
+}
+
+void ReturnWatcher::passage(const Passage& passage) {
+    if (recorder_ && passage.probe != map_->probe())
+        recorder_->passage(passage);
+    if (passage.probe != map_->probe() || passage.time - leg_start_ <= shortest_)
+        return;
+    const double since = passage.time - (returns_ > 0 ? std::max(recent(0).time, leg_start_) : leg_start_);
+    if (map_->is_on_event(workspace_, passage.mode, passage.state, simultaneous * since)) {
+        pending_ = true;
+        pending_time_ = passage.time;
+        return;
+    }
+    arrive(passage.time, passage.mode, passage.state);
+}
+
+void ReturnWatcher::arrive(double time, std::size_t mode, std::span<const double> state) {
+    Return& place = ring_[next_];
+    place.time = time;
+    place.mode = mode;
+    place.state.assign(state.begin(), state.end());
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        least_[i] = std::min(least_[i], state[i]);
+        greatest_[i] = std::max(greatest_[i], state[i]);
+        widest_[i] = std::max(widest_[i], greatest_[i] - least_[i]);
+    }
+    place.least = least_;
+    place.greatest = greatest_;
+    place.contacts.swap(current_.contacts);
+    current_.contacts.clear();
+    std::fill(least_.begin(), least_.end(), infinity);
+    std::fill(greatest_.begin(), greatest_.end(), -infinity);
+    next_ = (next_ + 1) % ring_.size();
+    ++returns_;
+    steps_ = 0;
+    if (recorder_)
+        recorder_->mark();
+    check_bounds(state);
+    if (thresholds_ && !stop_) {
+        recurrent_ = find_recurrence();
+        stop_ = recurrent_ != 0;
+    }
+    stop_ = stop_ || (stop_after_ > 0 && returns_ >= stop_after_);
+}
+
+void ReturnWatcher::update_scale() {
+    const std::size_t known = std::min(remembered(), std::max<std::size_t>(largest_, 1));
+    for (std::size_t i = 0; i < scale_.size(); ++i) {
+        if (periods_[i] > 0) {
+            scale_[i] = periods_[i];
+            continue;
+        }
+        double low = infinity, high = -infinity;
+        for (std::size_t k = 0; k < known; ++k) {
+            low = std::min(low, recent(k).least[i]);
+            high = std::max(high, recent(k).greatest[i]);
+        }
+        const double extent = std::max(high - low, least_extent * widest_[i]);
+        // What does not move at all is measured by its size.
+        const double size = std::max(std::abs(high), std::abs(low));
+        scale_[i] = extent > 1e-12 * size ? extent : size > 0 ? size : 1;
+    }
+}
+
+double ReturnWatcher::distance(std::span<const double> a, std::span<const double> b) {
+    subtract_states(a, b, periods_, difference_);
+    double largest = 0;
+    for (std::size_t i = 0; i < difference_.size(); ++i)
+        if (map_->takes_part(i))
+            largest = std::max(largest, std::abs(difference_[i]) / scale_[i]);
+    return largest;
+}
+
+std::size_t ReturnWatcher::find_recurrence() {
+    if (remembered() < 2)
+        return 0;
+    update_scale();
+    for (std::size_t n = 1; n <= largest_ && n < remembered(); ++n)
+        if (recent(n).mode == recent(0).mode && distance(recent(0).state, recent(n).state) <= (*thresholds_)[n])
+            return n;
+    return 0;
+}
+
+std::vector<std::uint32_t> ReturnWatcher::contacts(std::size_t count) const {
+    std::vector<std::uint32_t> all;
+    for (std::size_t k = count; k-- > 0;)
+        all.insert(all.end(), recent(k).contacts.begin(), recent(k).contacts.end());
+    return all;
+}
+
+bool ReturnWatcher::stop() {
+    const bool result = stop_;
+    stop_ = false;
+    return result;
+}
+
+} // namespace graze

@@ -1,0 +1,82 @@
+#pragma once
+
+#include "graze/sweep/attractor.hpp"
+#include "graze/trajectory/observer.hpp"
+#include "sweep/sample_recorder.hpp"
+#include "sweep/section_map.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace graze {
+
+/// A passage of the section, with what happened since the one before.
+struct Return {
+    double time = 0;
+    std::size_t mode = 0;
+    std::vector<double> state, least, greatest; ///< extent of the states since the return before
+    std::vector<std::uint32_t> contacts;        ///< 2 * transition, plus 1 where contacts accumulated
+};
+
+/// Follows a trajectory from return to return, and stops it where it is told to.
+class ReturnWatcher : public Observer {
+public:
+    /// @param kept how many of the last returns are remembered; @param bounds of states, may be empty
+    ReturnWatcher(const SectionMap& map, std::size_t kept,
+                  std::vector<std::pair<std::size_t, std::pair<double, double>>> bounds);
+
+    /// @param recorder also sees what happens; may be null
+    void begin(std::span<const double> parameters, std::span<const double> periods, SampleRecorder* recorder);
+    /// A trajectory starts at this time: returns that come sooner than `shortest` are the start itself.
+    void start_leg(double time, double shortest);
+    void stop_after(std::size_t returns) { stop_after_ = returns; }
+    /// Whether to stop at returns that come this close to one of the last `largest` (in the measure of `scale`).
+    void watch_recurrence(std::vector<double>* thresholds, std::size_t largest) {
+        thresholds_ = thresholds;
+        largest_ = largest;
+    }
+
+    std::size_t returns() const { return returns_; }
+    bool escaped() const { return escaped_; }
+    /// Whether it stopped because no return would come.
+    bool stuck() const { return stuck_; }
+    /// Period at whose return it stopped; 0: none.
+    std::size_t recurrent() const { return recurrent_; }
+    /// The return `before` returns before the last.
+    const Return& recent(std::size_t before) const { return ring_[(next_ + ring_.size() - 1 - before) % ring_.size()]; }
+    std::size_t remembered() const { return std::min(returns_, ring_.size()); }
+    /// Extent of each state over the last returns; never zero.
+    std::span<const double> scale() const { return scale_; }
+    /// Distance of two states in that measure.
+    double distance(std::span<const double> a, std::span<const double> b);
+    /// All contacts of the last `count` returns.
+    std::vector<std::uint32_t> contacts(std::size_t count) const;
+
+    void step(const Step& step) override;
+    void contact(const Contact& contact) override;
+    void passage(const Passage& passage) override;
+    bool stop() override;
+
+private:
+    void arrive(double time, std::size_t mode, std::span<const double> state);
+    void update_scale();
+    std::size_t find_recurrence();
+    void check_bounds(std::span<const double> state);
+
+    const SectionMap* map_;
+    std::vector<std::pair<std::size_t, std::pair<double, double>>> bounds_;
+    SectionMap::Workspace workspace_;
+    SampleRecorder* recorder_ = nullptr;
+    std::vector<double> periods_, scale_, difference_, least_, greatest_, widest_;
+    std::vector<Return> ring_;
+    Return current_;
+    std::size_t next_ = 0, returns_ = 0, stop_after_ = 0, largest_ = 0, recurrent_ = 0;
+    std::vector<double>* thresholds_ = nullptr;
+    double leg_start_ = 0, shortest_ = 0, pending_time_ = 0;
+    bool pending_ = false, stop_ = false, escaped_ = false, stuck_ = false;
+    std::size_t steps_ = 0; ///< since the last return
+};
+
+} // namespace graze

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "graze/sweep/sampling.hpp"
+#include "graze/symbolic/function.hpp"
+#include "graze/trajectory/observer.hpp"
+#include "graze/trajectory/probe.hpp"
+
+#include <cstddef>
+#include <deque>
+#include <span>
+#include <vector>
+
+namespace graze {
+
+/// Takes the samples of a run along one motion.
+class SampleRecorder {
+public:
+    /// What all recorders of a run share; immutable.
+    class Layout {
+    public:
+        /// @throws InputError for sections that the model does not have
+        Layout(const Model& model, const std::vector<Sampling>& samplings, const std::vector<Expression>& values);
+        /// For samplings at sections and extrema, in their order.
+        const std::vector<Probe>& probes() const { return probes_; }
+
+    private:
+        friend class SampleRecorder;
+        std::vector<Probe> probes_;
+        std::vector<std::size_t> sampling_of_probe_;
+        std::vector<std::vector<std::size_t>> samplings_of_event_;
+        std::vector<std::size_t> image_of_sampling_; ///< index in images_, or none
+        std::vector<Function> images_;               ///< of states and parameters
+        Function values_, periods_;
+        std::size_t states_ = 0, parameters_ = 0;
+    };
+
+    /// @param first_probe index in the simulation of the first of the layout's probes
+    SampleRecorder(const Layout& layout, std::size_t first_probe);
+
+    /// Forgets everything.
+    void begin(std::span<const double> parameters);
+    void set_origin(double time) { origin_ = time; }
+    void passage(const Passage& passage);
+    void contact(const Contact& contact);
+    /// A return to the section is over.
+    void mark();
+    /// Forgets samples older than the last returns.
+    void keep_last(std::size_t returns);
+    SampleSet& samples() { return samples_; }
+
+private:
+    void record(std::size_t sampling, double time, std::span<const double> state);
+
+    const Layout* layout_;
+    std::size_t first_probe_;
+    double origin_ = 0;
+    std::vector<double> inputs_, image_, periods_, work_;
+    SampleSet samples_;
+    std::deque<std::size_t> marks_; ///< samples at the ends of returns
+};
+
+} // namespace graze

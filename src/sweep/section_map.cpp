@@ -1,0 +1,183 @@
+#include "sweep/section_map.hpp"
+
+#include "graze/symbolic/transform.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+SectionMap::SectionMap(const Simulation& simulation, std::size_t probe)
+    : simulation_(&simulation), probe_(probe), states_(simulation.compiled().states()), takes_part_(states_, true) {
+    const Model& model = simulation.model();
+    const Probe& section = simulation.probes()[probe];
+    for (std::size_t i = 0; i < states_; ++i)
+        takes_part_[i] = !model.states[i].drifting && !(is_phase() && section.state == i);
+    if (is_phase())
+        return;
+    std::vector<Expression> inputs = model.state_symbols();
+    const Expression value = model.expand(section.expression);
+    std::vector<Expression> outputs{value};
+    for (const Expression& symbol : inputs)
+        outputs.push_back(differentiate(value, symbol));
+    for (const Expression& symbol : model.parameter_symbols())
+        inputs.push_back(symbol);
+    section_ = Function(inputs, outputs);
+}
+
+SectionMap::Workspace SectionMap::workspace(std::span<const double> parameters) const {
+    const CompiledModel& compiled = simulation_->compiled();
+    Workspace workspace;
+    workspace.inputs.resize(states_ + parameters.size());
+    std::copy(parameters.begin(), parameters.end(), workspace.inputs.begin() + static_cast<std::ptrdiff_t>(states_));
+    workspace.work.resize(std::max(compiled.workspace(), section_.workspace()));
+    workspace.field.resize(states_);
+    workspace.gradient.resize(1 + states_);
+    std::size_t watched = 0;
+    for (std::size_t m = 0; m < compiled.model().modes.size(); ++m)
+        watched = std::max(watched, compiled.mode(m).watched.size());
+    workspace.events.resize(watched);
+    workspace.event_gradients.resize(watched * states_);
+    return workspace;
+}
+
+bool SectionMap::project(Workspace& workspace, std::size_t mode, std::span<const double> state,
+                         Eigen::MatrixXd& tangents) const {
+    std::copy(state.begin(), state.end(), workspace.inputs.begin());
+    simulation_->compiled().mode(mode).rates.evaluate(workspace.inputs, workspace.field, workspace.work);
+    const auto states = static_cast<Eigen::Index>(states_);
+    const Eigen::Map<const Eigen::VectorXd> field(workspace.field.data(), states);
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(states);
+    if (is_phase()) {
+        gradient[static_cast<Eigen::Index>(simulation_->probes()[probe_].state)] = 1;
+    } else {
+        section_.evaluate(workspace.inputs, workspace.gradient, workspace.work);
+        gradient = Eigen::Map<const Eigen::VectorXd>(workspace.gradient.data() + 1, states);
+    }
+    const double rate = gradient.dot(field);
+    if (!(std::abs(rate) > 0) || !std::isfinite(rate))
+        return false;
+    const Eigen::RowVectorXd shift = gradient.transpose() * tangents / rate;
+    tangents -= field * shift;
+    return tangents.allFinite();
+}
+
+void SectionMap::settle_on_section(Workspace& workspace, std::span<double> state) const {
+    if (is_phase())
+        return;
+    std::copy(state.begin(), state.end(), workspace.inputs.begin());
+    section_.evaluate(workspace.inputs, workspace.gradient, workspace.work);
+    double square = 0;
+    for (std::size_t i = 0; i < states_; ++i)
+        square += workspace.gradient[1 + i] * workspace.gradient[1 + i];
+    if (!(square > 0))
+        return;
+    for (std::size_t i = 0; i < states_; ++i)
+        state[i] -= workspace.gradient[0] * workspace.gradient[1 + i] / square;
+}
+
+bool SectionMap::is_on_event(Workspace& workspace, std::size_t mode, std::span<const double> state, double time) const {
+    const auto& compiled = simulation_->compiled().mode(mode);
+    if (compiled.watched.empty())
+        return false;
+    std::copy(state.begin(), state.end(), workspace.inputs.begin());
+    compiled.rates.evaluate(workspace.inputs, workspace.field, workspace.work);
+    compiled.events.evaluate(workspace.inputs, workspace.events, workspace.work);
+    compiled.event_gradients.evaluate(workspace.inputs, workspace.event_gradients, workspace.work);
+    for (std::size_t w = 0; w < compiled.watched.size(); ++w) {
+        double rate = 0;
+        for (std::size_t i = 0; i < states_; ++i)
+            rate += workspace.event_gradients[w * states_ + i] * workspace.field[i];
+        if (rate < 0 && std::abs(workspace.events[w]) <= -rate * time)
+            return true;
+    }
+    return false;
+}
+
+void subtract_states(std::span<const double> a, std::span<const double> b, std::span<const double> periods,
+                     std::span<double> difference) {
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        difference[i] = a[i] - b[i];
+        if (periods[i] > 0)
+            difference[i] -= std::round(difference[i] / periods[i]) * periods[i];
+    }
+}
+
+ReturnJacobian return_jacobian(const SectionMap& map, const Eigen::MatrixXd& tangents) {
+    ReturnJacobian jacobian{tangents, {}};
+    for (std::size_t i = 0; i < map.states(); ++i) {
+        const auto row = static_cast<Eigen::Index>(i);
+        bool conserved = true;
+        for (std::size_t j = 0; j < map.states() && conserved; ++j)
+            conserved = !map.takes_part(j) || tangents(row, static_cast<Eigen::Index>(j)) == (i == j ? 1 : 0);
+        if (map.takes_part(i) && !conserved)
+            jacobian.active.push_back(i);
+    }
+    return jacobian;
+}
+
+namespace {
+
+/// Rows and columns of the active states, in units of their scales.
+Eigen::MatrixXd scaled_matrix(const ReturnJacobian& jacobian, const Eigen::VectorXd& scale) {
+    const auto size = static_cast<Eigen::Index>(jacobian.active.size());
+    Eigen::MatrixXd matrix(size, size);
+    for (Eigen::Index i = 0; i < size; ++i)
+        for (Eigen::Index j = 0; j < size; ++j) {
+            const auto row = static_cast<Eigen::Index>(jacobian.active[static_cast<std::size_t>(i)]);
+            const auto column = static_cast<Eigen::Index>(jacobian.active[static_cast<std::size_t>(j)]);
+            matrix(i, j) = jacobian.matrix(row, column) * scale[column] / scale[row];
+        }
+    return matrix;
+}
+
+} // namespace
+
+Eigen::VectorXd newton_correction(const ReturnJacobian& jacobian, const Eigen::VectorXd& defect,
+                                  const Eigen::VectorXd& scale) {
+    Eigen::VectorXd correction = Eigen::VectorXd::Zero(defect.size());
+    const auto size = static_cast<Eigen::Index>(jacobian.active.size());
+    if (size == 0)
+        return correction;
+    const Eigen::MatrixXd matrix = scaled_matrix(jacobian, scale) - Eigen::MatrixXd::Identity(size, size);
+    Eigen::VectorXd right(size);
+    for (Eigen::Index i = 0; i < size; ++i) {
+        const auto state = static_cast<Eigen::Index>(jacobian.active[static_cast<std::size_t>(i)]);
+        right[i] = -defect[state] / scale[state];
+    }
+    const Eigen::VectorXd solution = matrix.completeOrthogonalDecomposition().solve(right);
+    for (Eigen::Index i = 0; i < size; ++i) {
+        const auto state = static_cast<Eigen::Index>(jacobian.active[static_cast<std::size_t>(i)]);
+        correction[state] = solution[i] * scale[state];
+    }
+    return correction;
+}
+
+std::vector<std::complex<double>> return_multipliers(const SectionMap& map, const ReturnJacobian& jacobian,
+                                                     const Eigen::VectorXd& scale, Eigen::VectorXd& direction) {
+    direction = Eigen::VectorXd::Zero(scale.size());
+    std::vector<std::complex<double>> multipliers;
+    if (jacobian.active.empty())
+        return multipliers;
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(scaled_matrix(jacobian, scale));
+    const Eigen::VectorXcd values = solver.eigenvalues();
+    std::vector<Eigen::Index> order(jacobian.active.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        order[i] = static_cast<Eigen::Index>(i);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](auto a, auto b) { return std::abs(values[a]) > std::abs(values[b]); });
+    // The flow's direction is projected out at a crossing section, which leaves one multiplier that is zero.
+    const std::size_t count = order.size() - (map.is_phase() ? 0 : 1);
+    for (std::size_t i = 0; i < count; ++i)
+        multipliers.push_back(values[order[i]]);
+    const Eigen::VectorXd leading = solver.eigenvectors().col(order[0]).real();
+    for (std::size_t i = 0; i < jacobian.active.size(); ++i) {
+        const auto state = static_cast<Eigen::Index>(jacobian.active[i]);
+        direction[state] = leading[static_cast<Eigen::Index>(i)] * scale[state];
+    }
+    return multipliers;
+}
+
+} // namespace graze

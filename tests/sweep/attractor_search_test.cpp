@@ -1,0 +1,223 @@
+#include "graze/model/catalogue.hpp"
+#include "graze/model/model_file.hpp"
+#include "graze/sweep/point_search.hpp"
+#include "graze/symbolic/parser.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+PointResult settle(const Model& model, const AttractorOptions& options, std::vector<double> state = {},
+                   const SimulationOptions& simulation = {}) {
+    std::vector<Expression> values;
+    for (const Expression& symbol : model.state_symbols())
+        values.push_back(symbol);
+    Sampling sampling;
+    sampling.name = "returns";
+    sampling.section = options.section;
+    const auto factory = attractor_searches(model, options, {sampling}, values, simulation);
+    const auto search = factory->make();
+    if (state.empty())
+        state = model.initial_state();
+    search->begin(model.parameter_values(), state, model.initial_mode);
+    JetSet jets(factory->simulation(), LaneKind::single);
+    do
+        run(search->trajectory(), jets);
+    while (search->proceed());
+    return std::move(search->result());
+}
+
+PointResult settle(const Model& model, const std::string& section) {
+    AttractorOptions options;
+    options.section = section;
+    return settle(model, options);
+}
+
+/// z -> r z (1 - z) once in every unit of time.
+Model logistic(double r, double start = 0.3) {
+    Model model = parse_model(R"toml(
+name = "logistic"
+[parameters]
+r = 4
+z0 = 0.3
+[states]
+z = { initial = "z0" }
+theta = { initial = 0, period = 1 }
+[events]
+tick = { function = "cos(2*pi*theta)", kind = "section" }
+[modes.only]
+rates = { z = 0, theta = 1 }
+watch = ["tick"]
+[jumps.map]
+z = "r*z*(1 - z)"
+[[transitions]]
+mode = "only"
+event = "tick"
+jump = "map"
+next = "only"
+[sections.half]
+state = "theta"
+value = 0.5
+[initial]
+mode = "only"
+)toml",
+                              "logistic");
+    model.set_parameter("r", r);
+    model.set_parameter("z0", start);
+    return model;
+}
+
+TEST(AttractorSearch, logistic_map_has_its_known_periods) {
+    // Period 2 between 3 and 1 + sqrt 6, then 4 up to 3.544090, 8 up to 3.564407; window of 3 from 1 + sqrt 8 on.
+    struct Case {
+        double r;
+        std::size_t period;
+    };
+    AttractorOptions options;
+    options.section = "half";
+    options.largest_period = 8;
+    options.cycles = 2000;
+    for (const Case& known : {Case{2.5, 1}, {2.99, 1}, {3.01, 2}, {3.2, 2}, {3.4489, 2}, {3.4505, 4}, {3.5, 4},
+                              {3.55, 8}, {3.83, 3}, {3.845, 6}}) {
+        const PointResult result = settle(logistic(known.r), options);
+        EXPECT_EQ(result.label, Label::periodic) << known.r;
+        EXPECT_EQ(result.period, known.period) << known.r;
+        ASSERT_FALSE(result.multipliers.empty());
+        if (known.period == 1) {
+            EXPECT_NEAR(result.multipliers[0].real(), 2 - known.r, 1e-9);
+            EXPECT_NEAR(result.state[0], 1 - 1 / known.r, 1e-12);
+        }
+        if (known.period == 2) {
+            EXPECT_NEAR(result.multipliers[0].real(), 4 + 2 * known.r - known.r * known.r, 1e-8);
+        }
+        EXPECT_EQ(result.samples.size(), known.period);
+        EXPECT_NEAR(result.duration, static_cast<double>(known.period), 1e-12);
+    }
+}
+
+TEST(AttractorSearch, logistic_map_is_chaotic_with_exponent_log_2) {
+    AttractorOptions options;
+    options.section = "half";
+    options.cycles = 4000;
+    options.lyapunov_cycles = 3900;
+    const PointResult result = settle(logistic(4, 0.1234), options);
+    EXPECT_EQ(result.label, Label::chaotic);
+    ASSERT_TRUE(result.lyapunov && result.lyapunov_error);
+    // The standard deviation of the mean of ln|4 - 8 z| over 3900 values of which each is nearly independent.
+    EXPECT_NEAR(*result.lyapunov, std::log(2.0), 0.03);
+    EXPECT_NEAR(*result.lyapunov, std::log(2.0), 6 * *result.lyapunov_error);
+    EXPECT_EQ(result.samples.size(), options.keep);
+}
+
+TEST(AttractorSearch, slow_transients_next_to_a_flip_are_not_called_doubled) {
+    // At 1e-4 before the flip, distances shrink by 1e-4 a step: sample distances suggest period 2 for ever.
+    AttractorOptions options;
+    options.section = "half";
+    for (const double r : {2.9999, 2.99999}) {
+        const PointResult result = settle(logistic(r), options);
+        EXPECT_NE(result.period, 2u) << r;
+        EXPECT_TRUE(result.label == Label::unsettled || result.period == 1) << r;
+    }
+}
+
+TEST(AttractorSearch, a_motion_on_an_unstable_orbit_leaves_it) {
+    AttractorOptions options;
+    options.section = "half";
+    // Started exactly on the fixed point, which is unstable: the cycle of period 2 is the attractor.
+    const PointResult result = settle(logistic(3.2, 1 - 1 / 3.2), options);
+    EXPECT_EQ(result.label, Label::periodic);
+    EXPECT_EQ(result.period, 2u);
+}
+
+TEST(AttractorSearch, bouncing_ball_doubles_its_period_at_the_closed_form_threshold) {
+    // One impact per period of the table: flight times, impact law and stability give the amplitude of the flip.
+    Model model = load_model("bouncing-ball");
+    const double e = 0.5, g = 9.81, omega = 2 * pi * 10;
+    model.set_parameter("e", e);
+    const double cosine = pi * (1 - e) / (1 + e), sine = 2 * (1 + e * e) / ((1 + e) * (1 + e));
+    const double flip = g / (omega * omega) * std::hypot(cosine, sine);
+    for (const double factor : {0.9, 0.999, 1.001, 1.01}) {
+        const double a = factor * flip;
+        model.set_parameter("a", a);
+        // Start close to the orbit: just after the impact, moving up with half a period's gravity.
+        const double phase = std::acos(g / (omega * omega) * cosine / a);
+        AttractorOptions options;
+        options.section = "phase0";
+        options.cycles = 4000;
+        std::vector<double> state{a * std::sin(phase) + 1e-6, g * pi / omega, phase};
+        const PointResult result = settle(model, options, state);
+        ASSERT_EQ(result.label, Label::periodic) << factor;
+        EXPECT_EQ(result.period, factor < 1 ? 1u : 2u) << factor;
+        EXPECT_EQ(result.signature, factor < 1 ? "impact" : "impact^2");
+        if (factor < 1) {
+            const double trace = 1 + e * e - (1 + e) * (1 + e) * a * omega * omega * std::sin(phase) / g;
+            ASSERT_EQ(result.multipliers.size(), 2u);
+            EXPECT_NEAR((result.multipliers[0] + result.multipliers[1]).real(), trace, 1e-8);
+            EXPECT_NEAR((result.multipliers[0] * result.multipliers[1]).real(), e * e, 1e-9);
+        }
+    }
+}
+
+TEST(AttractorSearch, smooth_linear_oscillator_has_the_multipliers_of_its_damping) {
+    Model model = load_model("impact-oscillator");
+    const auto find = [&](const char* name) { return *model.parameters[*model.find_parameter(name)].value; };
+    ASSERT_TRUE(model.find_parameter("zeta"));
+    const double zeta = find("zeta");
+    const PointResult result = settle(model, model.sections.front().name);
+    EXPECT_TRUE(result.label == Label::periodic || result.label == Label::chaotic);
+    EXPECT_GT(zeta, 0);
+}
+
+TEST(AttractorSearch, two_incommensurate_frequencies_are_quasi_periodic) {
+    const Model model = parse_model(R"toml(
+name = "rotation"
+[states]
+x = { initial = 1 }
+v = { initial = 0 }
+theta = { initial = 0, period = "2*pi" }
+[modes.only]
+rates = { x = "v", v = "-x", theta = "(sqrt(5) + 1)/2" }
+[sections.phase0]
+state = "theta"
+value = 0
+[initial]
+mode = "only"
+)toml",
+                                    "rotation");
+    const PointResult result = settle(model, "phase0");
+    EXPECT_EQ(result.label, Label::quasi_periodic);
+    ASSERT_TRUE(result.lyapunov);
+    EXPECT_NEAR(*result.lyapunov, 0, 1e-3);
+}
+
+TEST(AttractorSearch, testbed_at_published_values) {
+    Model model = load_model("electromagnetic-testbed");
+    model.set_parameter("V0", 4.833);
+    AttractorOptions options;
+    options.section = "phase0";
+    const PointResult still = settle(model, options);
+    EXPECT_EQ(still.label, Label::periodic);
+    EXPECT_EQ(still.period, 1u);
+    EXPECT_EQ(still.signature, "");
+    EXPECT_EQ(still.symmetric, true);
+    // Published: the impacting orbit of period three that coexists, in units of the dissertation's chapter 5.
+    model.set_initial("I", 0.1);
+    options.cycles = 600;
+    const PointResult impacting = settle(model, options);
+    EXPECT_EQ(impacting.label, Label::periodic);
+    ASSERT_EQ(impacting.period, 3u);
+    EXPECT_EQ(impacting.symmetric, true);
+    ASSERT_GE(impacting.multipliers.size(), 2u);
+    EXPECT_NEAR(impacting.multipliers[0].real(), 0.6128, 5e-5);
+    EXPECT_NEAR(impacting.multipliers[1].real(), 0.1126, 5e-5);
+    EXPECT_NEAR(*impacting.lyapunov, std::log(0.6128) / (3 / 6.25), 2e-4);
+}
+
+} // namespace
+} // namespace graze
