@@ -21,8 +21,11 @@ constexpr std::size_t most_disturbances = 3;
 constexpr double clear_of_zero = 3;     ///< standard errors
 constexpr double least_growth = 5;      ///< logarithm, of a small distance over all returns, that shows chaos
 constexpr double neutral = 0.02;        ///< growth per return that counts as none
+constexpr double very_close = 1e-5;     ///< relative to the extent of the states
 constexpr double equal_averages = 1e-6; ///< relative to the extent of a state
 constexpr std::size_t least_extension = 400;
+constexpr std::size_t returns_between_looks = 25;
+constexpr std::size_t extension = 4; ///< of the largest period, in the last part of a search
 
 /// Names of transitions, those that change nothing left out; a name and its repetitions are written once.
 std::string signature_of(const Model& model, std::span<const std::uint32_t> contacts) {
@@ -125,7 +128,8 @@ AttractorSetting::AttractorSetting(const Model& model, const AttractorOptions& g
 }
 
 AttractorSearch::AttractorSearch(const AttractorSetting& setting)
-    : setting_(&setting), watcher_(setting.map, setting.options.largest_period + 1, setting.options.bounds),
+    : setting_(&setting),
+      watcher_(setting.map, 2 * extension * setting.options.largest_period + 1, setting.options.bounds),
       recorder_(setting.layout, 0), finder_(setting.map, setting.layout, setting.image, setting.image_modes),
       exponent_(setting.map) {}
 
@@ -139,7 +143,7 @@ void AttractorSearch::begin(std::span<const double> parameters, std::span<const 
     recorder_.begin(parameters);
     recorder_.set_origin(0);
     watcher_.begin(parameters, periods_, &recorder_);
-    thresholds_.assign(setting_->options.largest_period + 1, setting_->options.recurrence);
+    thresholds_.assign(extension * setting_->options.largest_period + 1, setting_->options.recurrence);
     watcher_.watch_recurrence(&thresholds_, setting_->options.largest_period);
     watcher_.start_leg(0, 0);
     exponent_.clear();
@@ -203,10 +207,10 @@ void AttractorSearch::start_exponent() {
 
 bool AttractorSearch::go_on() {
     const std::size_t returns = watcher_.returns();
+    const bool look_again = limit_ > setting_->options.cycles && returns % returns_between_looks == 0;
+    if ((returns >= limit_ || look_again) && conclude())
+        return false;
     const std::size_t before = std::min(setting_->options.cycles, setting_->options.lyapunov_cycles);
-    if (returns >= limit_)
-        if (conclude())
-            return false;
     if (before > 0 && !exponent_.begun() && returns + before >= setting_->options.cycles)
         start_exponent();
     watcher_.stop_after(exponent_.begun() ? returns + 1 : setting_->options.cycles - before);
@@ -300,20 +304,39 @@ bool AttractorSearch::conclude() {
         if (exponent_.value() > clear_of_zero * exponent_.error() &&
             growth * static_cast<double>(exponent_.returns()) > least_growth)
             return !finish(Label::chaotic);
-        if (limit_ > setting_->options.cycles && std::abs(growth) < neutral && is_quasi_periodic())
+        if (watcher_.returns() >= limit_ && limit_ > setting_->options.cycles &&
+            std::abs(growth) * static_cast<double>(exponent_.returns()) < neutral && is_quasi_periodic())
             return !finish(Label::quasi_periodic);
     }
+    if (watcher_.returns() < limit_)
+        return false;
     if (limit_ > setting_->options.cycles)
         return !finish(Label::unsettled);
     // Slow transients and quasi-periodic motions are worth a longer look.
     limit_ += std::max(least_extension, 2 * setting_->options.cycles);
     std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
+    const std::size_t largest = setting_->options.largest_period;
+    std::fill(thresholds_.begin() + static_cast<std::ptrdiff_t>(largest) + 1, thresholds_.end(),
+              setting_->options.recurrence / 100);
+    watcher_.watch_recurrence(&thresholds_, extension * largest);
     return false;
 }
 
-bool AttractorSearch::is_quasi_periodic() const {
+/// Whether the motion has been very close to where it is now: then its period is only too long to be tried.
+bool AttractorSearch::comes_back() {
+    const std::size_t stride = periods_.size(), count = visited_.size() / stride;
+    const std::span<const double> states(visited_);
+    for (std::size_t k = 0; k + 1 < count; ++k)
+        if (watcher_.distance(states.subspan(k * stride, stride), states.last(stride)) < very_close)
+            return true;
+    return false;
+}
+
+bool AttractorSearch::is_quasi_periodic() {
     const std::size_t stride = periods_.size(), count = visited_.size() / stride / 2;
     if (count < least_extension / 4)
+        return false;
+    if (comes_back())
         return false;
     bool moves = false;
     for (std::size_t i = 0; i < stride; ++i) {

@@ -44,7 +44,8 @@ private:
     bool is_attracting() const;
     bool leave_unstable_orbit();
     bool conclude();
-    bool is_quasi_periodic() const;
+    bool comes_back();
+    bool is_quasi_periodic();
     bool finish_periodic();
     bool finish_early();
     bool finish(Label label);

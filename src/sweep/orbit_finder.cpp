@@ -10,7 +10,9 @@ namespace {
 constexpr std::size_t most_iterations = 10;
 /// Relative to the extent of the states. Newton's method doubles the digits of the last correction.
 constexpr double small_correction = 1e-9;
-constexpr double large_correction = 0.5;
+constexpr double large_correction = 0.1;
+/// Multiplier of an orbit that motions leave before it matters whether they are on it.
+constexpr double clearly_unstable = 2;
 /// How well a recorded orbit must close, and how different its returns are to be if they are different.
 constexpr double closed = 1e-8;
 constexpr double same = 1e-7;
@@ -100,13 +102,15 @@ bool OrbitFinder::iterate() {
     const double size = correction.cwiseQuotient(scale_).cwiseAbs().maxCoeff();
     if (!std::isfinite(size) || size > large_correction || ++iterations_ > most_iterations)
         return fail();
+    multipliers_ = return_multipliers(*map_, jacobian_, scale_, direction_);
+    if (!multipliers_.empty() && std::abs(multipliers_.front()) > clearly_unstable)
+        return fail();
     for (std::size_t i = 0; i < point_.size(); ++i)
         point_[i] += correction[static_cast<Eigen::Index>(i)];
     if (size > small_correction) {
         start_iteration();
         return true;
     }
-    multipliers_ = return_multipliers(*map_, jacobian_, scale_, direction_);
     stage_ = Stage::recording;
     map_->settle_on_section(workspace_, point_);
     recorder_.begin(parameters_);

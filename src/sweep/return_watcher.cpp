@@ -13,6 +13,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double simultaneous = 1e-10;
 /// Extents smaller than this share of the largest that a state ever had are noise.
 constexpr double least_extent = 1e-6;
+/// Shares of the threshold of a recurrence: for one that needs no other evidence, and for the one before it.
+constexpr double striking = 1e-3;
+constexpr double approaching = 30;
 constexpr std::size_t most_steps = 100'000; ///< without a return
 
 } // namespace
@@ -153,9 +156,22 @@ std::size_t ReturnWatcher::find_recurrence() {
     if (remembered() < 2)
         return 0;
     update_scale();
-    for (std::size_t n = 1; n <= largest_ && n < remembered(); ++n)
-        if (recent(n).mode == recent(0).mode && distance(recent(0).state, recent(n).state) <= (*thresholds_)[n])
+    for (std::size_t n = 1; n <= largest_ && n < remembered(); ++n) {
+        const double threshold = (*thresholds_)[n];
+        if (recent(n).mode != recent(0).mode)
+            continue;
+        const double now = distance(recent(0).state, recent(n).state);
+        if (now > threshold)
+            continue;
+        if (now <= striking * threshold)
             return n;
+        // Chaotic motions come back by chance, but not twice in a row and closer.
+        if (remembered() <= 2 * n)
+            continue;
+        const double before = distance(recent(n).state, recent(2 * n).state);
+        if (now < before && before < approaching * threshold)
+            return n;
+    }
     return 0;
 }
 

@@ -47,8 +47,8 @@ SampleRecorder::Layout::Layout(const Model& model, const std::vector<Sampling>& 
 }
 
 SampleRecorder::SampleRecorder(const Layout& layout, std::size_t first_probe)
-    : layout_(&layout), first_probe_(first_probe), inputs_(layout.states_ + layout.parameters_),
-      image_(layout.states_), periods_(layout.states_) {
+    : layout_(&layout), first_probe_(first_probe), inputs_(layout.states_ + layout.parameters_), image_(layout.states_),
+      periods_(layout.states_) {
     std::size_t work = std::max(layout.values_.workspace(), layout.periods_.workspace());
     for (const Function& image : layout.images_)
         work = std::max(work, image.workspace());
@@ -94,7 +94,9 @@ void SampleRecorder::record(std::size_t sampling, double time, std::span<const d
     layout_->values_.evaluate(inputs_, std::span(samples_.values).last(samples_.width), work_);
 }
 
-void SampleRecorder::mark() { marks_.push_back(samples_.size()); }
+void SampleRecorder::mark() {
+    marks_.push_back(samples_.size());
+}
 
 void SampleRecorder::keep_last(std::size_t returns) {
     if (marks_.size() <= returns)

@@ -83,8 +83,16 @@ TEST(AttractorSearch, logistic_map_has_its_known_periods) {
     options.section = "half";
     options.largest_period = 8;
     options.cycles = 2000;
-    for (const Case& known : {Case{2.5, 1}, {2.99, 1}, {3.01, 2}, {3.2, 2}, {3.4489, 2}, {3.4505, 4}, {3.5, 4},
-                              {3.55, 8}, {3.83, 3}, {3.845, 6}}) {
+    for (const Case& known : {Case{2.5, 1},
+                              {2.99, 1},
+                              {3.01, 2},
+                              {3.2, 2},
+                              {3.4489, 2},
+                              {3.4505, 4},
+                              {3.5, 4},
+                              {3.55, 8},
+                              {3.83, 3},
+                              {3.845, 6}}) {
         const PointResult result = settle(logistic(known.r), options);
         EXPECT_EQ(result.label, Label::periodic) << known.r;
         EXPECT_EQ(result.period, known.period) << known.r;
@@ -201,7 +209,11 @@ TEST(AttractorSearch, testbed_at_published_values) {
     model.set_parameter("V0", 4.833);
     AttractorOptions options;
     options.section = "phase0";
-    const PointResult still = settle(model, options);
+    // From rest the motion reaches the stop; along orbits without impacts it does not.
+    model.set_parameter("V0", 4.5);
+    const std::vector<double> below = settle(model, options).state;
+    model.set_parameter("V0", 4.833);
+    const PointResult still = settle(model, options, below);
     EXPECT_EQ(still.label, Label::periodic);
     EXPECT_EQ(still.period, 1u);
     EXPECT_EQ(still.signature, "");
