@@ -1,6 +1,7 @@
 #include "sweep/attractor_search.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "sweep/transient_search.hpp"
 
 #include <fmt/format.h>
 
@@ -177,7 +178,7 @@ bool AttractorSearch::settle() {
     if (ending == Ending::end_time)
         return finish(Label::unsettled);
     if (ending != Ending::stopped)
-        return finish_early();
+        return finish(label_of(ending));
     if (watcher_.escaped())
         return finish(Label::escaped);
     if (watcher_.stuck())
@@ -376,19 +377,6 @@ bool AttractorSearch::finish_periodic() {
     if (!result_.multipliers.empty() && std::abs(result_.multipliers.front()) > 0)
         result_.lyapunov = std::log(std::abs(result_.multipliers.front())) / result_.duration;
     return false;
-}
-
-bool AttractorSearch::finish_early() {
-    switch (main_->outcome().ending) {
-    case Ending::singular:
-        return finish(Label::singular);
-    case Ending::chatter:
-        return finish(Label::chattering);
-    case Ending::terminal:
-        return finish(Label::ended);
-    default:
-        return finish(Label::failed);
-    }
 }
 
 bool AttractorSearch::finish(Label label) {

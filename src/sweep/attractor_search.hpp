@@ -47,7 +47,6 @@ private:
     bool comes_back();
     bool is_quasi_periodic();
     bool finish_periodic();
-    bool finish_early();
     bool finish(Label label);
     void start_exponent();
 

@@ -20,9 +20,22 @@ Ensemble::Ensemble(const Simulation& simulation, InstructionSet set)
       parameters_(simulation.compiled().parameters() * lanes_) {}
 
 void Ensemble::run(std::span<Trajectory> trajectories) {
-    for (const Trajectory& trajectory : trajectories)
-        if (&trajectory.simulation() != simulation_)
-            throw std::invalid_argument("a trajectory of one simulation cannot run in an ensemble of another");
+    std::vector<Trajectory*> all;
+    for (Trajectory& trajectory : trajectories)
+        all.push_back(&trajectory);
+    run(all, [](std::size_t) { return nullptr; });
+}
+
+void Ensemble::require_own(const Trajectory& trajectory) const {
+    if (&trajectory.simulation() != simulation_)
+        throw std::invalid_argument("a trajectory of one simulation cannot run in an ensemble of another");
+}
+
+void Ensemble::run(std::span<Trajectory* const> slots, const Again& again) {
+    slots_.assign(slots.begin(), slots.end());
+    for (const Trajectory* trajectory : slots_)
+        if (trajectory)
+            require_own(*trajectory);
     for (auto& seated : seated_)
         std::fill(seated.begin(), seated.end(), nobody);
     // With several modes, more than one laneful is kept at hand so that lanes of the mode in turn can be filled.
@@ -30,62 +43,77 @@ void Ensemble::run(std::span<Trajectory> trajectories) {
     std::size_t next = 0;
     waiting_.clear();
     const auto admit = [&] {
-        while (waiting_.size() < capacity && next < trajectories.size()) {
-            if (!trajectories[next].finished())
+        for (; waiting_.size() < capacity && next < slots_.size(); ++next)
+            if (slots_[next] && (!slots_[next]->finished() || refill(next, again)))
                 waiting_.push_back(next);
-            ++next;
-        }
     };
     admit();
-    std::size_t mode = 0;
-    bool seated = false;
-    while (waiting_.size() > 1) {
-        if (!seated) {
-            mode = fullest_mode(trajectories);
-            take_seats(trajectories, mode);
-            seated = true;
+    while (!waiting_.empty()) {
+        if (waiting_.size() == 1) {
+            graze::run(*slots_[waiting_.front()], single_);
+        } else {
+            const std::size_t mode = fullest_mode();
+            take_seats(mode);
+            while (step_lanes(mode)) {
+            }
         }
-        load_states(trajectories);
-        Jet& jet = jets_(mode);
-        jet.compute(states_);
-        const std::span<double> lengths = outlook_.lengths();
-        for (std::size_t lane = 0; lane < lanes_; ++lane)
-            lengths[lane] = seats_[lane] != nobody ? trajectories[seats_[lane]].previous_step() : 1;
-        outlook_.find_steps(jet);
-        for (std::size_t lane = 0; lane < lanes_; ++lane)
-            if (seats_[lane] != nobody)
-                lengths[lane] = trajectories[seats_[lane]].propose(jet, lengths[lane], lane);
-        outlook_.look(jet, mode);
-        for (std::size_t lane = 0; lane < lanes_; ++lane) {
-            if (seats_[lane] == nobody)
-                continue;
-            Trajectory& trajectory = trajectories[seats_[lane]];
-            trajectory.advance(outlook_, lane);
-            seated = seated && trajectory.mode() == mode && !trajectory.finished();
-        }
-        if (seated)
-            continue;
-        std::erase_if(waiting_, [&](std::size_t i) { return trajectories[i].finished(); });
+        std::erase_if(waiting_, [&](std::size_t slot) { return slots_[slot]->finished() && !refill(slot, again); });
         admit();
     }
-    if (waiting_.size() == 1)
-        graze::run(trajectories[waiting_.front()], single_);
 }
 
-std::size_t Ensemble::fullest_mode(std::span<const Trajectory> trajectories) {
+/// Puts what comes next into a slot whose trajectory has finished. @return false if nothing does
+bool Ensemble::refill(std::size_t slot, const Again& again) {
+    do {
+        slots_[slot] = again(slot);
+        if (!slots_[slot])
+            return false;
+        require_own(*slots_[slot]);
+        // Lanes that hold the parameters of what was here before hold those of nobody now.
+        for (auto& seated : seated_)
+            std::replace(seated.begin(), seated.end(), slot, nobody);
+    } while (slots_[slot]->finished());
+    return true;
+}
+
+/// One step of all that are seated. @return whether all of them can make another one in this mode
+bool Ensemble::step_lanes(std::size_t mode) {
+    load_states();
+    Jet& jet = jets_(mode);
+    jet.compute(states_);
+    const std::span<double> lengths = outlook_.lengths();
+    for (std::size_t lane = 0; lane < lanes_; ++lane)
+        lengths[lane] = seats_[lane] != nobody ? slots_[seats_[lane]]->previous_step() : 1;
+    outlook_.find_steps(jet);
+    for (std::size_t lane = 0; lane < lanes_; ++lane)
+        if (seats_[lane] != nobody)
+            lengths[lane] = slots_[seats_[lane]]->propose(jet, lengths[lane], lane);
+    outlook_.look(jet, mode);
+    bool seated = true;
+    for (std::size_t lane = 0; lane < lanes_; ++lane) {
+        if (seats_[lane] == nobody)
+            continue;
+        Trajectory& trajectory = *slots_[seats_[lane]];
+        trajectory.advance(outlook_, lane);
+        seated = seated && trajectory.mode() == mode && !trajectory.finished();
+    }
+    return seated;
+}
+
+std::size_t Ensemble::fullest_mode() {
     std::fill(crowd_.begin(), crowd_.end(), 0);
     for (const std::size_t i : waiting_)
-        ++crowd_[trajectories[i].mode()];
+        ++crowd_[slots_[i]->mode()];
     return static_cast<std::size_t>(std::max_element(crowd_.begin(), crowd_.end()) - crowd_.begin());
 }
 
 /// Seats the waiting trajectories of one mode, each in its own lane if it had one before.
-void Ensemble::take_seats(std::span<const Trajectory> trajectories, std::size_t mode) {
+void Ensemble::take_seats(std::size_t mode) {
     auto& seated = seated_[mode];
     std::fill(seats_.begin(), seats_.end(), nobody);
     std::size_t taken = 0, newcomers = 0;
     for (const std::size_t i : waiting_) {
-        if (trajectories[i].mode() != mode)
+        if (slots_[i]->mode() != mode)
             continue;
         const auto lane = static_cast<std::size_t>(std::find(seated.begin(), seated.end(), i) - seated.begin());
         if (lane < lanes_) {
@@ -100,7 +128,7 @@ void Ensemble::take_seats(std::span<const Trajectory> trajectories, std::size_t 
             const auto free = std::find(seats_.begin(), seats_.end(), nobody);
             if (free == seats_.end())
                 break;
-            if (trajectories[i].mode() == mode && std::find(seats_.begin(), seats_.end(), i) == seats_.end())
+            if (slots_[i]->mode() == mode && std::find(seats_.begin(), seats_.end(), i) == seats_.end())
                 *free = i;
         }
         const std::size_t count = simulation_->compiled().parameters();
@@ -108,7 +136,7 @@ void Ensemble::take_seats(std::span<const Trajectory> trajectories, std::size_t 
         const std::size_t stand_in = *std::find_if(seats_.begin(), seats_.end(), [](auto i) { return i != nobody; });
         for (std::size_t lane = 0; lane < lanes_; ++lane) {
             seated[lane] = seats_[lane];
-            const auto from = trajectories[seats_[lane] == nobody ? stand_in : seats_[lane]].parameters();
+            const auto from = slots_[seats_[lane] == nobody ? stand_in : seats_[lane]]->parameters();
             for (std::size_t j = 0; j < count; ++j)
                 parameters_[j * lanes_ + lane] = from[j];
         }
@@ -116,11 +144,11 @@ void Ensemble::take_seats(std::span<const Trajectory> trajectories, std::size_t 
     }
 }
 
-void Ensemble::load_states(std::span<const Trajectory> trajectories) {
+void Ensemble::load_states() {
     const std::size_t stand_in = *std::find_if(seats_.begin(), seats_.end(), [](auto i) { return i != nobody; });
     const std::size_t count = simulation_->compiled().states();
     for (std::size_t lane = 0; lane < lanes_; ++lane) {
-        const auto from = trajectories[seats_[lane] == nobody ? stand_in : seats_[lane]].state();
+        const auto from = slots_[seats_[lane] == nobody ? stand_in : seats_[lane]]->state();
         for (std::size_t i = 0; i < count; ++i)
             states_[i * lanes_ + lane] = from[i];
     }

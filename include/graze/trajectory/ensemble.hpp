@@ -3,6 +3,7 @@
 #include "graze/trajectory/trajectory.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -22,19 +23,31 @@ public:
     /// @throws std::invalid_argument for a trajectory of another simulation
     void run(std::span<Trajectory> trajectories);
 
+    /// What is to run in a slot after its trajectory has finished: the same one started anew, another one, or null for
+    /// nothing more.
+    using Again = std::function<Trajectory*(std::size_t slot)>;
+    /// Runs what is in the slots, and in each what comes after it. Slots may be empty (null); those that begin with a
+    /// finished trajectory ask for the next one at once.
+    /// @throws std::invalid_argument for a trajectory of another simulation
+    void run(std::span<Trajectory* const> slots, const Again& again);
+
     int lanes() const { return static_cast<int>(lanes_); }
 
 private:
-    std::size_t fullest_mode(std::span<const Trajectory> trajectories);
-    void take_seats(std::span<const Trajectory> trajectories, std::size_t mode);
-    void load_states(std::span<const Trajectory> trajectories);
+    void require_own(const Trajectory& trajectory) const;
+    bool refill(std::size_t slot, const Again& again);
+    bool step_lanes(std::size_t mode);
+    std::size_t fullest_mode();
+    void take_seats(std::size_t mode);
+    void load_states();
 
     const Simulation* simulation_;
     std::size_t lanes_;
     JetSet jets_, single_;
     Outlook outlook_;
-    std::vector<std::size_t> waiting_;             ///< unfinished trajectories
-    std::vector<std::size_t> seats_;               ///< trajectory in each lane
+    std::vector<Trajectory*> slots_;
+    std::vector<std::size_t> waiting_;             ///< slots of unfinished trajectories
+    std::vector<std::size_t> seats_;               ///< slot in each lane
     std::vector<std::vector<std::size_t>> seated_; ///< for each mode, whose parameters its jet's lanes have
     std::vector<std::size_t> crowd_;               ///< waiting trajectories in each mode
     std::vector<double> states_, parameters_;

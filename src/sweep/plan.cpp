@@ -1,0 +1,152 @@
+#include "graze/sweep/plan.hpp"
+
+#include "graze/trajectory/ensemble.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace graze {
+
+bool can_be_carried_on(const PointResult& result) {
+    const bool settled = result.label == Label::periodic || result.label == Label::quasi_periodic ||
+                         result.label == Label::chaotic || result.label == Label::unsettled;
+    return settled && std::all_of(result.state.begin(), result.state.end(), [](double x) { return std::isfinite(x); });
+}
+
+namespace {
+
+using Sink = std::function<void(std::size_t, const PointStart&, PointResult&)>;
+
+/// What the threads share.
+struct Execution {
+    const Plan& plan;
+    const SearchFactory& searches;
+    std::span<const ChainProgress> progress;
+    const ExecutionOptions& options;
+    const Sink& sink;
+
+    std::atomic<std::size_t> next_chain{0};
+    std::atomic<bool> stopped{false};
+    std::mutex mutex{}; ///< of the sink and the error
+    std::exception_ptr error{};
+
+    bool must_stop() {
+        if ((options.stop && *options.stop) || (options.interrupted && options.interrupted()))
+            stopped = true;
+        return stopped;
+    }
+};
+
+/// One chain after another, point by point.
+class Worker {
+public:
+    explicit Worker(Execution& execution) : execution_(&execution), search_(execution.searches.make()) {}
+
+    /// The trajectory to run first; null if nothing is left to do.
+    Trajectory* begin() { return next_point(); }
+    /// The one to run after the last has finished.
+    Trajectory* go_on() {
+        if (execution_->must_stop())
+            return nullptr;
+        if (search_->proceed())
+            return &search_->trajectory();
+        PointResult& result = search_->result();
+        carried_ = can_be_carried_on(result);
+        if (execution_->plan.carry) {
+            state_ = result.state;
+            mode_ = result.mode;
+        }
+        {
+            const std::lock_guard lock(execution_->mutex);
+            if (execution_->error)
+                return nullptr;
+            execution_->sink(chain_ * execution_->plan.chain_length + index_, start_, result);
+        }
+        ++index_;
+        return next_point();
+    }
+
+private:
+    Trajectory* next_point() {
+        const Plan& plan = execution_->plan;
+        while (index_ >= plan.chain_length || !has_chain_) {
+            chain_ = execution_->next_chain++;
+            if (chain_ >= plan.chains)
+                return nullptr;
+            has_chain_ = true;
+            index_ = 0;
+            carried_ = false;
+            if (chain_ < execution_->progress.size()) {
+                const ChainProgress& done = execution_->progress[chain_];
+                index_ = done.done;
+                carried_ = done.done > 0 && done.regular;
+                state_ = done.state;
+                mode_ = done.mode;
+            }
+        }
+        if (execution_->must_stop())
+            return nullptr;
+        start_ = plan.start(chain_ * plan.chain_length + index_);
+        if (plan.carry && carried_ && index_ > 0) {
+            start_.state = state_;
+            start_.mode = mode_;
+        }
+        search_->begin(start_.parameters, start_.state, start_.mode);
+        return &search_->trajectory();
+    }
+
+    Execution* execution_;
+    std::unique_ptr<PointSearch> search_;
+    bool has_chain_ = false, carried_ = false;
+    std::size_t chain_ = 0, index_ = 0, mode_ = 0;
+    std::vector<double> state_;
+    PointStart start_;
+};
+
+void work(Execution& execution, std::size_t slots) {
+    try {
+        Ensemble ensemble(execution.searches.simulation(), execution.options.instruction_set);
+        std::vector<std::unique_ptr<Worker>> workers;
+        std::vector<Trajectory*> first;
+        for (std::size_t i = 0; i < slots; ++i) {
+            workers.push_back(std::make_unique<Worker>(execution));
+            first.push_back(workers.back()->begin());
+        }
+        ensemble.run(first, [&](std::size_t slot) { return workers[slot]->go_on(); });
+    } catch (...) {
+        const std::lock_guard lock(execution.mutex);
+        if (!execution.error)
+            execution.error = std::current_exception();
+        execution.stopped = true;
+    }
+}
+
+} // namespace
+
+bool execute(const Plan& plan, const SearchFactory& searches, std::span<const ChainProgress> progress,
+             const ExecutionOptions& options, const Sink& sink) {
+    Execution execution{plan, searches, progress, options, sink};
+    std::size_t chains = 0;
+    for (std::size_t c = 0; c < plan.chains; ++c)
+        chains += c >= progress.size() || progress[c].done < plan.chain_length ? 1 : 0;
+    if (chains == 0)
+        return true;
+    const auto jobs = std::min(static_cast<std::size_t>(std::max(options.jobs, 1)), chains);
+    const auto lanes = static_cast<std::size_t>(lanes_of(LaneKind::ensemble, options.instruction_set));
+    // Two lanefuls keep lanes busy while modes differ; few chains are better spread over threads.
+    const std::size_t slots = std::clamp<std::size_t>((chains + jobs - 1) / jobs, 1, 2 * lanes);
+    {
+        std::vector<std::jthread> threads;
+        for (std::size_t i = 1; i < jobs; ++i)
+            threads.emplace_back([&] { work(execution, slots); });
+        work(execution, slots);
+    }
+    if (execution.error)
+        std::rethrow_exception(execution.error);
+    return !execution.stopped;
+}
+
+} // namespace graze

@@ -1,0 +1,162 @@
+#include "sweep/transient_search.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+constexpr double forever = std::numeric_limits<double>::infinity();
+
+[[noreturn]] void refuse(const std::string& problem, const std::string& remedy) {
+    throw InputError(problem, remedy);
+}
+
+std::vector<Probe> probes_of(const Model& model, const TransientOptions& options,
+                             const SampleRecorder::Layout& layout) {
+    std::vector<Probe> probes = layout.probes();
+    if (!options.section.empty())
+        probes.push_back(section_probe(model, options.section));
+    return probes;
+}
+
+} // namespace
+
+void TransientOptions::validate(const Model& model) const {
+    if (!(skip_time >= 0) || !(time >= 0))
+        refuse("a time is negative", "give 0 or more");
+    if ((skip_periods > 0 || periods > 0) && section.empty())
+        refuse("nothing says what a period is", "name a section whose passages are counted");
+    if (!section.empty())
+        section_probe(model, section);
+    if (!(time > 0) && periods == 0 && contacts == 0 && !(greatest_speed > 0))
+        refuse("nothing ends the simulation", "give a time, a number of periods or of contacts");
+}
+
+TransientSetting::TransientSetting(const Model& model, const TransientOptions& given,
+                                   const std::vector<Sampling>& samplings, const std::vector<Expression>& values,
+                                   const SimulationOptions& simulation_options)
+    : options((given.validate(model), given)), layout(model, samplings, values),
+      simulation(model, probes_of(model, options, layout), {}, simulation_options), counted(model.events.size()) {
+    for (const std::size_t event : options.counted)
+        counted.at(event) = true;
+}
+
+TransientSearch::TransientSearch(const TransientSetting& setting) : setting_(&setting), recorder_(setting.layout, 0) {}
+
+void TransientSearch::begin(std::span<const double> parameters, std::span<const double> state, std::size_t mode) {
+    const TransientOptions& options = setting_->options;
+    recorder_.begin(parameters);
+    trajectory_.emplace(setting_->simulation, parameters, static_cast<Observer&>(*this));
+    result_ = {};
+    periods_ = contacts_ = all_periods_ = 0;
+    stop_ = escaped_ = reached_ = false;
+    shown_ = !(options.skip_time > 0) && options.skip_periods == 0;
+    trajectory_->start(state, mode, 0, shown_ ? end_of(0) : options.skip_time > 0 ? options.skip_time : forever);
+}
+
+/// Time at which what is shown ends if it begins at `time`.
+double TransientSearch::end_of(double time) const {
+    return setting_->options.time > 0 ? time + setting_->options.time : forever;
+}
+
+void TransientSearch::step(const Step& step) {
+    for (const auto& [index, range] : setting_->options.bounds) {
+        const double value = step.state(index, step.length);
+        escaped_ = escaped_ || !(value >= range.first && value <= range.second);
+    }
+    stop_ = stop_ || escaped_;
+}
+
+void TransientSearch::contact(const Contact& contact) {
+    if (shown_)
+        recorder_.contact(contact);
+    if (!shown_ || contact.kind == ContactKind::touch || !setting_->counted[contact.event])
+        return;
+    ++contacts_;
+    const TransientOptions& options = setting_->options;
+    reached_ = reached_ || (options.contacts > 0 && contacts_ >= options.contacts) ||
+               (options.greatest_speed > 0 && -contact.rate_before > options.greatest_speed);
+    stop_ = stop_ || reached_;
+}
+
+void TransientSearch::passage(const Passage& passage) {
+    if (shown_)
+        recorder_.passage(passage);
+    if (setting_->options.section.empty() || passage.probe + 1 != setting_->simulation.probes().size())
+        return;
+    ++periods_;
+    ++all_periods_;
+    const std::size_t wanted = shown_ ? setting_->options.periods : setting_->options.skip_periods;
+    reached_ = reached_ || (wanted > 0 && periods_ >= wanted);
+    stop_ = stop_ || reached_;
+}
+
+bool TransientSearch::stop() {
+    const bool result = stop_;
+    stop_ = false;
+    return result;
+}
+
+bool TransientSearch::proceed() {
+    const Ending ending = trajectory_->outcome().ending;
+    const bool leg_over = ending == Ending::end_time || (ending == Ending::stopped && reached_ && !escaped_);
+    if (!shown_ && leg_over) {
+        shown_ = true;
+        periods_ = 0;
+        reached_ = false;
+        recorder_.set_origin(trajectory_->time());
+        trajectory_->extend(end_of(trajectory_->time()));
+        return true;
+    }
+    result_.label = escaped_ ? Label::escaped : leg_over ? Label::ended : label_of(ending);
+    result_.cycles = result_.periods_run = all_periods_;
+    result_.time = trajectory_->time();
+    result_.state.assign(trajectory_->state().begin(), trajectory_->state().end());
+    result_.mode = trajectory_->mode();
+    result_.outcome = trajectory_->outcome();
+    result_.samples = std::move(recorder_.samples());
+    return false;
+}
+
+Label label_of(Ending ending) {
+    switch (ending) {
+    case Ending::singular:
+        return Label::singular;
+    case Ending::chatter:
+        return Label::chattering;
+    case Ending::terminal:
+        return Label::ended;
+    default:
+        return Label::failed;
+    }
+}
+
+namespace {
+
+class TransientSearches : public SearchFactory {
+public:
+    TransientSearches(const Model& model, const TransientOptions& options, const std::vector<Sampling>& samplings,
+                      const std::vector<Expression>& values, const SimulationOptions& simulation_options)
+        : setting_(model, options, samplings, values, simulation_options) {}
+
+    const Simulation& simulation() const override { return setting_.simulation; }
+    std::unique_ptr<PointSearch> make() const override { return std::make_unique<TransientSearch>(setting_); }
+
+private:
+    TransientSetting setting_;
+};
+
+} // namespace
+
+std::unique_ptr<SearchFactory> transient_searches(const Model& model, const TransientOptions& options,
+                                                  const std::vector<Sampling>& samplings,
+                                                  const std::vector<Expression>& values,
+                                                  const SimulationOptions& simulation) {
+    return std::make_unique<TransientSearches>(model, options, samplings, values, simulation);
+}
+
+} // namespace graze

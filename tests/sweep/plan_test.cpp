@@ -1,0 +1,117 @@
+#include "graze/sweep/plan.hpp"
+
+#include "graze/model/catalogue.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <stdexcept>
+
+namespace graze {
+namespace {
+
+/// A few voltages of the testbed, each chain from another initial current.
+struct Setting {
+    Model model = load_model("electromagnetic-testbed");
+    std::unique_ptr<SearchFactory> searches;
+    Plan plan;
+
+    explicit Setting(std::size_t chains, std::size_t length, bool carry) {
+        AttractorOptions options;
+        options.section = "phase0";
+        options.cycles = 60;
+        options.lyapunov_cycles = 40;
+        Sampling sampling;
+        sampling.name = "phase0";
+        sampling.section = "phase0";
+        searches = attractor_searches(model, options, {sampling}, {model.symbol("v"), model.symbol("I")}, {});
+        plan.chains = chains;
+        plan.chain_length = length;
+        plan.carry = carry;
+        std::size_t voltage = 0, current = *model.find_state("I");
+        for (std::size_t i = 0; i < model.parameter_symbols().size(); ++i)
+            if (model.parameter_symbols()[i].name() == "V0")
+                voltage = i;
+        plan.start = [this, voltage, current, length](std::size_t point) {
+            PointStart start{model.parameter_values(), model.initial_state(), model.initial_mode};
+            start.parameters[voltage] = 4.85 + 0.03 * static_cast<double>(point % length);
+            start.state[current] = 0.1 * static_cast<double>(point / length);
+            return start;
+        };
+    }
+
+    std::map<std::size_t, PointResult> run(const ExecutionOptions& options,
+                                           std::span<const ChainProgress> progress = {}) {
+        std::map<std::size_t, PointResult> results;
+        EXPECT_TRUE(execute(plan, *searches, progress, options,
+                            [&](std::size_t point, const PointStart&, auto& result) { results[point] = result; }));
+        return results;
+    }
+};
+
+void expect_same(const std::map<std::size_t, PointResult>& a, const std::map<std::size_t, PointResult>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (const auto& [point, result] : a) {
+        const PointResult& other = b.at(point);
+        EXPECT_EQ(result.label, other.label) << point;
+        EXPECT_EQ(result.period, other.period);
+        EXPECT_EQ(result.state, other.state) << point;
+        EXPECT_EQ(result.samples.values, other.samples.values);
+        EXPECT_EQ(result.multipliers, other.multipliers);
+        EXPECT_EQ(result.lyapunov, other.lyapunov);
+        EXPECT_EQ(result.cycles, other.cycles);
+    }
+}
+
+TEST(Plan, results_do_not_depend_on_threads_and_lanes) {
+    Setting many(11, 3, true);
+    const auto alone = many.run({});
+    ASSERT_EQ(alone.size(), 33u);
+    for (const int jobs : {2, 3, 11}) {
+        ExecutionOptions options;
+        options.jobs = jobs; // eleven threads leave one chain to each, which is run without lanes
+        expect_same(alone, many.run(options));
+    }
+}
+
+TEST(Plan, a_chain_carries_its_states_along) {
+    Setting carried(1, 4, true), fresh(1, 4, false);
+    const auto with = carried.run({}), without = fresh.run({});
+    EXPECT_EQ(with.at(0).state, without.at(0).state);
+    EXPECT_NE(with.at(1).cycles, without.at(1).cycles);
+}
+
+TEST(Plan, resumes_anywhere) {
+    Setting setting(2, 4, true);
+    const auto whole = setting.run({});
+    for (std::size_t done = 0; done <= 4; ++done) {
+        std::vector<ChainProgress> progress(2);
+        progress[1].done = done;
+        if (done > 0) {
+            const PointResult& last = whole.at(4 + done - 1);
+            progress[1] = {done, can_be_carried_on(last), last.state, last.mode};
+        }
+        auto rest = setting.run({}, progress);
+        EXPECT_EQ(rest.size(), 8 - done);
+        for (std::size_t point = 4; point < 4 + done; ++point)
+            rest[point] = whole.at(point);
+        expect_same(whole, rest);
+    }
+}
+
+TEST(Plan, stops_when_asked_and_passes_errors_on) {
+    Setting setting(8, 3, true);
+    ExecutionOptions options;
+    options.jobs = 2;
+    std::atomic<std::size_t> count{0};
+    options.interrupted = [&] { return count > 5; };
+    EXPECT_FALSE(execute(setting.plan, *setting.searches, {}, options,
+                         [&](std::size_t, const PointStart&, PointResult&) { ++count; }));
+    EXPECT_LT(count, 24u);
+    EXPECT_THROW(execute(setting.plan, *setting.searches, {}, {.jobs = 2},
+                         [](std::size_t, const PointStart&, PointResult&) { throw std::runtime_error("full"); }),
+                 std::runtime_error);
+}
+
+} // namespace
+} // namespace graze
