@@ -1,44 +1,11 @@
 #include "program/quantity.hpp"
 
-#include "graze/symbolic/parser.hpp"
-
 #include <algorithm>
 
 namespace graze {
 
-namespace {
-
-Scope scope_of(const Model& model) {
-    Scope scope;
-    for (const Quantity& quantity : model.quantities)
-        scope.insert_or_assign(quantity.name, quantity.value);
-    for (const Parameter& parameter : model.parameters)
-        scope.insert_or_assign(parameter.name, model.symbol(parameter.name));
-    for (const State& state : model.states)
-        scope.insert_or_assign(state.name, model.symbol(state.name));
-    for (const Definition& definition : model.definitions)
-        scope.insert_or_assign(definition.name, model.symbol(definition.name));
-    return scope;
-}
-
-} // namespace
-
 RequestedQuantity requested_quantity(const Model& model, const std::string& text, const std::string& option) {
-    if (const auto index = model.find_quantity(text)) {
-        const Quantity& quantity = model.quantities[*index];
-        return {quantity.name, quantity.unit, quantity.text, model.expand(quantity.value)};
-    }
-    RequestedQuantity result{text, "", "", {}};
-    const Place place{option + ' ' + text, 1, 1};
-    result.value = model.expand(parse_expression(*model.graph, text, scope_of(model), place));
-    if (const auto state = model.find_state(text)) {
-        result.unit = model.states[*state].unit;
-        result.text = model.states[*state].text;
-    } else if (const auto parameter = model.find_parameter(text)) {
-        result.unit = model.parameters[*parameter].unit;
-        result.text = model.parameters[*parameter].text;
-    }
-    return result;
+    return named_value(model, text, {option + ' ' + text, 1, 1});
 }
 
 std::vector<RequestedQuantity> requested_quantities(const Model& model, const std::vector<std::string>& texts,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/model/model.hpp"
+#include "graze/model/named_value.hpp"
 #include "graze/symbolic/function.hpp"
 #include "program/table.hpp"
 
@@ -10,11 +10,8 @@
 
 namespace graze {
 
-/// What a user wants to see of a state: a state, quantity, parameter or definition by its name, or an expression.
-struct RequestedQuantity {
-    std::string name, unit, text;
-    Expression value; ///< in states and independent parameters
-};
+/// What a user wants to see of a state.
+using RequestedQuantity = NamedValue;
 
 /// @param option where it was asked for, for messages
 /// @throws InputError with the place when it is no expression

@@ -2,14 +2,11 @@
 
 #include "graze/model/catalogue.hpp"
 #include "graze/model/microbeam.hpp"
-#include "graze/symbolic/function.hpp"
+#include "graze/model/named_value.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/parser.hpp"
 
 #include <fmt/format.h>
-
-#include <cctype>
-#include <cmath>
 
 namespace graze {
 
@@ -20,29 +17,6 @@ std::string trimmed(std::string_view text) {
     if (first == std::string_view::npos)
         return {};
     return std::string(text.substr(first, text.find_last_not_of(" \t\n") - first + 1));
-}
-
-/// Whether the text is a number that is none, as programs print it.
-bool is_not_a_finite_number(std::string_view text) {
-    std::string word;
-    for (const char c : trimmed(text))
-        if (c != '+' && c != '-')
-            word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return word == "nan" || word == "inf" || word == "infinity";
-}
-
-double evaluate(const Model& model, std::string_view text, const Place& place) {
-    if (is_not_a_finite_number(text))
-        throw InputError(place, fmt::format("'{}' is not a finite number", trimmed(text)), "give a finite number");
-    Scope scope;
-    for (const Parameter& parameter : model.parameters)
-        scope.emplace(parameter.name, model.symbol(parameter.name));
-    const Expression expression = model.expand(parse_expression(*model.graph, text, scope, place));
-    const double value = Function(model.parameter_symbols(), {{expression}})(model.parameter_values())[0];
-    if (!std::isfinite(value))
-        throw InputError(place, fmt::format("'{}' has no finite value", trimmed(text)),
-                         "look for a division by zero, or a root or logarithm of a number that is not positive");
-    return value;
 }
 
 struct Assignment {
@@ -92,7 +66,7 @@ std::vector<std::string> split_list(const std::vector<std::string>& arguments) {
 }
 
 double value_of(const Model& model, std::string_view text, const std::string& option) {
-    return evaluate(model, text, {fmt::format("{} {}", option, text), 1, 1});
+    return value_of_text(model, text, {fmt::format("{} {}", option, text), 1, 1});
 }
 
 double positive_value_of(const Model& model, std::string_view text, const std::string& option) {
@@ -110,7 +84,7 @@ void set_parameters(Model& model, const std::vector<std::string>& assignments) {
                              fmt::format("choose where it starts by --from {}", item));
         if (!model.find_parameter(assignment.name))
             model.set_parameter(assignment.name, 0); // says which names there are
-        model.set_parameter(assignment.name, evaluate(model, assignment.text, assignment.place));
+        model.set_parameter(assignment.name, value_of_text(model, assignment.text, assignment.place));
     }
 }
 
@@ -122,7 +96,7 @@ void set_initial_state(Model& model, const std::vector<std::string>& assignments
                              fmt::format("choose its value by --set {}", item));
         if (!model.find_state(assignment.name))
             model.set_initial(assignment.name, 0); // says which names there are
-        model.set_initial(assignment.name, evaluate(model, assignment.text, assignment.place));
+        model.set_initial(assignment.name, value_of_text(model, assignment.text, assignment.place));
     }
 }
 

@@ -26,6 +26,7 @@ struct Variation {
     std::vector<double> values; ///< in rising order as the file gives them; empty: drawn at random
     double low = 0, high = 0;   ///< of random draws
     bool logarithmic = false;   ///< draws are uniform in the logarithm
+    double offset = 0;          ///< added to draws
 };
 
 /// In which order a sweep goes through the values of its first axis.
@@ -72,6 +73,8 @@ struct StudyPicture {
     std::optional<std::pair<double, double>> x_range, y_range, fit; ///< fit: range of x of a regression
     std::vector<std::pair<std::string, double>> at; ///< the point (nearest coordinate) of histories, portraits, spectra
     bool logarithmic_x = false, logarithmic_y = false;
+    bool successive = false; ///< regression: each value against the one before it in the same point
+    std::string group;       ///< coordinate by which a regression is split
     std::string format = "png";
     Place place;
 };

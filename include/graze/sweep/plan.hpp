@@ -43,7 +43,7 @@ struct ExecutionOptions {
     InstructionSet instruction_set = best_instruction_set();
     const std::atomic<bool>* stop = nullptr; ///< looked at between points and legs of points
     /// Also asked; called from any thread.
-    std::function<bool()> interrupted;
+    std::function<bool()> interrupted{};
 };
 
 /// Whether the next point of a chain can begin where this one ended.

@@ -1,0 +1,77 @@
+#include "graze/model/named_value.hpp"
+
+#include "graze/symbolic/function.hpp"
+#include "graze/symbolic/parser.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+Scope scope_of(const Model& model) {
+    Scope scope;
+    for (const Quantity& quantity : model.quantities)
+        scope.insert_or_assign(quantity.name, quantity.value);
+    for (const Parameter& parameter : model.parameters)
+        scope.insert_or_assign(parameter.name, model.symbol(parameter.name));
+    for (const State& state : model.states)
+        scope.insert_or_assign(state.name, model.symbol(state.name));
+    for (const Definition& definition : model.definitions)
+        scope.insert_or_assign(definition.name, model.symbol(definition.name));
+    return scope;
+}
+
+std::string trimmed(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t\n");
+    if (first == std::string_view::npos)
+        return {};
+    return std::string(text.substr(first, text.find_last_not_of(" \t\n") - first + 1));
+}
+
+/// Whether the text is a number that is none, as programs print it.
+bool is_not_a_finite_number(std::string_view text) {
+    std::string word;
+    for (const char c : trimmed(text))
+        if (c != '+' && c != '-')
+            word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return word == "nan" || word == "inf" || word == "infinity";
+}
+
+} // namespace
+
+NamedValue named_value(const Model& model, const std::string& text, const Place& place) {
+    if (const auto index = model.find_quantity(text)) {
+        const Quantity& quantity = model.quantities[*index];
+        return {quantity.name, quantity.unit, quantity.text, model.expand(quantity.value)};
+    }
+    NamedValue result{text, "", "", {}};
+    result.value = model.expand(parse_expression(*model.graph, text, scope_of(model), place));
+    if (const auto state = model.find_state(text)) {
+        result.unit = model.states[*state].unit;
+        result.text = model.states[*state].text;
+    } else if (const auto parameter = model.find_parameter(text)) {
+        result.unit = model.parameters[*parameter].unit;
+        result.text = model.parameters[*parameter].text;
+    }
+    return result;
+}
+
+double value_of_text(const Model& model, std::string_view text, const Place& place) {
+    if (is_not_a_finite_number(text))
+        throw InputError(place, fmt::format("'{}' is not a finite number", trimmed(text)), "give a finite number");
+    Scope scope;
+    for (const Parameter& parameter : model.parameters)
+        scope.emplace(parameter.name, model.symbol(parameter.name));
+    const Expression expression = model.expand(parse_expression(*model.graph, text, scope, place));
+    const double value = Function(model.parameter_symbols(), {{expression}})(model.parameter_values())[0];
+    if (!std::isfinite(value))
+        throw InputError(place, fmt::format("'{}' has no finite value", trimmed(text)),
+                         "look for a division by zero, or a root or logarithm of a number that is not positive");
+    return value;
+}
+
+} // namespace graze

@@ -1,0 +1,139 @@
+#include "results/database.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+/// A path as a URI whose characters mean nothing else.
+std::string uri_of(const std::string& path, bool unchanging) {
+    std::string uri = "file:";
+    for (const char c : path)
+        uri += c == '%' || c == '?' || c == '#' ? fmt::format("%{:02X}", static_cast<unsigned char>(c))
+                                                : std::string(1, c);
+    return uri + (unchanging ? "?immutable=1" : "");
+}
+
+} // namespace
+
+void throw_database_error(int code, const std::string& message, const std::string& path) {
+    const Place place{path, 0, 0};
+    switch (code & 0xff) {
+    case SQLITE_FULL:
+    case SQLITE_IOERR:
+        throw InputError(place, fmt::format("it cannot be written to ({})", message),
+                         "make room on the disk and run the same command again: it goes on from what is there");
+    case SQLITE_READONLY:
+    case SQLITE_CANTOPEN:
+    case SQLITE_PERM:
+    case SQLITE_AUTH:
+        throw InputError(place, fmt::format("the result file cannot be opened or written ({})", message),
+                         "look at the permissions of file and folder, or choose another folder");
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+        throw InputError(place, "another program uses the result file", "wait for it, or choose another folder");
+    case SQLITE_NOTADB:
+    case SQLITE_CORRUPT:
+        throw InputError(place, fmt::format("this is no result file of graze ({})", message),
+                         "give the results.sqlite of a study, or its folder");
+    default:
+        throw InputError(place, message, "look at the tables and columns that docs/result-file.md describes");
+    }
+}
+
+std::string quoted_name(std::string_view name) {
+    std::string text = "\"";
+    for (const char c : name) {
+        text += c;
+        if (c == '"')
+            text += c;
+    }
+    return text + '"';
+}
+
+Database::Database(const std::string& path, bool writing) : path_(path) {
+    const auto open = [&](bool unchanging) {
+        sqlite3* database = nullptr;
+        const int flags =
+            SQLITE_OPEN_URI | (writing ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READONLY);
+        const int code = sqlite3_open_v2(uri_of(path, unchanging).c_str(), &database, flags, nullptr);
+        database_.reset(database);
+        if (code != SQLITE_OK)
+            return code;
+        sqlite3_busy_timeout(database, 2000);
+        return sqlite3_exec(database, "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr);
+    };
+    int code = open(false);
+    // A file in a folder that cannot be written has nobody who changes it.
+    if (!writing && ((code & 0xff) == SQLITE_CANTOPEN || (code & 0xff) == SQLITE_READONLY))
+        code = open(true);
+    if (code != SQLITE_OK)
+        throw_database_error(code, database_ ? sqlite3_errmsg(database_.get()) : "out of memory", path);
+}
+
+void Database::execute(const std::string& sql) const {
+    const int code = sqlite3_exec(database_.get(), sql.c_str(), nullptr, nullptr, nullptr);
+    if (code != SQLITE_OK)
+        throw_database_error(code, sqlite3_errmsg(database_.get()), path_);
+}
+
+Statement::Statement(sqlite3* database, const std::string& path, const std::string& sql) : path_(path) {
+    sqlite3_stmt* statement = nullptr;
+    const int code = sqlite3_prepare_v2(database, sql.c_str(), static_cast<int>(sql.size()), &statement, nullptr);
+    statement_.reset(statement);
+    if (code != SQLITE_OK)
+        throw_database_error(code, sqlite3_errmsg(database), path);
+    if (!statement)
+        throw InputError(Place{path, 0, 0}, "the query is empty", "give one SELECT");
+}
+
+Statement& Statement::bind(int position, double value) {
+    if (!std::isfinite(value))
+        return bind_null(position);
+    sqlite3_bind_double(statement_.get(), position, value);
+    return *this;
+}
+
+Statement& Statement::bind(int position, std::int64_t value) {
+    sqlite3_bind_int64(statement_.get(), position, value);
+    return *this;
+}
+
+Statement& Statement::bind(int position, std::string_view text) {
+    sqlite3_bind_text(statement_.get(), position, text.data(), static_cast<int>(text.size()), SQLITE_STATIC);
+    return *this;
+}
+
+Statement& Statement::bind_null(int position) {
+    sqlite3_bind_null(statement_.get(), position);
+    return *this;
+}
+
+bool Statement::step() {
+    const int code = sqlite3_step(statement_.get());
+    if (code == SQLITE_ROW)
+        return true;
+    if (code == SQLITE_DONE)
+        return false;
+    const std::string message = sqlite3_errmsg(sqlite3_db_handle(statement_.get()));
+    sqlite3_reset(statement_.get());
+    throw_database_error(code, message, path_);
+}
+
+void Statement::run() {
+    step();
+    sqlite3_reset(statement_.get());
+}
+
+std::string Statement::text(int column) const {
+    const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
+    return text ? std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column)))
+                : std::string();
+}
+
+} // namespace graze

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <sqlite3.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace graze {
+
+/// A prepared statement, which ends with its scope.
+class Statement {
+public:
+    Statement() = default;
+    Statement(sqlite3* database, const std::string& path, const std::string& sql);
+
+    Statement& bind(int position, double value); ///< NULL unless finite
+    Statement& bind(int position, std::int64_t value);
+    Statement& bind(int position, std::size_t value) { return bind(position, static_cast<std::int64_t>(value)); }
+    /// The text must live until the statement has run.
+    Statement& bind(int position, std::string_view text);
+    Statement& bind_null(int position);
+    /// @return whether there is a row
+    bool step();
+    /// Runs a statement without rows, for it to be run again.
+    void run();
+
+    int columns() const { return sqlite3_column_count(statement_.get()); }
+    bool is_null(int column) const { return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL; }
+    int type(int column) const { return sqlite3_column_type(statement_.get(), column); }
+    double number(int column) const { return sqlite3_column_double(statement_.get(), column); }
+    std::int64_t integer(int column) const { return sqlite3_column_int64(statement_.get(), column); }
+    std::string text(int column) const;
+    std::string name(int column) const { return sqlite3_column_name(statement_.get(), column); }
+
+private:
+    struct Finish {
+        void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+    };
+    std::unique_ptr<sqlite3_stmt, Finish> statement_;
+    std::string path_;
+};
+
+/// A connection to one file.
+class Database {
+public:
+    /// @throws InputError when it cannot be opened
+    Database(const std::string& path, bool writing);
+
+    Statement prepare(const std::string& sql) const { return {database_.get(), path_, sql}; }
+    /// Several statements without results.
+    void execute(const std::string& sql) const;
+    const std::string& path() const { return path_; }
+
+private:
+    struct Close {
+        void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
+    };
+    std::string path_;
+    std::unique_ptr<sqlite3, Close> database_;
+};
+
+/// What SQLite says has gone wrong, as a message with a remedy. @throws InputError
+[[noreturn]] void throw_database_error(int code, const std::string& message, const std::string& path);
+
+/// A name between double quotes.
+std::string quoted_name(std::string_view name);
+
+} // namespace graze

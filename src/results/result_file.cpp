@@ -1,0 +1,516 @@
+#include "graze/results/result_file.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "results/database.hpp"
+#include "results/schema.hpp"
+#include "results/write_lock.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto between_commits = std::chrono::milliseconds(500);
+/// Samples of a point follow one another from this many times its number on.
+constexpr std::int64_t samples_of_a_point = std::int64_t{1} << 24;
+
+std::string text_of(RunStatus status) {
+    return status == RunStatus::complete ? "complete" : "unfinished";
+}
+
+Label label_named(const std::string& name) {
+    for (int i = 0; i <= static_cast<int>(Label::failed); ++i)
+        if (name == name_of(static_cast<Label>(i)))
+            return static_cast<Label>(i);
+    return Label::failed;
+}
+
+Ending ending_named(const std::string& name) {
+    for (int i = 0; i <= static_cast<int>(Ending::step_limit); ++i)
+        if (name == name_of(static_cast<Ending>(i)))
+            return static_cast<Ending>(i);
+    return Ending::running;
+}
+
+std::size_t index_of(const std::vector<std::string>& names, const std::string& name) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+void check_name(const RunRecord& run) {
+    const bool valid = !run.name.empty() && std::all_of(run.name.begin(), run.name.end(), [](unsigned char c) {
+        return std::isalnum(c) || c == '.' || c == '_' || c == '-';
+    });
+    if (!valid)
+        throw InputError(fmt::format("'{}' cannot be the name of a run", run.name),
+                         "use letters, digits, '.', '_' and '-'");
+}
+
+} // namespace
+
+struct ResultFile::State {
+    std::unique_ptr<WriteLock> lock; ///< outlives the connection
+    Database database;
+    bool in_transaction = false;
+    Clock::time_point begun{};
+    struct Writer {
+        RunRecord run;
+        RunTables tables;
+        Statement point, sample, multiplier;
+    };
+    std::unique_ptr<Writer> writer; ///< of the run that was written to last
+
+    void begin() {
+        if (in_transaction)
+            return;
+        database.execute("BEGIN IMMEDIATE");
+        in_transaction = true;
+        begun = Clock::now();
+    }
+    void commit() {
+        if (!in_transaction)
+            return;
+        database.execute("COMMIT");
+        in_transaction = false;
+    }
+    /// Runs several statements as one. @param change is given nothing
+    template <class Change>
+    void at_once(Change change) {
+        commit();
+        database.execute("BEGIN IMMEDIATE");
+        try {
+            change();
+            database.execute("COMMIT");
+        } catch (...) {
+            sqlite_rollback();
+            throw;
+        }
+    }
+    void sqlite_rollback() noexcept {
+        try {
+            database.execute("ROLLBACK");
+        } catch (...) { // the error that led here has ended the transaction already
+        }
+        in_transaction = false;
+    }
+};
+
+ResultFile::ResultFile(const std::string& path, Access access) {
+    const bool writing = access == Access::write;
+    if (!writing && !std::filesystem::exists(path))
+        throw InputError(Place{path, 0, 0}, "there is no such result file",
+                         "graze run STUDY makes one, in the folder that --output names");
+    auto lock = writing ? std::make_unique<WriteLock>(path) : nullptr;
+    state_ = std::make_unique<State>(State{std::move(lock), Database(path, writing), false, {}, nullptr});
+    const Database& database = state_->database;
+    Statement application = database.prepare("PRAGMA application_id"),
+              version = database.prepare("PRAGMA user_version");
+    Statement tables = database.prepare("SELECT count(*) FROM sqlite_master");
+    application.step();
+    version.step();
+    tables.step();
+    const bool empty = tables.integer(0) == 0;
+    if (empty && !writing)
+        throw InputError(Place{path, 0, 0}, "the result file is empty", "run the study first");
+    if (!empty && application.integer(0) != result_application)
+        throw InputError(Place{path, 0, 0}, "this is no result file of graze",
+                         "give the results.sqlite of a study, or its folder");
+    if (!empty && version.integer(0) != result_format)
+        throw InputError(Place{path, 0, 0},
+                         fmt::format("the result file has format {}, this version of graze knows format {}",
+                                     version.integer(0), result_format),
+                         "use the version of graze that wrote it, or run the study into another folder");
+    if (!writing)
+        return;
+    if (empty)
+        database.execute("PRAGMA page_size = 8192");
+    database.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA cache_size = -32768; "
+                     "PRAGMA wal_autocheckpoint = 4096");
+    if (empty)
+        state_->at_once([&] {
+            database.execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}; {}", result_application,
+                                         result_format, common_tables()));
+        });
+}
+
+ResultFile::~ResultFile() {
+    if (!state_)
+        return;
+    try {
+        flush();
+    } catch (...) { // whoever wants to know has called flush
+        state_->sqlite_rollback();
+    }
+    state_->writer.reset();
+}
+
+const std::string& ResultFile::path() const {
+    return state_->database.path();
+}
+
+void ResultFile::flush() {
+    try {
+        state_->commit();
+    } catch (...) {
+        state_->sqlite_rollback();
+        throw;
+    }
+}
+
+std::vector<RunRecord> ResultFile::runs() const {
+    const Database& database = state_->database;
+    std::vector<RunRecord> runs;
+    Statement rows = database.prepare("SELECT name, kind, status, points, model_name, model, settings, fingerprint, "
+                                      "version FROM runs ORDER BY number");
+    while (rows.step()) {
+        RunRecord run;
+        run.name = rows.text(0);
+        run.kind = rows.text(1);
+        run.status = rows.text(2) == "complete" ? RunStatus::complete : RunStatus::unfinished;
+        run.points = static_cast<std::size_t>(rows.integer(3));
+        run.model_name = rows.text(4);
+        run.model = rows.text(5);
+        run.settings = rows.text(6);
+        run.fingerprint = rows.text(7);
+        run.version = rows.text(8);
+        Statement columns = database.prepare("SELECT place, name, unit FROM columns WHERE run = ? ORDER BY position");
+        columns.bind(1, std::string_view(run.name));
+        while (columns.step()) {
+            const std::string place = columns.text(0);
+            auto& list = place == "coordinate" ? run.coordinates : place == "state" ? run.states : run.values;
+            list.push_back({columns.text(1), columns.text(2)});
+        }
+        Statement names = database.prepare("SELECT what, name FROM names WHERE run = ? ORDER BY position");
+        names.bind(1, std::string_view(run.name));
+        while (names.step()) {
+            const std::string what = names.text(0);
+            (what == "sampling" ? run.samplings : what == "mode" ? run.modes : run.directions).push_back(names.text(1));
+        }
+        runs.push_back(std::move(run));
+    }
+    return runs;
+}
+
+std::optional<RunRecord> ResultFile::find_run(const std::string& name) const {
+    for (RunRecord& run : runs())
+        if (run.name == name)
+            return std::move(run);
+    return std::nullopt;
+}
+
+void ResultFile::remove_run(const std::string& name) {
+    const auto run = find_run(name);
+    if (!run)
+        return;
+    state_->writer.reset();
+    state_->at_once([&] {
+        const Database& database = state_->database;
+        const RunTables tables(*run);
+        // The views name the tables, and are made anew without them.
+        database.execute(views({}));
+        database.execute(fmt::format("DROP TABLE {}; DROP TABLE {}", tables.points, tables.samples));
+        for (const char* table : {"columns", "names", "multipliers"})
+            database.prepare(fmt::format("DELETE FROM {} WHERE run = ?", table)).bind(1, std::string_view(name)).run();
+        database.prepare("DELETE FROM runs WHERE name = ?").bind(1, std::string_view(name)).run();
+        database.execute(views(runs()));
+    });
+}
+
+void ResultFile::begin_run(const RunRecord& run) {
+    check_name(run);
+    remove_run(run.name);
+    state_->at_once([&] {
+        const Database& database = state_->database;
+        const RunTables tables(run);
+        database.execute(tables.create());
+        database
+            .prepare("INSERT INTO runs(name, kind, status, points, model_name, model, settings, fingerprint, version) "
+                     "VALUES(?,?,?,?,?,?,?,?,?)")
+            .bind(1, std::string_view(run.name))
+            .bind(2, std::string_view(run.kind))
+            .bind(3, std::string_view("unfinished"))
+            .bind(4, run.points)
+            .bind(5, std::string_view(run.model_name))
+            .bind(6, std::string_view(run.model))
+            .bind(7, std::string_view(run.settings))
+            .bind(8, std::string_view(run.fingerprint))
+            .bind(9, std::string_view(run.version))
+            .run();
+        Statement column = database.prepare("INSERT INTO columns VALUES(?,?,?,?,?,?)");
+        const auto add = [&](std::string_view place, const std::vector<ResultColumn>& list,
+                             const std::vector<std::string>& names) {
+            for (std::size_t i = 0; i < list.size(); ++i)
+                column.bind(1, std::string_view(run.name))
+                    .bind(2, place)
+                    .bind(3, i)
+                    .bind(4, std::string_view(list[i].name))
+                    .bind(5, std::string_view(list[i].unit))
+                    .bind(6, std::string_view(names[i]))
+                    .run();
+        };
+        add("coordinate", run.coordinates, tables.coordinates);
+        add("state", run.states, tables.states);
+        add("value", run.values, tables.values);
+        Statement name = database.prepare("INSERT INTO names VALUES(?,?,?,?)");
+        const auto add_names = [&](std::string_view what, const std::vector<std::string>& list) {
+            for (std::size_t i = 0; i < list.size(); ++i)
+                name.bind(1, std::string_view(run.name))
+                    .bind(2, what)
+                    .bind(3, i)
+                    .bind(4, std::string_view(list[i]))
+                    .run();
+        };
+        add_names("sampling", run.samplings);
+        add_names("mode", run.modes);
+        add_names("direction", run.directions);
+        database.execute(views(runs()));
+    });
+}
+
+namespace {
+
+void write_point(Statement& statement, const RunRecord& run, const PointRecord& point) {
+    const PointResult& result = point.result;
+    const std::string direction = point.direction < run.directions.size() ? run.directions[point.direction] : "";
+    const std::string_view label = name_of(result.label), ending = name_of(result.outcome.ending);
+    statement.bind(1, point.number).bind(2, point.chain).bind(3, std::string_view(direction));
+    int at = 4;
+    for (const double coordinate : point.coordinates)
+        statement.bind(at++, coordinate);
+    statement.bind(at++, label);
+    const bool periodic = result.label == Label::periodic;
+    periodic ? statement.bind(at, result.period) : statement.bind_null(at);
+    periodic ? statement.bind(at + 1, result.duration) : statement.bind_null(at + 1);
+    periodic ? statement.bind(at + 2, std::string_view(result.signature)) : statement.bind_null(at + 2);
+    result.symmetric ? statement.bind(at + 3, std::int64_t{*result.symmetric}) : statement.bind_null(at + 3);
+    result.multipliers.empty() ? statement.bind_null(at + 4)
+                               : statement.bind(at + 4, std::abs(result.multipliers.front()));
+    result.lyapunov ? statement.bind(at + 5, *result.lyapunov) : statement.bind_null(at + 5);
+    result.lyapunov_error ? statement.bind(at + 6, *result.lyapunov_error) : statement.bind_null(at + 6);
+    periodic ? statement.bind(at + 7, result.residual) : statement.bind_null(at + 7);
+    statement.bind(at + 8, result.cycles).bind(at + 9, result.periods_run).bind(at + 10, result.time);
+    result.mode < run.modes.size() ? statement.bind(at + 11, std::string_view(run.modes[result.mode]))
+                                   : statement.bind_null(at + 11);
+    statement.bind(at + 12, ending).bind(at + 13, result.outcome.time);
+    statement.bind(at + 14, std::string_view(result.outcome.detail));
+    at += 15;
+    for (const double value : result.state)
+        statement.bind(at++, value);
+    statement.run();
+}
+
+PointRecord read_point(const Statement& row, const RunRecord& run) {
+    PointRecord point;
+    point.number = static_cast<std::size_t>(row.integer(0));
+    point.chain = static_cast<std::size_t>(row.integer(1));
+    point.direction = index_of(run.directions, row.text(2));
+    int at = 3;
+    for (std::size_t i = 0; i < run.coordinates.size(); ++i)
+        point.coordinates.push_back(row.number(at++));
+    PointResult& result = point.result;
+    result.label = label_named(row.text(at));
+    result.period = static_cast<std::size_t>(row.integer(at + 1));
+    result.duration = row.number(at + 2);
+    result.signature = row.text(at + 3);
+    if (!row.is_null(at + 4))
+        result.symmetric = row.integer(at + 4) != 0;
+    if (!row.is_null(at + 6))
+        result.lyapunov = row.number(at + 6);
+    if (!row.is_null(at + 7))
+        result.lyapunov_error = row.number(at + 7);
+    result.residual = row.number(at + 8);
+    result.cycles = static_cast<std::size_t>(row.integer(at + 9));
+    result.periods_run = static_cast<std::size_t>(row.integer(at + 10));
+    result.time = row.number(at + 11);
+    result.mode = index_of(run.modes, row.text(at + 12));
+    result.outcome.ending = ending_named(row.text(at + 13));
+    result.outcome.time = row.number(at + 14);
+    result.outcome.detail = row.text(at + 15);
+    at += fixed_point_columns;
+    for (std::size_t i = 0; i < run.states.size(); ++i)
+        result.state.push_back(row.is_null(at + static_cast<int>(i)) ? std::numeric_limits<double>::quiet_NaN()
+                                                                     : row.number(at + static_cast<int>(i)));
+    return point;
+}
+
+} // namespace
+
+void ResultFile::add_point(const std::string& name, const PointRecord& point) {
+    if (!state_->writer || state_->writer->run.name != name) {
+        const auto run = find_run(name);
+        if (!run)
+            throw InputError(fmt::format("there is no run '{}'", name), "begin it first");
+        const RunTables tables(*run);
+        const Database& database = state_->database;
+        state_->writer = std::make_unique<State::Writer>(State::Writer{
+            *run, tables, database.prepare(tables.insert_point()), database.prepare(tables.insert_sample()),
+            database.prepare("INSERT INTO multipliers VALUES(?,?,?,?,?)")});
+    }
+    auto& [run, tables, insert_point, insert_sample, insert_multiplier] = *state_->writer;
+    const PointResult& result = point.result;
+    if (point.coordinates.size() != run.coordinates.size() || result.state.size() != run.states.size() ||
+        (result.samples.size() > 0 && result.samples.width != run.values.size()))
+        throw InputError(fmt::format("a point does not fit run '{}'", name), "give a value for each of its columns");
+    state_->begin();
+    try {
+        write_point(insert_point, run, point);
+        const SampleSet& samples = result.samples;
+        const auto first = static_cast<std::int64_t>(point.number) * samples_of_a_point;
+        for (std::size_t s = 0; s < samples.size(); ++s) {
+            insert_sample.bind(1, first + static_cast<std::int64_t>(s))
+                .bind(2, point.number)
+                .bind(3, std::string_view(run.samplings[samples.samplings[s]]))
+                .bind(4, samples.times[s]);
+            for (std::size_t v = 0; v < samples.width; ++v)
+                insert_sample.bind(5 + static_cast<int>(v), samples.values[s * samples.width + v]);
+            insert_sample.run();
+        }
+        for (std::size_t m = 0; m < result.multipliers.size(); ++m)
+            insert_multiplier.bind(1, std::string_view(name))
+                .bind(2, point.number)
+                .bind(3, m)
+                .bind(4, result.multipliers[m].real())
+                .bind(5, result.multipliers[m].imag())
+                .run();
+        if (Clock::now() - state_->begun > between_commits)
+            state_->commit();
+    } catch (...) {
+        state_->sqlite_rollback();
+        state_->writer.reset();
+        throw;
+    }
+}
+
+void ResultFile::complete_run(const std::string& name) {
+    state_->begin();
+    state_->database.prepare("UPDATE runs SET status = ? WHERE name = ?")
+        .bind(1, std::string_view(text_of(RunStatus::complete)))
+        .bind(2, std::string_view(name))
+        .run();
+    flush();
+}
+
+std::size_t ResultFile::point_count(const std::string& name) const {
+    const auto run = find_run(name);
+    if (!run)
+        return 0;
+    Statement rows = state_->database.prepare("SELECT count(*) FROM " + RunTables(*run).points);
+    rows.step();
+    return static_cast<std::size_t>(rows.integer(0));
+}
+
+std::vector<PointRecord> ResultFile::last_points(const std::string& name, std::size_t chain_length) const {
+    std::vector<PointRecord> points;
+    const auto run = find_run(name);
+    if (!run || chain_length == 0)
+        return points;
+    const RunTables tables(*run);
+    Statement rows = state_->database.prepare(
+        fmt::format("{0} WHERE number IN (SELECT max(number) FROM {1} GROUP BY number / {2}) ORDER BY number",
+                    tables.select_point(), tables.points, chain_length));
+    while (rows.step())
+        points.push_back(read_point(rows, *run));
+    return points;
+}
+
+std::optional<PointRecord> ResultFile::point(const std::string& name, std::size_t number) const {
+    const auto run = find_run(name);
+    if (!run)
+        return std::nullopt;
+    const RunTables tables(*run);
+    Statement row = state_->database.prepare(tables.select_point() + " WHERE number = ?");
+    row.bind(1, number);
+    if (!row.step())
+        return std::nullopt;
+    PointRecord point = read_point(row, *run);
+    SampleSet& samples = point.result.samples;
+    samples.width = run->values.size();
+    Statement rows = state_->database.prepare(
+        fmt::format("SELECT * FROM {} WHERE rowid >= ?1 AND rowid < ?2 ORDER BY rowid", tables.samples));
+    const auto first = static_cast<std::int64_t>(number) * samples_of_a_point;
+    rows.bind(1, first).bind(2, first + samples_of_a_point);
+    while (rows.step()) {
+        samples.samplings.push_back(index_of(run->samplings, rows.text(1)));
+        samples.times.push_back(rows.number(2));
+        for (std::size_t v = 0; v < samples.width; ++v)
+            samples.values.push_back(rows.number(3 + static_cast<int>(v)));
+    }
+    Statement multipliers = state_->database.prepare(
+        "SELECT real, imaginary FROM multipliers WHERE run = ? AND point = ? ORDER BY position");
+    multipliers.bind(1, std::string_view(name)).bind(2, number);
+    while (multipliers.step())
+        point.result.multipliers.emplace_back(multipliers.number(0), multipliers.number(1));
+    return point;
+}
+
+std::optional<PointRecord> ResultFile::nearest_point(const std::string& name, const std::string& coordinate,
+                                                     double value, std::optional<std::size_t> direction) const {
+    const auto run = find_run(name);
+    if (!run)
+        return std::nullopt;
+    const RunTables tables(*run);
+    for (std::size_t i = 0; i < run->coordinates.size(); ++i) {
+        if (run->coordinates[i].name != coordinate)
+            continue;
+        const std::string direction_name =
+            direction && *direction < run->directions.size() ? run->directions[*direction] : "";
+        Statement row = state_->database.prepare(fmt::format("SELECT number FROM {} WHERE ?2 = '' OR direction = ?2 "
+                                                             "ORDER BY abs({} - ?1), number LIMIT 1",
+                                                             tables.points, quoted_name(tables.coordinates[i])));
+        row.bind(1, value).bind(2, std::string_view(direction_name));
+        if (!row.step())
+            return std::nullopt;
+        return point(name, static_cast<std::size_t>(row.integer(0)));
+    }
+    return std::nullopt;
+}
+
+struct ResultFile::Rows::State {
+    Statement statement;
+};
+ResultFile::Rows::Rows(std::unique_ptr<State> state) : state_(std::move(state)) {}
+ResultFile::Rows::~Rows() = default;
+ResultFile::Rows::Rows(Rows&&) noexcept = default;
+bool ResultFile::Rows::next() {
+    return state_->statement.step();
+}
+std::size_t ResultFile::Rows::columns() const {
+    return static_cast<std::size_t>(state_->statement.columns());
+}
+std::string ResultFile::Rows::column_name(std::size_t column) const {
+    return state_->statement.name(static_cast<int>(column));
+}
+bool ResultFile::Rows::is_null(std::size_t column) const {
+    return state_->statement.is_null(static_cast<int>(column));
+}
+bool ResultFile::Rows::is_text(std::size_t column) const {
+    return state_->statement.type(static_cast<int>(column)) == SQLITE_TEXT;
+}
+bool ResultFile::Rows::is_integer(std::size_t column) const {
+    return state_->statement.type(static_cast<int>(column)) == SQLITE_INTEGER;
+}
+double ResultFile::Rows::number(std::size_t column) const {
+    return state_->statement.number(static_cast<int>(column));
+}
+std::int64_t ResultFile::Rows::integer(std::size_t column) const {
+    return state_->statement.integer(static_cast<int>(column));
+}
+std::string ResultFile::Rows::text(std::size_t column) const {
+    return state_->statement.text(static_cast<int>(column));
+}
+
+ResultFile::Rows ResultFile::query(const std::string& sql, const std::vector<double>& values) const {
+    auto state = std::make_unique<Rows::State>(Rows::State{state_->database.prepare(sql)});
+    for (std::size_t i = 0; i < values.size(); ++i)
+        state->statement.bind(static_cast<int>(i) + 1, values[i]);
+    return Rows(std::move(state));
+}
+
+} // namespace graze

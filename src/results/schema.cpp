@@ -1,0 +1,136 @@
+#include "results/schema.hpp"
+
+#include "results/database.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+namespace graze {
+
+namespace {
+
+constexpr const char* fixed_columns = "label TEXT, period INTEGER, duration REAL, signature TEXT, symmetric INTEGER, "
+                                      "multiplier REAL, lyapunov REAL, lyapunov_error REAL, residual REAL, "
+                                      "cycles INTEGER, returns INTEGER, time REAL, mode TEXT, ending TEXT, "
+                                      "ending_time REAL, detail TEXT";
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+/// The name, with a number behind it if another column has it already; SQL does not tell upper and lower case apart.
+std::string distinct(const std::string& name, std::set<std::string>& taken) {
+    std::string result = name;
+    for (int i = 2; !taken.insert(lower(result)).second; ++i)
+        result = fmt::format("{}_{}", name, i);
+    return result;
+}
+
+std::string columns_of(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names)
+        text += ", " + quoted_name(name) + " REAL";
+    return text;
+}
+
+std::string placeholders(std::size_t count) {
+    std::string text = "?";
+    for (std::size_t i = 1; i < count; ++i)
+        text += ",?";
+    return text;
+}
+
+} // namespace
+
+std::string common_tables() {
+    return R"(
+CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;
+CREATE TABLE runs(number INTEGER PRIMARY KEY, name TEXT UNIQUE, kind TEXT, status TEXT, points INTEGER,
+                  model_name TEXT, model TEXT, settings TEXT, fingerprint TEXT, version TEXT);
+CREATE TABLE columns(run TEXT, place TEXT, position INTEGER, name TEXT, unit TEXT, column_name TEXT,
+                     PRIMARY KEY(run, place, position)) WITHOUT ROWID;
+CREATE TABLE names(run TEXT, what TEXT, position INTEGER, name TEXT, PRIMARY KEY(run, what, position)) WITHOUT ROWID;
+CREATE TABLE multipliers(run TEXT, point INTEGER, position INTEGER, real REAL, imaginary REAL,
+                         PRIMARY KEY(run, point, position)) WITHOUT ROWID;
+)";
+}
+
+std::string views(const std::vector<RunRecord>& runs) {
+    std::string all;
+    for (const RunRecord& run : runs) {
+        const RunTables tables(run);
+        std::string name;
+        for (const char c : run.name)
+            name += c == '\'' ? std::string("''") : std::string(1, c);
+        const std::string coordinate = tables.coordinates.empty() ? "NULL" : quoted_name(tables.coordinates.front());
+        all +=
+            fmt::format("{}SELECT '{}' AS run, number, chain, direction, {} AS coordinate, label, period, duration, "
+                        "signature, symmetric, multiplier, lyapunov, lyapunov_error, residual, cycles, returns, time, "
+                        "mode, ending, ending_time FROM {}",
+                        all.empty() ? "" : " UNION ALL ", name, coordinate, tables.points);
+    }
+    std::string text =
+        "DROP VIEW IF EXISTS label_changes; DROP VIEW IF EXISTS orbits; DROP VIEW IF EXISTS label_counts; "
+        "DROP VIEW IF EXISTS all_points; ";
+    if (all.empty())
+        return text;
+    return text + "CREATE VIEW all_points AS " + all + R"(;
+CREATE VIEW orbits AS SELECT run, number, direction, coordinate, period, duration, signature, symmetric, multiplier,
+    residual FROM all_points WHERE label = 'periodic';
+CREATE VIEW label_counts AS SELECT run, direction, label, period, symmetric, count(*) AS points FROM all_points
+    GROUP BY run, direction, label, period, symmetric;
+CREATE VIEW label_changes AS SELECT run, chain, direction, coordinate_before, coordinate, label_before, label,
+    period_before, period, symmetric_before, symmetric FROM (
+    SELECT run, number, chain, direction, coordinate, label, period, symmetric,
+        lag(coordinate) OVER chains AS coordinate_before, lag(label) OVER chains AS label_before,
+        lag(period) OVER chains AS period_before, lag(symmetric) OVER chains AS symmetric_before,
+        lag(direction) OVER chains AS direction_before
+    FROM all_points WINDOW chains AS (PARTITION BY run, chain ORDER BY number))
+    WHERE direction_before = direction
+      AND (label IS NOT label_before OR period IS NOT period_before OR symmetric IS NOT symmetric_before);
+)";
+}
+
+RunTables::RunTables(const RunRecord& run)
+    : points(quoted_name("points_" + run.name)), samples(quoted_name("samples_" + run.name)) {
+    std::set<std::string> taken{"number",         "chain",     "direction",   "label",      "period",
+                                "duration",       "signature", "symmetric",   "multiplier", "lyapunov",
+                                "lyapunov_error", "residual",  "cycles",      "returns",    "time",
+                                "mode",           "ending",    "ending_time", "detail"};
+    for (const ResultColumn& column : run.coordinates)
+        coordinates.push_back(distinct(column.name, taken));
+    for (const ResultColumn& column : run.states)
+        states.push_back(distinct("end_" + column.name, taken));
+    taken = {"point", "sampling", "time", "rowid"};
+    for (const ResultColumn& column : run.values)
+        values.push_back(distinct(column.name, taken));
+}
+
+std::string RunTables::create() const {
+    return fmt::format("CREATE TABLE {}(number INTEGER PRIMARY KEY, chain INTEGER, direction TEXT{}, {}{});"
+                       "CREATE TABLE {}(point INTEGER, sampling TEXT, time REAL{});",
+                       points, columns_of(coordinates), fixed_columns, columns_of(states), samples, columns_of(values));
+}
+
+std::string RunTables::insert_point() const {
+    return fmt::format("INSERT INTO {} VALUES({})", points,
+                       placeholders(3 + coordinates.size() + fixed_point_columns + states.size()));
+}
+
+std::string RunTables::insert_sample() const {
+    std::string names = "rowid, point, sampling, time";
+    for (const std::string& value : values)
+        names += ", " + quoted_name(value);
+    return fmt::format("INSERT INTO {}({}) VALUES({})", samples, names, placeholders(4 + values.size()));
+}
+
+std::string RunTables::select_point() const {
+    return "SELECT * FROM " + points;
+}
+
+} // namespace graze

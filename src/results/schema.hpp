@@ -1,0 +1,34 @@
+#pragma once
+
+#include "graze/results/result_file.hpp"
+
+#include <string>
+#include <vector>
+
+namespace graze {
+
+/// Format of result files that this version writes.
+constexpr int result_format = 1;
+constexpr int result_application = 0x67727a31; ///< "grz1", for tools that recognise files by it
+
+/// Tables that every file has.
+std::string common_tables();
+/// Views over all runs, to be made anew whenever runs change.
+std::string views(const std::vector<RunRecord>& runs);
+
+/// Columns of a run's tables, in their order.
+struct RunTables {
+    explicit RunTables(const RunRecord& run);
+
+    std::string points, samples;                          ///< quoted names of the tables
+    std::vector<std::string> coordinates, states, values; ///< names of columns, unquoted
+    std::string create() const;
+    std::string insert_point() const;
+    std::string insert_sample() const;
+    std::string select_point() const; ///< columns as insert_point has them
+};
+
+/// Columns between the coordinates and the final states.
+constexpr int fixed_point_columns = 16;
+
+} // namespace graze

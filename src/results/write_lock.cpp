@@ -1,0 +1,31 @@
+#include "results/write_lock.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace graze {
+
+WriteLock::WriteLock(const std::string& path) : path_(path + ".lock") {
+    file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (file_ < 0)
+        throw InputError(Place{path, 0, 0}, std::string("it cannot be written (") + std::strerror(errno) + ")",
+                         "look at the permissions of the folder, or choose another one by --output");
+    if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+        ::close(file_);
+        throw InputError(Place{path, 0, 0}, "another graze writes to this result file",
+                         "wait until it has ended, or choose another folder by --output");
+    }
+}
+
+WriteLock::~WriteLock() {
+    // The file stays: were it removed, a process that has just opened it would lock what nobody else can see.
+    ::close(file_);
+}
+
+} // namespace graze

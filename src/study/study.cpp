@@ -1,0 +1,172 @@
+#include "graze/study/study.hpp"
+
+#include "study/study_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace graze {
+
+std::string_view name_of(RunKind kind) {
+    switch (kind) {
+    case RunKind::simulate:
+        return "simulate";
+    case RunKind::sweep:
+        return "sweep";
+    case RunKind::basin:
+        return "basin";
+    }
+    return "simulate";
+}
+
+namespace {
+
+/// Each run after the one that it starts from, otherwise as in the file.
+std::vector<StudyRun> in_order(std::vector<StudyRun> runs) {
+    std::vector<std::string> names;
+    for (const StudyRun& run : runs)
+        names.push_back(run.name);
+    for (const StudyRun& run : runs)
+        if (run.start && std::find(names.begin(), names.end(), run.start->run) == names.end())
+            throw InputError(run.start->place, fmt::format("the study has no run '{}'", run.start->run),
+                             study_name_remedy(run.start->run, names));
+    std::vector<StudyRun> ordered;
+    const auto is_done = [&](const std::string& name) {
+        return std::any_of(ordered.begin(), ordered.end(), [&](const StudyRun& run) { return run.name == name; });
+    };
+    while (!runs.empty()) {
+        const auto next = std::find_if(runs.begin(), runs.end(),
+                                       [&](const StudyRun& run) { return !run.start || is_done(run.start->run); });
+        if (next == runs.end())
+            throw InputError(runs.front().start->place,
+                             fmt::format("run '{}' starts from itself, by way of others", runs.front().name),
+                             "let one of them start by itself");
+        ordered.push_back(std::move(*next));
+        runs.erase(next);
+    }
+    return ordered;
+}
+
+void check_pictures(const Study& study) {
+    std::vector<std::string> names;
+    for (const StudyRun& run : study.runs)
+        names.push_back(run.name);
+    for (const StudyPicture& picture : study.pictures)
+        for (const std::string& run : picture.runs)
+            if (std::find(names.begin(), names.end(), run) == names.end())
+                throw InputError(picture.place, fmt::format("the study has no run '{}'", run),
+                                 study_name_remedy(run, names));
+}
+
+} // namespace
+
+StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
+    const Model none;
+    StudyPicture picture;
+    picture.name = entry.name;
+    picture.place = entry.place;
+    for (const TomlEntry& item :
+         reader.toml().entries(reader.toml().table(entry), entry.path,
+                               {"kind", "title", "run", "runs", "x", "y", "samples", "directions", "x_range", "y_range",
+                                "fit", "at", "logarithmic", "format", "successive", "group"})) {
+        const std::string& key = item.name;
+        if (key == "kind") {
+            const std::vector<std::string> kinds{"bifurcation", "basin",      "spectrum", "history",
+                                                 "portrait",    "regression", "scatter"};
+            picture.kind = kinds[reader.choice(item, kinds)];
+        } else if (key == "title") {
+            picture.title = reader.toml().string(item);
+        } else if (key == "run" || key == "runs") {
+            picture.runs = reader.strings(item);
+        } else if (key == "x") {
+            picture.x = reader.toml().string(item);
+        } else if (key == "y") {
+            picture.y = reader.strings(item);
+        } else if (key == "samples") {
+            picture.samplings = reader.strings(item);
+        } else if (key == "directions") {
+            picture.directions = reader.strings(item);
+        } else if (key == "x_range") {
+            picture.x_range = reader.range(none, item);
+        } else if (key == "y_range") {
+            picture.y_range = reader.range(none, item);
+        } else if (key == "fit") {
+            picture.fit = reader.range(none, item);
+        } else if (key == "at") {
+            for (const TomlEntry& at : reader.toml().entries(reader.toml().table(item), item.path))
+                picture.at.emplace_back(at.name, reader.number(none, at));
+        } else if (key == "logarithmic") {
+            for (const std::string& axis : reader.strings(item)) {
+                picture.logarithmic_x = picture.logarithmic_x || axis == "x";
+                picture.logarithmic_y = picture.logarithmic_y || axis == "y";
+                if (axis != "x" && axis != "y")
+                    reader.fail(item, fmt::format("there is no axis '{}'", axis), "name x, y or both");
+            }
+        } else if (key == "successive") {
+            picture.successive = reader.toml().boolean(item);
+        } else if (key == "group") {
+            picture.group = reader.toml().string(item);
+        } else {
+            const std::vector<std::string> formats{"png", "svg", "pdf"};
+            picture.format = formats[reader.choice(item, formats)];
+        }
+    }
+    if (picture.runs.empty())
+        throw InputError(entry.place, fmt::format("{} shows no run", entry.path), "give run = \"NAME\"");
+    return picture;
+}
+
+Study parse_study(std::string_view text, const std::string& file) {
+    const toml::table root = parse_toml(text, file);
+    const StudyReader reader(file);
+    const TomlReader& toml = reader.toml();
+    Study study;
+    study.file = file;
+    StudyDefaults defaults;
+    std::optional<TomlEntry> runs, pictures;
+    for (const TomlEntry& entry :
+         toml.entries(root, "", {"name", "text", "source", "model", "set", "values", "runs", "pictures"})) {
+        if (entry.name == "name")
+            study.name = toml.string(entry);
+        else if (entry.name == "text")
+            study.text = toml.string(entry);
+        else if (entry.name == "source")
+            study.source = toml.string(entry);
+        else if (entry.name == "model") {
+            defaults.model = toml.string(entry);
+            defaults.model_place = toml.place(*entry.node);
+        } else if (entry.name == "set")
+            defaults.set = entry;
+        else if (entry.name == "values")
+            defaults.values = entry;
+        else
+            (entry.name == "runs" ? runs : pictures) = entry;
+    }
+    if (study.name.empty())
+        throw InputError(Place{file, 1, 1}, "the study has no name", "give name = \"...\" in its first line");
+    if (!runs)
+        throw InputError(Place{file, 1, 1}, "the study has no runs", "add a table [runs.NAME]");
+    for (const TomlEntry& entry : toml.entries(toml.table(*runs), "runs"))
+        study.runs.push_back(read_run(reader, entry, defaults));
+    if (study.runs.empty())
+        throw InputError(runs->place, "the study has no runs", "add a table [runs.NAME]");
+    study.runs = in_order(std::move(study.runs));
+    if (pictures)
+        for (const TomlEntry& entry : toml.entries(toml.table(*pictures), "pictures"))
+            study.pictures.push_back(read_picture(reader, entry));
+    check_pictures(study);
+    return study;
+}
+
+Study read_study(const std::string& path) {
+    std::ifstream stream(path, std::ios::binary);
+    std::ostringstream text;
+    if (!stream || !(text << stream.rdbuf()))
+        throw InputError(Place{path, 0, 0}, "the study cannot be read", "check the path and the permissions");
+    return parse_study(text.str(), path);
+}
+
+} // namespace graze

@@ -1,0 +1,214 @@
+#include "study/study_reader.hpp"
+
+#include "graze/symbolic/parser.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+std::string study_name_remedy(const std::string& name, const std::vector<std::string>& known) {
+    if (known.empty())
+        return "there are none";
+    const std::string nearest = nearest_name(name, known);
+    return nearest.empty() ? fmt::format("known are: {}", fmt::join(known, ", "))
+                           : fmt::format("did you mean '{}'?", nearest);
+}
+
+void StudyReader::fail(const TomlEntry& entry, const std::string& problem, const std::string& remedy) const {
+    throw InputError(toml_.place(*entry.node), problem, remedy);
+}
+
+Place StudyReader::inside(const TomlEntry& entry) const {
+    Place place = toml_.place(*entry.node);
+    ++place.column;
+    return place;
+}
+
+double StudyReader::number(const Model& model, const TomlEntry& entry) const {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    if (const auto* integer = entry.node->as_integer())
+        value = static_cast<double>(integer->get());
+    else if (const auto* real = entry.node->as_floating_point())
+        value = real->get();
+    else if (entry.node->is_string())
+        return value_of_text(model, toml_.string(entry), inside(entry));
+    else
+        toml_.fail_type(entry, "a number or an expression");
+    if (!std::isfinite(value))
+        fail(entry, fmt::format("{} is not a finite number", entry.path), "give a finite number");
+    return value;
+}
+
+double StudyReader::positive(const Model& model, const TomlEntry& entry) const {
+    const double value = number(model, entry);
+    if (!(value > 0))
+        fail(entry, fmt::format("{} is {}, not positive", entry.path, value), "give a positive number");
+    return value;
+}
+
+std::size_t StudyReader::count(const TomlEntry& entry, std::size_t least) const {
+    const auto* integer = entry.node->as_integer();
+    if (!integer)
+        toml_.fail_type(entry, "a whole number");
+    if (integer->get() < static_cast<std::int64_t>(least) || integer->get() > 1'000'000'000)
+        fail(entry, fmt::format("{} is {}", entry.path, integer->get()),
+             fmt::format("give a whole number from {} to 1000000000", least));
+    return static_cast<std::size_t>(integer->get());
+}
+
+std::pair<double, double> StudyReader::range(const Model& model, const TomlEntry& entry) const {
+    const auto items = toml_.elements(entry);
+    if (items.size() != 2)
+        fail(entry, fmt::format("{} has {} items", entry.path, items.size()), "give two numbers: [least, greatest]");
+    const std::pair<double, double> result{number(model, items[0]), number(model, items[1])};
+    if (!(result.first < result.second))
+        fail(entry, fmt::format("{} goes from {} to {}", entry.path, result.first, result.second),
+             "give the smaller number first");
+    return result;
+}
+
+std::vector<std::string> StudyReader::strings(const TomlEntry& entry) const {
+    if (entry.node->is_string())
+        return {toml_.string(entry)};
+    std::vector<std::string> result;
+    for (const TomlEntry& item : toml_.elements(entry))
+        result.push_back(toml_.string(item));
+    return result;
+}
+
+std::size_t StudyReader::choice(const TomlEntry& entry, const std::vector<std::string>& words) const {
+    const std::string word = toml_.string(entry);
+    const auto found = std::find(words.begin(), words.end(), word);
+    if (found == words.end())
+        fail(entry, fmt::format("{} cannot be '{}'", entry.path, word), study_name_remedy(word, words));
+    return static_cast<std::size_t>(found - words.begin());
+}
+
+namespace {
+
+constexpr std::size_t most_values = 10'000'000;
+
+/// from + i step without the error that grows with i: where both are decimals, so is the result.
+double stepped(double from, double step, std::size_t i) {
+    const double exact = from + static_cast<double>(i) * step;
+    return std::stod(fmt::format("{:.13g}", exact));
+}
+
+void spread(const StudyReader& reader, const TomlEntry& entry, Variation& variation, double from, double to,
+            std::optional<double> step, std::size_t points) {
+    if (!(from < to))
+        reader.fail(entry, fmt::format("{} goes from {} to {}", entry.path, from, to),
+                    "let it rise; `direction` says which way a sweep goes");
+    if (step) {
+        const double count = std::floor((to - from) / *step + 1e-6) + 1;
+        if (!(count <= static_cast<double>(most_values)))
+            reader.fail(entry, fmt::format("{} has more than {} values", entry.path, most_values), "take larger steps");
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+            variation.values.push_back(stepped(from, *step, i));
+        return;
+    }
+    if (points < 2 || points > most_values)
+        reader.fail(entry, fmt::format("{} has {} points", entry.path, points), "give `step`, or 2 or more `points`");
+    for (std::size_t i = 0; i < points; ++i) {
+        const double share = static_cast<double>(i) / static_cast<double>(points - 1);
+        variation.values.push_back(i + 1 == points         ? to
+                                   : variation.logarithmic ? from * std::pow(to / from, share)
+                                                           : from + share * (to - from));
+    }
+}
+
+void read_variation_table(const StudyReader& reader, const Model& model, const TomlEntry& entry, Variation& variation,
+                          bool& random) {
+    std::optional<double> from, to, step;
+    std::size_t points = 0;
+    double offset = 0;
+    std::optional<std::pair<double, double>> draws;
+    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path,
+                                                       {"from", "to", "step", "points", "scale", "random", "offset"})) {
+        if (item.name == "from")
+            from = reader.number(model, item);
+        else if (item.name == "to")
+            to = reader.number(model, item);
+        else if (item.name == "step")
+            step = reader.positive(model, item);
+        else if (item.name == "points")
+            points = reader.count(item, 2);
+        else if (item.name == "scale")
+            variation.logarithmic = reader.choice(item, {"linear", "log"}) == 1;
+        else if (item.name == "offset")
+            offset = reader.number(model, item);
+        else
+            draws = reader.range(model, item);
+    }
+    const double least = draws ? draws->first : from.value_or(1);
+    if (variation.logarithmic && !(least > 0))
+        reader.fail(entry, fmt::format("{} begins at {} on a logarithmic scale", entry.path, least),
+                    "begin at a positive number");
+    if (draws) {
+        if (from || to || step || points)
+            reader.fail(entry, fmt::format("{} is both random and in steps", entry.path), "choose one of them");
+        random = true;
+        variation.low = draws->first;
+        variation.high = draws->second;
+        variation.offset = offset;
+        return;
+    }
+    if (!from || !to)
+        reader.fail(entry, fmt::format("{} lacks `{}`", entry.path, from ? "to" : "from"),
+                    "write { from = A, to = B, step = S }, or `points` instead of `step`");
+    if (step && (points || variation.logarithmic))
+        reader.fail(entry, fmt::format("{} has a step and {}", entry.path, points ? "points" : "a logarithmic scale"),
+                    "leave one of them out");
+    spread(reader, entry, variation, *from, *to, step, points);
+    for (double& value : variation.values)
+        value += offset;
+}
+
+} // namespace
+
+Variation read_variation(const StudyReader& reader, const Model& model, const TomlEntry& entry, bool& random) {
+    Variation variation;
+    variation.name = entry.name;
+    const auto symbols = model.parameter_symbols();
+    const auto parameter =
+        std::find_if(symbols.begin(), symbols.end(), [&](const auto& symbol) { return symbol.name() == entry.name; });
+    if (parameter != symbols.end()) {
+        variation.index = static_cast<std::size_t>(parameter - symbols.begin());
+        variation.unit = model.parameters[*model.find_parameter(entry.name)].unit;
+    } else if (const auto state = model.find_state(entry.name)) {
+        variation.is_state = true;
+        variation.index = *state;
+        variation.unit = model.states[*state].unit;
+    } else {
+        std::vector<std::string> known;
+        for (const auto& symbol : symbols)
+            known.push_back(symbol.name());
+        for (const State& item : model.states)
+            known.push_back(item.name);
+        throw InputError(entry.place,
+                         model.find_parameter(entry.name)
+                             ? fmt::format("parameter '{}' follows from others", entry.name)
+                             : fmt::format("the model has no parameter or state '{}'", entry.name),
+                         study_name_remedy(entry.name, known));
+    }
+    if (entry.node->is_array()) {
+        for (const TomlEntry& item : reader.toml().elements(entry))
+            variation.values.push_back(reader.number(model, item));
+        std::sort(variation.values.begin(), variation.values.end());
+        if (variation.values.empty() ||
+            std::adjacent_find(variation.values.begin(), variation.values.end()) != variation.values.end())
+            reader.fail(entry, fmt::format("{} is empty or has a value twice", entry.path), "list distinct values");
+    } else if (entry.node->is_table()) {
+        read_variation_table(reader, model, entry, variation, random);
+    } else {
+        variation.values.push_back(reader.number(model, entry));
+    }
+    return variation;
+}
+
+} // namespace graze

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "graze/model/named_value.hpp"
+#include "graze/study/study.hpp"
+#include "model/model_file_toml.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace graze {
+
+/// Reads what studies are made of; every mistake is an InputError with its place.
+class StudyReader {
+public:
+    explicit StudyReader(std::string file) : toml_(file), file_(std::move(file)) {}
+
+    const TomlReader& toml() const { return toml_; }
+    const std::string& file() const { return file_; }
+
+    /// A number, or an expression in the model's parameters.
+    double number(const Model& model, const TomlEntry& entry) const;
+    double positive(const Model& model, const TomlEntry& entry) const;
+    std::size_t count(const TomlEntry& entry, std::size_t least = 0) const;
+    /// Two numbers in order.
+    std::pair<double, double> range(const Model& model, const TomlEntry& entry) const;
+    std::vector<std::string> strings(const TomlEntry& entry) const;
+    /// The place of the text within a string.
+    Place inside(const TomlEntry& entry) const;
+    /// One of several words. @return its index
+    std::size_t choice(const TomlEntry& entry, const std::vector<std::string>& words) const;
+    [[noreturn]] void fail(const TomlEntry& entry, const std::string& problem, const std::string& remedy) const;
+
+private:
+    TomlReader toml_;
+    std::string file_;
+};
+
+/// What all runs of a study begin with.
+struct StudyDefaults {
+    std::string model; ///< name or path; empty: each run says its own
+    Place model_place;
+    std::optional<TomlEntry> set, values;
+};
+
+StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const StudyDefaults& defaults);
+StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry);
+/// The values of one entry of `vary`.
+Variation read_variation(const StudyReader& reader, const Model& model, const TomlEntry& entry, bool& random);
+
+/// "did you mean", or all there are.
+std::string study_name_remedy(const std::string& name, const std::vector<std::string>& known);
+
+} // namespace graze

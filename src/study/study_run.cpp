@@ -1,0 +1,372 @@
+#include "graze/model/catalogue.hpp"
+#include "graze/symbolic/parser.hpp"
+#include "study/study_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+namespace graze {
+
+namespace {
+
+Model model_of(const StudyReader& reader, const std::string& name, const Place& place) {
+    std::string path = name;
+    if (is_model_path(name) && std::filesystem::path(name).is_relative())
+        path = (std::filesystem::path(reader.file()).parent_path() / name).string();
+    try {
+        return load_model(path);
+    } catch (const InputError& error) {
+        if (!error.place().file.empty())
+            throw;
+        throw InputError(place, error.problem(), error.remedy());
+    }
+}
+
+void set_values(const StudyReader& reader, Model& model, const TomlEntry& entry, bool initial) {
+    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path)) {
+        const double value = reader.number(model, item);
+        try {
+            initial ? model.set_initial(item.name, value) : model.set_parameter(item.name, value);
+        } catch (const InputError& error) {
+            throw InputError(item.place, error.problem(), error.remedy());
+        }
+    }
+}
+
+std::size_t section_index(const StudyReader& reader, const Model& model, const TomlEntry& entry) {
+    const std::string name = reader.toml().string(entry);
+    if (const auto index = model.find_section(name))
+        return *index;
+    std::vector<std::string> known;
+    for (const Section& section : model.sections)
+        known.push_back(section.name);
+    reader.fail(entry, fmt::format("model '{}' has no section '{}'", model.name, name), study_name_remedy(name, known));
+}
+
+std::vector<std::size_t> events_of(const StudyReader& reader, const Model& model, const TomlEntry& entry) {
+    std::vector<std::size_t> events;
+    if (entry.node->is_boolean()) {
+        for (std::size_t i = 0; i < model.events.size(); ++i)
+            if (model.events[i].kind == EventKind::barrier)
+                events.push_back(i);
+        return events;
+    }
+    std::vector<std::string> known;
+    for (const Event& event : model.events)
+        known.push_back(event.name);
+    for (const std::string& name : reader.strings(entry)) {
+        const auto index = model.find_event(name);
+        if (!index)
+            reader.fail(entry, fmt::format("model '{}' has no event '{}'", model.name, name),
+                        study_name_remedy(name, known));
+        events.push_back(*index);
+    }
+    return events;
+}
+
+Sampling read_sampling(const StudyReader& reader, const Model& model, const TomlEntry& entry) {
+    Sampling sampling;
+    sampling.name = entry.name;
+    bool placed = false;
+    for (const TomlEntry& item : reader.toml().entries(
+             reader.toml().table(entry), entry.path, {"section", "maxima", "minima", "extrema", "contacts", "image"})) {
+        if (item.name == "image") {
+            const std::string name = reader.toml().string(item);
+            std::vector<std::string> known;
+            for (const Symmetry& symmetry : model.symmetries)
+                known.push_back(symmetry.name);
+            const auto found = std::find(known.begin(), known.end(), name);
+            if (found == known.end())
+                reader.fail(item, fmt::format("model '{}' declares no symmetry '{}'", model.name, name),
+                            study_name_remedy(name, known));
+            sampling.symmetry = static_cast<std::size_t>(found - known.begin());
+            continue;
+        }
+        if (placed)
+            reader.fail(entry, fmt::format("{} is taken in two places", entry.path), "make two samplings of it");
+        placed = true;
+        if (item.name == "section") {
+            sampling.section = model.sections[section_index(reader, model, item)].name;
+        } else if (item.name == "contacts") {
+            sampling.at = Sampling::At::contact;
+            sampling.events = events_of(reader, model, item);
+        } else {
+            sampling.at = Sampling::At::extremum;
+            sampling.expression = named_value(model, reader.toml().string(item), reader.inside(item)).value;
+            sampling.direction = item.name == "maxima"   ? Direction::falling
+                                 : item.name == "minima" ? Direction::rising
+                                                         : Direction::both;
+        }
+    }
+    if (!placed)
+        reader.fail(entry, fmt::format("{} does not say where", entry.path),
+                    "give one of section, maxima, minima, extrema or contacts");
+    return sampling;
+}
+
+void read_samplings(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    if (entry.node->is_table()) {
+        for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path))
+            run.samplings.push_back(read_sampling(reader, run.model, item));
+        return;
+    }
+    const auto items = entry.node->is_string() ? std::vector<TomlEntry>{entry} : reader.toml().elements(entry);
+    for (const TomlEntry& item : items) {
+        Sampling sampling;
+        sampling.section = sampling.name = run.model.sections[section_index(reader, run.model, item)].name;
+        run.samplings.push_back(sampling);
+    }
+}
+
+void read_values(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    std::set<std::string> taken;
+    const auto items = entry.node->is_string() ? std::vector<TomlEntry>{entry} : reader.toml().elements(entry);
+    for (const TomlEntry& item : items) {
+        std::string text = reader.toml().string(item), name;
+        Place place = reader.inside(item);
+        if (const std::size_t equals = text.find('='); equals != std::string::npos) {
+            name = text.substr(0, equals);
+            name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
+            place.column += static_cast<int>(equals) + 1;
+            text = text.substr(equals + 1);
+            if (!is_valid_name(name))
+                reader.fail(item, fmt::format("'{}' cannot be a name", name),
+                            "use letters, digits and '_', and no word that expressions use");
+        }
+        const NamedValue value = named_value(run.model, text, place);
+        name = name.empty() ? value.name : name;
+        if (!taken.insert(name).second)
+            reader.fail(item, fmt::format("there are two values '{}'", name), "leave one of them out");
+        run.value_names.push_back(name);
+        run.value_units.push_back(value.unit);
+        run.values.push_back(value.value);
+    }
+}
+
+void read_bounds(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path)) {
+        const auto state = run.model.find_state(item.name);
+        if (!state)
+            throw InputError(item.place, fmt::format("the model has no state '{}'", item.name),
+                             "give bounds of states: { q = [-1, 1] }");
+        run.attractor.bounds.emplace_back(*state, reader.range(run.model, item));
+    }
+    run.transient.bounds = run.attractor.bounds;
+}
+
+void read_start(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    StartFrom start;
+    start.place = entry.place;
+    for (const TomlEntry& item :
+         reader.toml().entries(reader.toml().table(entry), entry.path, {"run", "at", "direction"})) {
+        if (item.name == "run") {
+            start.run = reader.toml().string(item);
+        } else if (item.name == "direction") {
+            reader.choice(item, {"up", "down"});
+            start.direction = reader.toml().string(item);
+        } else {
+            const auto at = reader.toml().entries(reader.toml().table(item), item.path);
+            if (at.size() != 1)
+                reader.fail(item, fmt::format("{} names {} coordinates", item.path, at.size()), "name one");
+            start.coordinate = at.front().name;
+            start.value = reader.number(run.model, at.front());
+        }
+    }
+    if (start.run.empty())
+        reader.fail(entry, fmt::format("{} names no run", entry.path), "write { run = \"NAME\", at = { V = 1 } }");
+    run.start = start;
+}
+
+void read_vary(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, bool& random) {
+    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path))
+        run.axes.push_back(read_variation(reader, run.model, item, random));
+    double points = 1;
+    for (const Variation& axis : run.axes)
+        points *= static_cast<double>(std::max<std::size_t>(axis.values.size(), 1));
+    if (points > 1e9)
+        reader.fail(entry, "there would be more than a thousand million points", "take larger steps");
+}
+
+void read_skip(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path, {"time", "periods"})) {
+        if (item.name == "time")
+            run.transient.skip_time = reader.positive(run.model, item);
+        else
+            run.transient.skip_periods = reader.count(item);
+    }
+}
+
+/// Keys whose order does not matter once the model is known.
+void read_settings(const StudyReader& reader, StudyRun& run, const std::map<std::string, TomlEntry>& keys) {
+    const Model& model = run.model;
+    const auto with = [&](const char* key, auto use) {
+        if (const auto found = keys.find(key); found != keys.end())
+            use(found->second);
+    };
+    AttractorOptions& attractor = run.attractor;
+    TransientOptions& transient = run.transient;
+    with("direction", [&](const TomlEntry& e) {
+        run.direction = static_cast<SweepDirection>(reader.choice(e, {"up", "down", "both"}));
+    });
+    with("carry", [&](const TomlEntry& e) { run.carry = reader.toml().boolean(e); });
+    with("cycles", [&](const TomlEntry& e) { attractor.cycles = reader.count(e, 1); });
+    with("keep", [&](const TomlEntry& e) { attractor.keep = reader.count(e, 1); });
+    with("largest_period", [&](const TomlEntry& e) { attractor.largest_period = reader.count(e, 1); });
+    with("recurrence", [&](const TomlEntry& e) { attractor.recurrence = reader.positive(model, e); });
+    with("disturbance", [&](const TomlEntry& e) { attractor.disturbance = reader.number(model, e); });
+    with("lyapunov_cycles", [&](const TomlEntry& e) { attractor.lyapunov_cycles = reader.count(e); });
+    with("longest_return", [&](const TomlEntry& e) { attractor.longest_return = reader.positive(model, e); });
+    with("bounds", [&](const TomlEntry& e) { read_bounds(reader, run, e); });
+    with("time", [&](const TomlEntry& e) { transient.time = reader.positive(model, e); });
+    with("periods", [&](const TomlEntry& e) { transient.periods = reader.count(e, 1); });
+    with("skip", [&](const TomlEntry& e) { read_skip(reader, run, e); });
+    with("contacts", [&](const TomlEntry& e) { transient.contacts = reader.count(e, 1); });
+    with("events", [&](const TomlEntry& e) { transient.counted = events_of(reader, model, e); });
+    with("greatest_speed", [&](const TomlEntry& e) { transient.greatest_speed = reader.positive(model, e); });
+    with("tolerance", [&](const TomlEntry& e) { run.simulation.tolerance = reader.positive(model, e); });
+    with("order", [&](const TomlEntry& e) { run.simulation.order = static_cast<int>(reader.count(e)); });
+    with("largest_step", [&](const TomlEntry& e) { run.simulation.largest_step = reader.positive(model, e); });
+    with("draws", [&](const TomlEntry& e) { run.draws = reader.count(e, 1); });
+    with("seed", [&](const TomlEntry& e) { run.seed = reader.count(e); });
+}
+
+/// What the user left to us.
+void complete(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    const Model& model = run.model;
+    if (run.attractor.section.empty() && !model.sections.empty()) {
+        const auto phase = std::find_if(model.sections.begin(), model.sections.end(),
+                                        [](const Section& section) { return section.state.has_value(); });
+        run.attractor.section = (phase == model.sections.end() ? model.sections.front() : *phase).name;
+    }
+    run.transient.section = run.attractor.section;
+    if (run.samplings.empty() && !run.attractor.section.empty()) {
+        Sampling sampling;
+        sampling.name = sampling.section = run.attractor.section;
+        run.samplings.push_back(sampling);
+    }
+    if (run.transient.counted.empty())
+        for (std::size_t i = 0; i < model.events.size(); ++i)
+            if (model.events[i].kind == EventKind::barrier)
+                run.transient.counted.push_back(i);
+    if (run.values.empty())
+        for (std::size_t i = 0; i < model.states.size(); ++i)
+            if (!model.states[i].period && !model.states[i].drifting) {
+                run.value_names.push_back(model.states[i].name);
+                run.value_units.push_back(model.states[i].unit);
+                run.values.push_back(model.symbol(model.states[i].name));
+            }
+    try {
+        run.simulation.validate();
+        if (run.kind == RunKind::simulate)
+            run.transient.validate(model);
+        else
+            run.attractor.validate(model);
+    } catch (const InputError& error) {
+        throw InputError(entry.place, fmt::format("{}: {}", entry.path, error.problem()), error.remedy());
+    }
+    if (run.kind == RunKind::sweep && (run.axes.empty() || run.axes.front().values.empty()))
+        throw InputError(entry.place, fmt::format("{} sweeps nothing", entry.path),
+                         "give vary = { PARAMETER = { from = A, to = B, step = S } }");
+}
+
+} // namespace
+
+StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const StudyDefaults& defaults) {
+    StudyRun run;
+    run.name = entry.name;
+    run.place = entry.place;
+    const bool valid = std::all_of(run.name.begin(), run.name.end(),
+                                   [](unsigned char c) { return std::isalnum(c) || c == '.' || c == '_' || c == '-'; });
+    if (!valid || run.name.empty())
+        throw InputError(entry.place, fmt::format("'{}' cannot be the name of a run", run.name),
+                         "use letters, digits, '.', '_' and '-'");
+    std::map<std::string, TomlEntry> keys;
+    for (TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path,
+                                                 {"kind",
+                                                  "text",
+                                                  "model",
+                                                  "set",
+                                                  "from",
+                                                  "mode",
+                                                  "start",
+                                                  "vary",
+                                                  "draws",
+                                                  "seed",
+                                                  "direction",
+                                                  "carry",
+                                                  "section",
+                                                  "cycles",
+                                                  "keep",
+                                                  "recurrence",
+                                                  "disturbance",
+                                                  "bounds",
+                                                  "lyapunov_cycles",
+                                                  "longest_return",
+                                                  "sample",
+                                                  "values",
+                                                  "tolerance",
+                                                  "order",
+                                                  "time",
+                                                  "largest_step",
+                                                  "largest_period",
+                                                  "periods",
+                                                  "skip",
+                                                  "contacts",
+                                                  "events",
+                                                  "greatest_speed"}))
+        keys.emplace(item.name, std::move(item));
+    if (!keys.contains("kind"))
+        throw InputError(entry.place, fmt::format("{} has no kind", entry.path),
+                         "give kind = \"simulate\", \"sweep\" or \"basin\"");
+    run.kind = static_cast<RunKind>(reader.choice(keys.at("kind"), {"simulate", "sweep", "basin"}));
+    if (keys.contains("text"))
+        run.text = reader.toml().string(keys.at("text"));
+    if (keys.contains("model"))
+        run.model =
+            model_of(reader, reader.toml().string(keys.at("model")), reader.toml().place(*keys.at("model").node));
+    else if (!defaults.model.empty())
+        run.model = model_of(reader, defaults.model, defaults.model_place);
+    else
+        throw InputError(entry.place, fmt::format("{} has no model", entry.path), "give model = \"NAME\" or a path");
+    if (defaults.set)
+        set_values(reader, run.model, *defaults.set, false);
+    if (keys.contains("set"))
+        set_values(reader, run.model, keys.at("set"), false);
+    if (keys.contains("from"))
+        set_values(reader, run.model, keys.at("from"), true);
+    if (keys.contains("mode")) {
+        try {
+            run.model.set_initial_mode(reader.toml().string(keys.at("mode")));
+        } catch (const InputError& error) {
+            reader.fail(keys.at("mode"), error.problem(), error.remedy());
+        }
+    }
+    if (keys.contains("section"))
+        run.attractor.section = run.model.sections[section_index(reader, run.model, keys.at("section"))].name;
+    read_settings(reader, run, keys);
+    bool random = false;
+    if (keys.contains("vary"))
+        read_vary(reader, run, keys.at("vary"), random);
+    if (random && run.draws == 0)
+        reader.fail(keys.at("vary"), fmt::format("{} does not say how many values to draw", entry.path),
+                    "give draws = N");
+    if (!random && run.draws > 0)
+        reader.fail(keys.at("draws"), fmt::format("{} draws nothing", entry.path),
+                    "give something random: vary = { x = { random = [0, 1] } }");
+    if (keys.contains("start"))
+        read_start(reader, run, keys.at("start"));
+    if (keys.contains("sample"))
+        read_samplings(reader, run, keys.at("sample"));
+    if (keys.contains("values"))
+        read_values(reader, run, keys.at("values"));
+    else if (defaults.values)
+        read_values(reader, run, *defaults.values);
+    complete(reader, run, entry);
+    return run;
+}
+
+} // namespace graze
