@@ -36,3 +36,4 @@ set_target_properties(
     graze PROPERTIES LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION} SOVERSION
                      ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
 )
+target_compile_definitions(graze_study PRIVATE GRAZE_VERSION="${PROJECT_VERSION}")

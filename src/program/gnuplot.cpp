@@ -1,5 +1,7 @@
 #include "program/gnuplot.hpp"
 
+#include "program/gnuplot_text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,72 +19,6 @@ constexpr double smallest_portrait = 230, largest_portrait = 320, portrait_gap =
 constexpr double bottom_margin = 52, top_margin = 34, right_margin = 18, left_margin = 8;
 constexpr double pixels_of_letter = 6.4, pixels_of_digit = 7.2, pixels_of_line = 17, pixels_of_tic = 75;
 constexpr double invisible = 2e-4; ///< of a panel's size
-
-/// What gnuplot's enhanced text would take for markup, and what it would have a shell run, is taken as it stands; for
-/// double quotes.
-std::string plain(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        if (c == '`') {
-            result += "\\140"; // by its code: in no other way do all versions leave it alone
-            continue;
-        }
-        if (std::string_view("_^{}@&~\\").find(c) != std::string_view::npos)
-            result += c == '\\' ? "\\\\\\" : "\\\\";
-        if (c == '"')
-            result += '\\';
-        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-    return result;
-}
-
-std::string quoted(const std::string& path) {
-    std::string result = "'";
-    for (const char c : path)
-        result += c == '\'' ? "''" : std::string(1, c);
-    return result + "'";
-}
-
-/// A unit such as m/s^2, with raised exponents.
-std::string unit_text(const std::string& unit) {
-    std::string result;
-    for (std::size_t i = 0; i < unit.size(); ++i) {
-        if (unit[i] != '^') {
-            result += plain(std::string(1, unit[i]));
-            continue;
-        }
-        std::size_t end = i + 1;
-        while (end < unit.size() &&
-               (std::isdigit(static_cast<unsigned char>(unit[end])) != 0 || unit[end] == '-' || unit[end] == '.'))
-            ++end;
-        result += "^{" + unit.substr(i + 1, end - i - 1) + '}';
-        i = end - 1;
-    }
-    return result;
-}
-
-/// A name such as x_nd or q1 as a symbol with an index; longer names are words, and expressions stay as they are.
-std::string name_text(const std::string& name) {
-    constexpr std::size_t longest_symbol = 2;
-    const bool word =
-        std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
-    if (!word)
-        return plain(name);
-    const std::size_t underscore = name.find('_');
-    const std::size_t stem = underscore == std::string::npos ? name.find_last_not_of("0123456789") + 1 : underscore;
-    if (stem == 0 || stem > longest_symbol) {
-        std::string words = name;
-        std::replace(words.begin(), words.end(), '_', ' ');
-        return words;
-    }
-    const std::string index = name.substr(std::min(name.size(), stem + (underscore == std::string::npos ? 0 : 1)));
-    return fmt::format("{{/:Italic {}}}", name.substr(0, stem)) +
-           (index.empty() ? "" : fmt::format("_{{{}}}", plain(index)));
-}
-
-std::string with_unit(const std::string& label, const std::string& unit) {
-    return unit.empty() ? label : fmt::format("{} ({})", label, unit_text(unit));
-}
 
 /// The documentation of a quantity, up to the first remark.
 std::string short_text(const RequestedQuantity& quantity) {
@@ -104,10 +40,6 @@ std::string in_two_lines(const std::string& text, std::size_t letters) {
 std::string lines(const std::string& text) {
     const std::size_t end = text.find('\n');
     return end == std::string::npos ? plain(text) : plain(text.substr(0, end)) + "\\n" + plain(text.substr(end + 1));
-}
-
-std::string number(double value) {
-    return fmt::format("{:.10g}", value);
 }
 
 std::size_t letters_of_tics(const Axis& axis) {
@@ -289,7 +221,7 @@ void GnuplotScript::end_block(Panel& panel) {
 }
 
 void GnuplotScript::write_point(PlanePoint point) {
-    data_ += fmt::format("{} {}\n", number(point.x), number(point.y));
+    data_ += fmt::format("{} {}\n", number_text(point.x), number_text(point.y));
 }
 
 void GnuplotScript::write_data(Panel& panel) {
@@ -328,22 +260,23 @@ void GnuplotScript::write_data(Panel& panel) {
 }
 
 std::string GnuplotScript::commands(const Panel& panel) const {
-    std::string text = fmt::format("\nset lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\n"
-                                   "set tmargin at screen {}\n",
-                                   number(panel.left / width_), number((panel.left + panel.width) / width_),
-                                   number(panel.bottom / height_), number((panel.bottom + panel.height) / height_));
-    text += fmt::format("set xrange [{}:{}]\nset xtics {}\n", number(panel.x_axis.low), number(panel.x_axis.high),
-                        number(panel.x_axis.tic));
-    text += fmt::format("set yrange [{}:{}]\nset ytics {}\n", number(panel.y_axis.low), number(panel.y_axis.high),
-                        number(panel.y_axis.tic));
+    std::string text =
+        fmt::format("\nset lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\n"
+                    "set tmargin at screen {}\n",
+                    number_text(panel.left / width_), number_text((panel.left + panel.width) / width_),
+                    number_text(panel.bottom / height_), number_text((panel.bottom + panel.height) / height_));
+    text += fmt::format("set xrange [{}:{}]\nset xtics {}\n", number_text(panel.x_axis.low),
+                        number_text(panel.x_axis.high), number_text(panel.x_axis.tic));
+    text += fmt::format("set yrange [{}:{}]\nset ytics {}\n", number_text(panel.y_axis.low),
+                        number_text(panel.y_axis.high), number_text(panel.y_axis.tic));
     text += panel.x_labels ? "set format x \"%g\"\n" : "set format x \"\"\n";
     text += fmt::format("set label 1 \"{}\" at screen {},{} center rotate by 90\n",
-                        label(panel.y, panel.height + history_gap, true), number(panel.label / width_),
-                        number((panel.bottom + panel.height / 2) / height_));
+                        label(panel.y, panel.height + history_gap, true), number_text(panel.label / width_),
+                        number_text((panel.bottom + panel.height / 2) / height_));
     text += panel.x_labels ? fmt::format("set xlabel \"{}\"\n", label(panel.x, panel.width, false)) : "unset xlabel\n";
     if (panel.x.is_time && recorder_->singularity())
         text += fmt::format("set arrow 1 from {0}, graph 0 to {0}, graph 1 nohead linestyle 2\n",
-                            number(*recorder_->singularity()));
+                            number_text(*recorder_->singularity()));
     else
         text += "unset arrow 1\n";
     text += panel.plots.empty() ? "plot NaN\n" : fmt::format("plot {}\n", fmt::join(panel.plots, ", "));
@@ -356,7 +289,7 @@ std::string GnuplotScript::legend() const {
     const double y = (height_ - top_margin / 2) / height_;
     const auto entry = [&](int index, const std::string& name, const char* mark) {
         text += fmt::format("set label {} \"{}\" at screen {},{} left point {} offset 0.8,0\n", index, plain(name),
-                            number(x / width_), number(y), mark);
+                            number_text(x / width_), number_text(y), mark);
         x += 110;
     };
     if (has_marks_)
@@ -379,7 +312,7 @@ std::string GnuplotScript::text(const std::string& ending, const std::string& ou
     else
         text += fmt::format("set terminal pdfcairo size {:.4f}in,{:.4f}in enhanced font \"Arial,9\" linewidth 1\n",
                             width_ / 96, height_ / 96);
-    text += fmt::format("set output {}\n\n", quoted(output));
+    text += fmt::format("set output {}\n\n", quoted_path(output));
     text += data_;
     text += "\nset style line 1 linecolor rgb \"#1f4e8c\" linewidth 1.2\n"
             "set style line 2 linecolor rgb \"#808080\" linewidth 0.7 dashtype (4, 3)\n"

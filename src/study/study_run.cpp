@@ -235,7 +235,7 @@ void read_settings(const StudyReader& reader, StudyRun& run, const std::map<std:
 }
 
 /// What the user left to us.
-void complete(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+void complete(StudyRun& run, const TomlEntry& entry) {
     const Model& model = run.model;
     if (run.attractor.section.empty() && !model.sections.empty()) {
         const auto phase = std::find_if(model.sections.begin(), model.sections.end(),
@@ -365,7 +365,7 @@ StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const Study
         read_values(reader, run, keys.at("values"));
     else if (defaults.values)
         read_values(reader, run, *defaults.values);
-    complete(reader, run, entry);
+    complete(run, entry);
     return run;
 }
 

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "graze/results/result_file.hpp"
+#include "graze/study/study.hpp"
+#include "graze/sweep/plan.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace graze {
+
+struct RunnerOptions {
+    int jobs = 1;
+    std::vector<std::string> only;     ///< names of runs, with those they start from; empty: all
+    std::function<bool()> interrupted; ///< called from any thread
+    /// Points of all runs done so far, and in all; of the run in progress its name. Called from one thread at a time.
+    std::function<void(const std::string& run, std::size_t done, std::size_t all)> progress;
+};
+
+/// What has become of one run.
+struct RunReport {
+    std::string name, kind;
+    std::size_t points = 0, computed = 0; ///< planned; computed now rather than found in the file
+    std::size_t returns = 0;              ///< simulated now
+    double seconds = 0;
+    bool complete = false;
+};
+
+/// Points of a run: chains along its first axis, one for each combination of the others.
+/// @param start where the run begins, instead of at the model's initial state; may be null
+Plan plan_of(const StudyRun& run, const PointRecord* start);
+/// Coordinates and direction of a point of that plan: what its axes have there.
+std::vector<double> coordinates_of(const StudyRun& run, std::size_t point);
+std::size_t direction_of(const StudyRun& run, std::size_t point);
+/// Everything that the numbers of a run depend on, as a JSON object.
+std::string settings_of(const StudyRun& run);
+
+/// Does what a study asks for, and keeps it. Complete runs whose settings have not changed are left as they are,
+/// unfinished ones are gone on with, and others are done anew.
+/// @return reports of the runs, in their order; the last may be unfinished when it was interrupted
+/// @throws InputError when the file cannot be written, or a run finds nothing to start from
+std::vector<RunReport> run_study(const Study& study, ResultFile& file, const RunnerOptions& options);
+
+} // namespace graze

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "program/curve.hpp"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace graze {
+
+/// Something drawn in a panel.
+struct FigureSeries {
+    enum class Style { dots, circles, line, dashed, impulses };
+    std::string title; ///< plain text; empty: not in the legend
+    Style style = Style::dots;
+    std::size_t colour = 0;         ///< index in a palette
+    std::vector<PlanePoint> points; ///< a point that is not finite interrupts a line
+};
+
+struct FigurePanel {
+    std::string title;
+    std::string x_label, y_label, x_unit, y_unit; ///< names and units
+    bool logarithmic_x = false, logarithmic_y = false;
+    std::optional<std::pair<double, double>> x_range, y_range;
+    std::vector<FigureSeries> series;
+    std::vector<double> marks; ///< thin vertical lines
+};
+
+/// Panels row by row, in the language of gnuplot, data included.
+struct Figure {
+    std::string title;
+    std::size_t columns = 1;
+    std::vector<FigurePanel> panels;
+
+    /// @param ending svg, png or pdf; @param output the file that the commands write
+    std::string script(const std::string& ending, const std::string& output) const;
+};
+
+/// Draws with gnuplot. @param data_path where to keep the commands as well; may be empty
+/// @throws InputError when gnuplot is missing or fails, or a file cannot be written
+void draw_figure(const Figure& figure, const std::string& path, const std::string& data_path);
+
+} // namespace graze

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+namespace graze {
+
+/// For double quotes: what gnuplot's enhanced text would take for markup, and what it would have a shell run, is taken
+/// as it stands.
+std::string plain(const std::string& text);
+/// A path between single quotes.
+std::string quoted_path(const std::string& path);
+/// A unit such as m/s^2, with raised exponents.
+std::string unit_text(const std::string& unit);
+/// A name such as x_nd or q1 as a symbol with an index; longer names are words, and expressions stay as they are.
+std::string name_text(const std::string& name);
+/// A label with its unit in parentheses.
+std::string with_unit(const std::string& label, const std::string& unit);
+std::string number_text(double value);
+
+} // namespace graze

@@ -1,0 +1,182 @@
+#include "program/result_query.hpp"
+
+#include "graze/model/model_file.hpp"
+#include "graze/model/named_value.hpp"
+#include "graze/trajectory/recorder.hpp"
+#include "graze/trajectory/trajectory.hpp"
+#include "program/values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t dense_samples = 3000;
+
+std::string quoted_column(const std::string& name) {
+    std::string text = "\"";
+    for (const char c : name)
+        text += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return text + '"';
+}
+
+const ResultColumn* find(const std::vector<ResultColumn>& columns, const std::string& name) {
+    const auto found =
+        std::find_if(columns.begin(), columns.end(), [&](const ResultColumn& column) { return column.name == name; });
+    return found == columns.end() ? nullptr : &*found;
+}
+
+} // namespace
+
+StoredRun::StoredRun(const ResultFile& file, const std::string& name, const Place& place) {
+    const auto found = file.find_run(name);
+    if (!found) {
+        std::vector<std::string> known;
+        for (const RunRecord& run : file.runs())
+            known.push_back(run.name);
+        throw InputError(place, fmt::format("there are no results of a run '{}'", name),
+                         name_advice(name, known, "run the study first"));
+    }
+    record = *found;
+    model = parse_model(record.model, record.name + ".toml");
+    points = quoted_column("points_" + name);
+    samples = quoted_column("samples_" + name);
+}
+
+std::string StoredRun::column(const std::string& name) const {
+    return find(record.coordinates, name) || find(record.values, name) ? quoted_column(name) : name;
+}
+
+std::string StoredRun::unit(const std::string& name) const {
+    for (const auto* columns : {&record.coordinates, &record.values})
+        if (const ResultColumn* column = find(*columns, name))
+            return column->unit;
+    if (name == "time" || name == "ending_time" || name == "duration")
+        return model.time_unit;
+    return "";
+}
+
+bool StoredRun::has_value(const std::string& name) const {
+    return find(record.values, name) != nullptr;
+}
+
+PointRecord chosen_point(const ResultFile& file, const StoredRun& run, const StudyPicture& picture) {
+    std::string where, order;
+    std::vector<double> values;
+    for (const std::string& direction : picture.directions)
+        where += fmt::format("{} direction = '{}'", where.empty() ? "WHERE" : " OR",
+                             direction == "up" || direction == "down" ? direction : "");
+    for (const auto& [name, value] : picture.at) {
+        if (!find(run.record.coordinates, name)) {
+            std::vector<std::string> known;
+            for (const ResultColumn& column : run.record.coordinates)
+                known.push_back(column.name);
+            throw InputError(picture.place, fmt::format("run '{}' does not vary '{}'", run.record.name, name),
+                             name_advice(name, known, "it varies nothing"));
+        }
+        values.push_back(value);
+        order += fmt::format("abs({} - ?{}), ", quoted_column(name), values.size());
+    }
+    auto rows = file.query(fmt::format("SELECT number FROM {} {} ORDER BY {} number {} LIMIT 1", run.points, where,
+                                       order, picture.at.empty() ? "DESC" : "ASC"),
+                           values);
+    if (!rows.next())
+        throw InputError(picture.place, fmt::format("run '{}' has no such point", run.record.name),
+                         "run the study first, or choose another direction");
+    return *file.point(run.record.name, static_cast<std::size_t>(rows.integer(0)));
+}
+
+namespace {
+
+/// States in the order in which they are drawn, the two sides of each jump included.
+class DenseRecorder : public Observer {
+public:
+    DenseRecorder(Function values, std::span<const double> parameters, std::vector<double> periods, double end)
+        : values_(std::move(values)),
+          sampler_(0, end / static_cast<double>(dense_samples - 1), dense_samples, std::move(periods),
+                   [this](double time, std::size_t, std::span<const double> state) { add(time, state); }),
+          results_(values_.outputs() + 1), parameters_(parameters.begin(), parameters.end()),
+          work_(values_.workspace()), row_(values_.outputs()) {}
+
+    void step(const Step& step) override { sampler_.step(step); }
+    void contact(const Contact& contact) override {
+        if (contact.kind == ContactKind::touch)
+            return;
+        add(contact.time, contact.before);
+        add(contact.time, contact.after);
+    }
+    /// Time first, then the values.
+    std::vector<std::vector<double>> take() { return std::move(results_); }
+
+private:
+    void add(double time, std::span<const double> state) {
+        inputs_.assign(state.begin(), state.end());
+        inputs_.insert(inputs_.end(), parameters_.begin(), parameters_.end());
+        values_.evaluate(inputs_, row_, work_);
+        results_[0].push_back(time);
+        for (std::size_t i = 0; i < row_.size(); ++i)
+            results_[1 + i].push_back(row_[i]);
+    }
+
+    Function values_;
+    Sampler sampler_;
+    std::vector<std::vector<double>> results_;
+    std::vector<double> parameters_, inputs_, work_, row_;
+};
+
+} // namespace
+
+std::vector<std::vector<double>> dense_motion(const StoredRun& run, const PointRecord& point,
+                                              const std::vector<std::string>& names, const Place& place) {
+    Model model = run.model;
+    std::vector<double> state = point.result.state;
+    std::size_t mode = point.result.mode;
+    const bool settled = run.record.kind != "simulate";
+    for (std::size_t c = 0; c < run.record.coordinates.size(); ++c) {
+        const std::string& name = run.record.coordinates[c].name;
+        if (model.find_state(name))
+            model.set_initial(name, point.coordinates[c]);
+        else
+            model.set_parameter(name, point.coordinates[c]);
+    }
+    double duration = settled ? point.result.duration : point.result.time;
+    if (!settled) {
+        if (run.record.settings.find("\"start\":") != std::string::npos)
+            throw InputError(place,
+                             fmt::format("run '{}' began where another run ended, which is not kept", run.record.name),
+                             "draw a motion of a run that begins at the model's initial state");
+        state = model.initial_state();
+        mode = model.initial_mode;
+    }
+    if (!(duration > 0)) // of a motion that is not periodic, as much as was sampled
+        duration = point.result.samples.times.empty()
+                       ? 0
+                       : point.result.samples.times.back() - point.result.samples.times.front();
+    std::vector<Expression> inputs = model.state_symbols(), values, periods;
+    for (const Expression& symbol : model.parameter_symbols())
+        inputs.push_back(symbol);
+    for (const std::string& name : names)
+        values.push_back(name == "t" ? model.number(0) : named_value(model, name, place).value);
+    for (const State& item : model.states)
+        periods.push_back(item.period ? model.expand(*item.period) : model.number(0));
+    const std::vector<double> parameters = model.parameter_values();
+    DenseRecorder recorder(Function(inputs, values), parameters,
+                           Function(model.parameter_symbols(), periods)(parameters), duration);
+    const Simulation simulation(model);
+    Trajectory trajectory(simulation, parameters, recorder);
+    trajectory.start(state, mode, 0, duration);
+    JetSet jets(simulation, LaneKind::single);
+    graze::run(trajectory, jets);
+    auto columns = recorder.take();
+    std::vector<std::vector<double>> result;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        result.push_back(names[i] == "t" ? columns[0] : columns[i + 1]);
+    return result;
+}
+
+} // namespace graze
