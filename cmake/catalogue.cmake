@@ -1,6 +1,6 @@
 # The shipped models become part of the library, for the program to have them wherever it is installed.
 # Included from CMakeLists.txt this file adds the step to the build; as a script it is that step:
-#   cmake -DOUTPUT=catalogue_data.cpp "-DMODELS=a.toml;b.toml" -P catalogue.cmake
+#   cmake -DOUTPUT=catalogue_data.cpp -DFUNCTION=embedded_models "-DMODELS=a.toml;b.toml" -P catalogue.cmake
 if(CMAKE_SCRIPT_MODE_FILE)
     set(definitions "")
     set(entries "")
@@ -15,7 +15,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
         math(EXPR index "${index} + 1")
     endforeach()
     list(LENGTH MODELS count)
-    file(WRITE "${OUTPUT}" "// Written by cmake/catalogue.cmake from the files of models/.
+    file(WRITE "${OUTPUT}" "// Written by cmake/catalogue.cmake.
 #include \"model/catalogue_data.hpp\"
 
 #include <array>
@@ -29,26 +29,34 @@ ${entries}}};
 
 } // namespace
 
-std::span<const EmbeddedModel> embedded_models() { return models; }
+std::span<const EmbeddedModel> ${FUNCTION}() { return models; }
 
 } // namespace graze
 ")
     return()
 endif()
 
-if(TARGET graze_model)
-    file(GLOB models CONFIGURE_DEPENDS models/*.toml)
+# Embeds the files of FOLDER into the objects of TARGET, which get them from FUNCTION.
+function(graze_embed target folder function)
+    file(GLOB files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.toml)
     # By name alone: with its ending, "a-b.toml" would come before "a.toml".
-    list(TRANSFORM models REPLACE "\\.toml$" "")
-    list(SORT models)
-    list(TRANSFORM models APPEND ".toml")
-    set(catalogue_source ${CMAKE_CURRENT_BINARY_DIR}/generated/catalogue_data.cpp)
+    list(TRANSFORM files REPLACE "\\.toml$" "")
+    list(SORT files)
+    list(TRANSFORM files APPEND ".toml")
+    set(source ${CMAKE_CURRENT_BINARY_DIR}/generated/${function}.cpp)
     add_custom_command(
-        OUTPUT ${catalogue_source}
-        COMMAND ${CMAKE_COMMAND} -DOUTPUT=${catalogue_source} "-DMODELS=${models}" -P
-                ${CMAKE_CURRENT_SOURCE_DIR}/cmake/catalogue.cmake
-        DEPENDS ${models} cmake/catalogue.cmake
-        COMMENT "Embedding the shipped models"
+        OUTPUT ${source}
+        COMMAND ${CMAKE_COMMAND} -DOUTPUT=${source} -DFUNCTION=${function} "-DMODELS=${files}" -P
+                ${PROJECT_SOURCE_DIR}/cmake/catalogue.cmake
+        DEPENDS ${files} ${PROJECT_SOURCE_DIR}/cmake/catalogue.cmake
+        COMMENT "Embedding the files of ${folder}/"
         VERBATIM)
-    target_sources(graze_model PRIVATE ${catalogue_source})
+    target_sources(${target} PRIVATE ${source})
+endfunction()
+
+if(TARGET graze_model)
+    graze_embed(graze_model models embedded_models)
+endif()
+if(TARGET graze_study)
+    graze_embed(graze_study studies embedded_studies)
 endif()

@@ -17,5 +17,5 @@ install(FILES ${PROJECT_BINARY_DIR}/graze-config.cmake ${PROJECT_BINARY_DIR}/gra
 if(TARGET graze_executable)
     install(TARGETS graze_executable)
 endif()
-install(DIRECTORY models DESTINATION ${CMAKE_INSTALL_DATADIR}/graze FILES_MATCHING PATTERN "*.toml")
+install(DIRECTORY models studies DESTINATION ${CMAKE_INSTALL_DATADIR}/graze FILES_MATCHING PATTERN "*.toml")
 install(FILES LICENSE README.md CHANGELOG.md TYPE DOC)

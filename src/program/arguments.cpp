@@ -1,6 +1,7 @@
 #include "program/arguments.hpp"
 
 #include "graze/symbolic/parser.hpp"
+#include "program/study_arguments.hpp"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -19,14 +20,17 @@ namespace graze {
 namespace {
 
 constexpr const char* general_text =
-    R"(Simulates hybrid dynamical systems: smooth motion interrupted by impacts, switches, stick and slip.
-A model is a text file of equations, or one of those that come with graze.)";
+    R"(Simulates hybrid dynamical systems: smooth motion interrupted by impacts, switches, stick and slip,
+and sweeps them through their parameters. A model is a text file of equations, a study one of computations with it;
+several of both come with graze.)";
 
 constexpr const char* general_examples = R"(Start here:
   graze models                                     what comes with graze
   graze simulate bouncing-ball --plot ball.svg     a picture of one of them
   graze models bouncing-ball --write my-ball.toml  a model file to change
   graze check my-ball.toml                         is it right?
+  graze run --list                                 studies that come with graze: bifurcation diagrams and more
+  graze run mems-switch --output switch            do one; its results and pictures go to a folder
   graze COMMAND --help                             all options of a command)";
 
 constexpr const char* check_text = R"(Check a model and say what is in it.
@@ -284,6 +288,7 @@ void declare_arguments(CLI::App& app, Arguments& arguments) {
     declare_check(app, arguments.check);
     declare_models(app, arguments.models);
     declare_simulate(app, arguments.simulate);
+    declare_study_commands(app, arguments);
 }
 
 std::vector<std::string> with_joined_counts(std::vector<std::string> arguments) {

@@ -56,7 +56,30 @@ struct SimulateArguments {
     bool progress = false, quiet = false;
 };
 
+struct RunArguments {
+    std::string study, folder;
+    std::vector<std::string> only;
+    int jobs = 0; ///< 0: as many as there are cores
+    bool progress = false, quiet = false, list = false, show = false, no_pictures = false;
+    OutputArguments output;
+};
+
+struct ExportArguments {
+    std::string file, what = "points", sql, label, direction, hdf5;
+    std::vector<std::string> runs;
+    OutputArguments output;
+};
+
+struct PlotArguments {
+    std::string file, kind, x, title, x_range, y_range, fit, group, output, data;
+    std::vector<std::string> runs, y, samples, directions, at, logarithmic;
+    bool successive = false;
+};
+
 struct Arguments {
+    RunArguments run;
+    ExportArguments exports;
+    PlotArguments plot;
     CheckArguments check;
     ModelsArguments models;
     SimulateArguments simulate;

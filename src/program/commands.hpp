@@ -9,6 +9,9 @@ namespace graze {
 int check_command(const CheckArguments& arguments, const Console& console);
 int models_command(const ModelsArguments& arguments, const Console& console);
 int simulate_command(const SimulateArguments& arguments, const Console& console);
+int run_command(const RunArguments& arguments, const Console& console);
+int export_command(const ExportArguments& arguments, const Console& console);
+int plot_command(const PlotArguments& arguments, const Console& console);
 
 /// Hands a table to the user. @throws InputError when it cannot be written
 void deliver(const Table& table, const OutputArguments& output, const JsonObject& heading, const Console& console);

@@ -34,6 +34,12 @@ int dispatch(std::span<const std::string> words, const Console& console) {
         return check_command(arguments.check, console);
     if (app.got_subcommand("models"))
         return models_command(arguments.models, console);
+    if (app.got_subcommand("run"))
+        return run_command(arguments.run, console);
+    if (app.got_subcommand("export"))
+        return export_command(arguments.exports, console);
+    if (app.got_subcommand("plot"))
+        return plot_command(arguments.plot, console);
     return simulate_command(arguments.simulate, console);
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 namespace graze {
@@ -32,6 +33,13 @@ const ResultColumn* find(const std::vector<ResultColumn>& columns, const std::st
 }
 
 } // namespace
+
+std::string result_path(const std::string& file_or_folder) {
+    std::error_code error;
+    return std::filesystem::is_directory(file_or_folder, error)
+               ? (std::filesystem::path(file_or_folder) / "results.sqlite").string()
+               : file_or_folder;
+}
 
 StoredRun::StoredRun(const ResultFile& file, const std::string& name, const Place& place) {
     const auto found = file.find_run(name);

@@ -11,6 +11,9 @@
 
 namespace graze {
 
+/// The result file of a folder, or the file itself.
+std::string result_path(const std::string& file_or_folder);
+
 /// A run with its model, as stored.
 struct StoredRun {
     StoredRun(const ResultFile& file, const std::string& name, const Place& place);

@@ -82,6 +82,11 @@ void Database::execute(const std::string& sql) const {
         throw_database_error(code, sqlite3_errmsg(database_.get()), path_);
 }
 
+std::int64_t Database::value(const std::string& sql) const {
+    Statement statement = prepare(sql);
+    return statement.step() ? statement.integer(0) : 0;
+}
+
 Statement::Statement(sqlite3* database, const std::string& path, const std::string& sql) : path_(path) {
     sqlite3_stmt* statement = nullptr;
     const int code = sqlite3_prepare_v2(database, sql.c_str(), static_cast<int>(sql.size()), &statement, nullptr);

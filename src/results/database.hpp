@@ -52,6 +52,8 @@ public:
     Statement prepare(const std::string& sql) const { return {database_.get(), path_, sql}; }
     /// Several statements without results.
     void execute(const std::string& sql) const;
+    /// The one whole number that a query gives.
+    std::int64_t value(const std::string& sql) const;
     const std::string& path() const { return path_; }
 
 private:

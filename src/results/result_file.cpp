@@ -110,22 +110,18 @@ ResultFile::ResultFile(const std::string& path, Access access) {
     auto lock = writing ? std::make_unique<WriteLock>(path) : nullptr;
     state_ = std::make_unique<State>(State{std::move(lock), Database(path, writing), false, {}, nullptr});
     const Database& database = state_->database;
-    Statement application = database.prepare("PRAGMA application_id"),
-              version = database.prepare("PRAGMA user_version");
-    Statement tables = database.prepare("SELECT count(*) FROM sqlite_master");
-    application.step();
-    version.step();
-    tables.step();
-    const bool empty = tables.integer(0) == 0;
+    const std::int64_t application = database.value("PRAGMA application_id");
+    const std::int64_t format = database.value("PRAGMA user_version");
+    const bool empty = database.value("SELECT count(*) FROM sqlite_master") == 0;
     if (empty && !writing)
         throw InputError(Place{path, 0, 0}, "the result file is empty", "run the study first");
-    if (!empty && application.integer(0) != result_application)
+    if (!empty && application != result_application)
         throw InputError(Place{path, 0, 0}, "this is no result file of graze",
                          "give the results.sqlite of a study, or its folder");
-    if (!empty && version.integer(0) != result_format)
+    if (!empty && format != result_format)
         throw InputError(Place{path, 0, 0},
                          fmt::format("the result file has format {}, this version of graze knows format {}",
-                                     version.integer(0), result_format),
+                                     format, result_format),
                          "use the version of graze that wrote it, or run the study into another folder");
     if (!writing)
         return;

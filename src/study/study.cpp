@@ -96,8 +96,11 @@ StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
         } else if (key == "fit") {
             picture.fit = reader.range(none, item);
         } else if (key == "at") {
-            for (const TomlEntry& at : reader.toml().entries(reader.toml().table(item), item.path))
-                picture.at.emplace_back(at.name, reader.number(none, at));
+            // One point, or a list of points, each given by one coordinate.
+            const auto points = item.node->is_array() ? reader.toml().elements(item) : std::vector<TomlEntry>{item};
+            for (const TomlEntry& point : points)
+                for (const TomlEntry& at : reader.toml().entries(reader.toml().table(point), point.path))
+                    picture.at.emplace_back(at.name, reader.number(none, at));
         } else if (key == "logarithmic") {
             for (const std::string& axis : reader.strings(item)) {
                 picture.logarithmic_x = picture.logarithmic_x || axis == "x";

@@ -1,0 +1,96 @@
+#include "program/commands.hpp"
+#include "program/result_query.hpp"
+#include "program/study_pictures.hpp"
+#include "program/values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+double number_of(const std::string& text, const char* option) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+        throw InputError({option, 0, 0}, fmt::format("'{}' is not a number", text), "give a number");
+    return value;
+}
+
+std::optional<std::pair<double, double>> range_of(const std::string& text, const char* option) {
+    if (text.empty())
+        return std::nullopt;
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos)
+        throw InputError({option, 0, 0}, fmt::format("'{}' is not a range", text), "write it as A:B");
+    const std::pair<double, double> range{number_of(text.substr(0, colon), option),
+                                          number_of(text.substr(colon + 1), option)};
+    if (!(range.first < range.second))
+        throw InputError({option, 0, 0}, fmt::format("the range '{}' is empty", text), "give the smaller number first");
+    return range;
+}
+
+StudyPicture picture_of(const PlotArguments& arguments, const RunRecord& run) {
+    StudyPicture picture = default_picture(run);
+    if (!arguments.kind.empty())
+        picture.kind = arguments.kind;
+    picture.x = arguments.x;
+    picture.title = arguments.title;
+    picture.group = arguments.group;
+    picture.successive = arguments.successive;
+    picture.y = split_list(arguments.y);
+    picture.samplings = split_list(arguments.samples);
+    picture.directions = split_list(arguments.directions);
+    picture.x_range = range_of(arguments.x_range, "--x-range");
+    picture.y_range = range_of(arguments.y_range, "--y-range");
+    picture.fit = range_of(arguments.fit, "--fit");
+    for (const std::string& item : split_list(arguments.at)) {
+        const std::size_t equals = item.find('=');
+        if (equals == std::string::npos)
+            throw InputError({"--at", 0, 0}, fmt::format("'{}' names no point", item), "write NAME=VALUE");
+        picture.at.emplace_back(item.substr(0, equals), number_of(item.substr(equals + 1), "--at"));
+    }
+    for (const std::string& axis : arguments.logarithmic) {
+        picture.logarithmic_x = picture.logarithmic_x || axis == "x";
+        picture.logarithmic_y = picture.logarithmic_y || axis == "y";
+    }
+    for (const std::string& sampling : picture.samplings)
+        if (std::find(run.samplings.begin(), run.samplings.end(), sampling) == run.samplings.end())
+            throw InputError({"--sample", 0, 0}, fmt::format("run '{}' has no sampling '{}'", run.name, sampling),
+                             name_advice(sampling, run.samplings, "it has none"));
+    for (const std::string& direction : picture.directions)
+        if (std::find(run.directions.begin(), run.directions.end(), direction) == run.directions.end())
+            throw InputError({"--direction", 0, 0}, fmt::format("run '{}' has no direction '{}'", run.name, direction),
+                             name_advice(direction, run.directions, "it has none"));
+    return picture;
+}
+
+} // namespace
+
+int plot_command(const PlotArguments& arguments, const Console& console) {
+    const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
+    std::vector<std::string> names = split_list(arguments.runs);
+    if (names.empty())
+        for (const RunRecord& run : file.runs())
+            names.push_back(run.name);
+    if (names.empty())
+        throw InputError("there are no runs in the file", "run the study first");
+    if (names.size() > 1 && !arguments.output.empty())
+        throw InputError({"--output", 0, 0}, "several runs cannot go into one picture", "choose one by --run NAME");
+    for (const std::string& name : names) {
+        const StoredRun run(file, name, {"--run", 0, 0});
+        const std::string path = arguments.output.empty() ? name + ".png" : arguments.output;
+        const ResultPicture made = make_picture(picture_of(arguments, run.record), file);
+        draw_figure(made.figure, path, arguments.data);
+        if (made.table.rows() > 0)
+            deliver(made.table, {TableFormat::table, 6, ""}, {}, console);
+        console.out << path << '\n';
+    }
+    return exit_success;
+}
+
+} // namespace graze

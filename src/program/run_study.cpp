@@ -1,0 +1,170 @@
+#include "graze/study/runner.hpp"
+#include "graze/study/study_catalogue.hpp"
+#include "program/commands.hpp"
+#include "program/interrupt.hpp"
+#include "program/study_pictures.hpp"
+#include "program/values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+namespace graze {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+/// A line on standard error once a study takes long.
+class StudyProgress {
+public:
+    StudyProgress(const Console& console, bool wanted) : console_(&console), wanted_(wanted) {}
+    ~StudyProgress() {
+        if (shown_)
+            console_->err << (console_->terminal ? "\r\033[K" : "\n") << std::flush;
+    }
+    StudyProgress(const StudyProgress&) = delete;
+    StudyProgress& operator=(const StudyProgress&) = delete;
+
+    void update(const std::string& run, std::size_t done, std::size_t all) {
+        const auto now = Clock::now();
+        if (first_ == 0)
+            first_ = done;
+        if (!wanted_ || now - start_ < 2s || now - last_ < 200ms)
+            return;
+        last_ = now;
+        shown_ = true;
+        const double elapsed = std::chrono::duration<double>(now - start_).count();
+        const double left =
+            elapsed * static_cast<double>(all - done) / static_cast<double>(std::max<std::size_t>(done - first_, 1));
+        console_->err << fmt::format("\r{:<70}",
+                                     fmt::format("{}: {} of {} points, {:.0f} %, {:.0f} s left", run, done, all,
+                                                 100.0 * static_cast<double>(done) / static_cast<double>(all), left))
+                      << std::flush;
+    }
+
+private:
+    const Console* console_;
+    bool wanted_, shown_ = false;
+    std::size_t first_ = 0;
+    Clock::time_point start_ = Clock::now(), last_ = start_;
+};
+
+/// "periodic 1330, chaotic 270"
+std::string labels_of(const ResultFile& file, const std::string& run) {
+    std::string text;
+    auto rows =
+        file.query(fmt::format("SELECT label, count(*) FROM \"points_{}\" GROUP BY label ORDER BY 2 DESC, 1", run));
+    while (rows.next())
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", rows.text(0), rows.integer(1));
+    return text;
+}
+
+Table table_of(const std::vector<RunReport>& reports, const ResultFile& file) {
+    Table table({{"run", ""},
+                 {"kind", ""},
+                 {"points", ""},
+                 {"computed", ""},
+                 {"seconds", "s"},
+                 {"status", ""},
+                 {"labels", ""}});
+    for (const RunReport& report : reports) {
+        table.add(report.name);
+        table.add(report.kind);
+        table.add(static_cast<double>(report.points));
+        table.add(static_cast<double>(report.computed));
+        table.add(report.seconds);
+        table.add(!report.complete                  ? "interrupted"
+                  : report.computed == 0            ? "was there"
+                  : report.computed < report.points ? "gone on with"
+                                                    : "done");
+        table.add(labels_of(file, report.name));
+    }
+    return table;
+}
+
+std::string made_folder(const std::string& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error || !std::filesystem::is_directory(folder))
+        throw InputError(
+            {"--output", 0, 0},
+            fmt::format("folder '{}' cannot be made{}", folder, error ? " (" + error.message() + ")" : std::string()),
+            "choose another one");
+    return folder;
+}
+
+void check_names(const Study& study, const std::vector<std::string>& only) {
+    std::vector<std::string> known;
+    for (const StudyRun& run : study.runs)
+        known.push_back(run.name);
+    for (const std::string& name : only)
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            throw InputError({"--only", 0, 0}, fmt::format("the study has no run '{}'", name),
+                             name_advice(name, known, "it has none"));
+}
+
+int list_studies(const RunArguments& arguments, const Console& console) {
+    Table table({{"study", ""}, {"runs", ""}, {"what it does", ""}});
+    for (const std::string& name : shipped_studies()) {
+        const Study study = load_study(name);
+        table.add(name);
+        table.add(static_cast<double>(study.runs.size()));
+        table.add(study.text);
+    }
+    deliver(table, arguments.output, {}, console);
+    return exit_success;
+}
+
+} // namespace
+
+int run_command(const RunArguments& arguments, const Console& console) {
+    if (arguments.list)
+        return list_studies(arguments, console);
+    if (arguments.study.empty())
+        throw InputError("no study is named", "graze run --list names those that come with graze");
+    if (arguments.show) {
+        console.out << shipped_study_text(arguments.study);
+        return exit_success;
+    }
+    const Study study = load_study(arguments.study);
+    check_names(study, split_list(arguments.only));
+    const std::string folder = made_folder(arguments.folder.empty() ? study.name : arguments.folder);
+    ResultFile file((std::filesystem::path(folder) / "results.sqlite").string(), ResultFile::Access::write);
+    std::vector<RunReport> reports;
+    {
+        const InterruptGuard guard;
+        StudyProgress progress(console, arguments.progress || console.terminal);
+        RunnerOptions options;
+        options.jobs =
+            arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+        options.only = split_list(arguments.only);
+        options.interrupted = [] { return InterruptGuard::requested(); };
+        options.progress = [&](const std::string& run, std::size_t done, std::size_t all) {
+            progress.update(run, done, all);
+        };
+        reports = run_study(study, file, options);
+    }
+    if (!arguments.quiet) {
+        OutputArguments output = arguments.output;
+        output.digits = 6;
+        deliver(table_of(reports, file), output, {}, console);
+    }
+    const bool complete =
+        std::all_of(reports.begin(), reports.end(), [](const RunReport& run) { return run.complete; });
+    if (!complete) {
+        console.err << "graze: interrupted; what was computed is kept, and the same command goes on from there\n";
+        return exit_interrupted;
+    }
+    if (!arguments.no_pictures && arguments.only.empty())
+        for (const std::string& path : draw_study_pictures(study, file, folder, console))
+            if (!arguments.quiet && arguments.output.format == TableFormat::table)
+                console.out << path << '\n';
+    return exit_success;
+}
+
+} // namespace graze

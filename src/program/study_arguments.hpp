@@ -1,0 +1,10 @@
+#pragma once
+
+#include "program/arguments.hpp"
+
+namespace graze {
+
+/// Declares the commands run, export and plot.
+void declare_study_commands(CLI::App& app, Arguments& arguments);
+
+} // namespace graze
