@@ -70,14 +70,12 @@ std::string query_of(const ExportArguments& arguments, const ResultFile& file) {
         if (columns.empty()) {
             columns = "s.point, p.direction";
             for (const ResultColumn& column : run.record.coordinates)
-                columns += ", p." + run.column(column.name);
+                columns += ", " + run.column(column.name);
             columns += ", s.sampling, s.time";
             for (const ResultColumn& column : run.record.values)
-                columns += ", s." + run.column(column.name);
+                columns += ", " + run.column(column.name);
         }
-        const std::string from = arguments.what == "points"
-                                     ? run.points + " AS p"
-                                     : run.samples + " AS s JOIN " + run.points + " AS p ON p.number = s.point";
+        const std::string from = arguments.what == "points" ? run.points + " AS p" : run.joined;
         const std::string order = arguments.what == "points" ? "p.number" : "s.rowid";
         if (names.size() == 1)
             return fmt::format("SELECT {} FROM {} WHERE {} ORDER BY {}", columns, from, where, order);

@@ -21,8 +21,9 @@ struct StoredRun {
     RunRecord record;
     Model model;
     std::string points, samples; ///< quoted names of its tables
+    std::string joined;          ///< both, as p and s
 
-    /// Column of a coordinate or value, quoted; other texts are expressions in columns and stay as they are.
+    /// Column of a coordinate (of p) or value (of s); other texts are expressions in columns and stay as they are.
     std::string column(const std::string& name) const;
     std::string unit(const std::string& name) const;
     bool has_value(const std::string& name) const;

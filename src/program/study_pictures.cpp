@@ -79,12 +79,21 @@ FigurePanel panel_of(const StudyPicture& picture, const std::string& x, const st
     return panel;
 }
 
+/// From the least to the greatest value of what is swept.
+std::optional<std::pair<double, double>> extent_of(const ResultFile& file, const StoredRun& run) {
+    auto rows = file.query(fmt::format("SELECT min({0}), max({0}) FROM {1} AS p",
+                                       run.column(run.record.coordinates.front().name), run.points));
+    if (!rows.next() || rows.is_null(0) || !(rows.number(0) < rows.number(1)))
+        return std::nullopt;
+    return std::pair(rows.number(0), rows.number(1));
+}
+
 /// Where something changes that lasted before and lasts after.
 std::vector<double> changes(const ResultFile& file, const StoredRun& run, const std::string& direction) {
-    auto rows =
-        file.query(fmt::format("SELECT {}, label, period, symmetric, chain FROM {} WHERE direction = '{}' ORDER BY "
-                               "number",
-                               run.column(run.record.coordinates.front().name), run.points, direction));
+    auto rows = file.query(
+        fmt::format("SELECT {}, label, period, symmetric, chain FROM {} AS p WHERE direction = '{}' ORDER BY "
+                    "number",
+                    run.column(run.record.coordinates.front().name), run.points, direction));
     struct Stretch {
         std::string kind;
         double first, last;
@@ -139,13 +148,14 @@ Figure bifurcation(const StudyPicture& picture, const ResultFile& file) {
                     panel.series.push_back(
                         {samplings.size() > 1 ? samplings[s] : "", FigureSeries::Style::dots, s, {}});
                 }
-                auto rows = file.query(fmt::format(
-                    "SELECT {}, s.{}, s.sampling FROM {} AS s JOIN {} AS p ON p.number = s.point WHERE p.direction = "
-                    "'{}' AND s.sampling IN ({})",
-                    run.column(x), run.column(value), run.samples, run.points, direction, in_list(samplings)));
+                auto rows = file.query(
+                    fmt::format("SELECT {}, {}, s.sampling FROM {} WHERE p.direction = '{}' AND s.sampling IN ({})",
+                                run.column(x), run.column(value), run.joined, direction, in_list(samplings)));
                 while (rows.next())
                     if (!rows.is_null(1))
                         panel.series[series.at(rows.text(2))].points.push_back({rows.number(0), rows.number(1)});
+                if (!panel.x_range && picture.x.empty())
+                    panel.x_range = extent_of(file, run);
                 if (run.record.kind == "sweep" && picture.x.empty())
                     panel.marks = changes(file, run, direction);
                 figure.panels.push_back(std::move(panel));
@@ -196,16 +206,16 @@ ResultPicture basin(const StudyPicture& picture, const ResultFile& file) {
     const std::string y = picture.y.empty() ? run.record.coordinates[1].name : picture.y.front();
     std::string means, ranges;
     for (const ResultColumn& column : run.record.values) {
-        means += ", avg(s." + run.column(column.name) + ")";
+        means += ", avg(" + run.column(column.name) + ")";
         ranges += (ranges.empty() ? "" : ", ") + fmt::format("max({0}) - min({0})", run.column(column.name));
     }
     std::vector<double> spreads;
-    if (auto rows = file.query(fmt::format("SELECT {} FROM {}", ranges.empty() ? "0" : ranges, run.samples));
+    if (auto rows = file.query(fmt::format("SELECT {} FROM {} AS s", ranges.empty() ? "0" : ranges, run.samples));
         rows.next())
         for (std::size_t v = 0; v < run.record.values.size(); ++v)
             spreads.push_back(rows.number(v));
     auto rows = file.query(
-        fmt::format("SELECT p.{}, p.{}, p.label, p.period, p.signature{} FROM {} AS p LEFT JOIN {} AS s ON s.rowid >= "
+        fmt::format("SELECT {}, {}, p.label, p.period, p.signature{} FROM {} AS p LEFT JOIN {} AS s ON s.rowid >= "
                     "p.number * 16777216 AND s.rowid < (p.number + 1) * 16777216 GROUP BY p.number ORDER BY p.number",
                     run.column(x), run.column(y), means, run.points, run.samples));
     ResultPicture result;
@@ -377,12 +387,11 @@ ResultPicture fitted(const StudyPicture& picture, const ResultFile& file) {
     const std::string y = chosen_values(picture, run).front();
     require_values(picture, run, {y});
     const std::string x = picture.successive ? y : first_coordinate(picture, run);
-    const std::string group = picture.group.empty() ? "0" : "p." + run.column(picture.group);
-    auto rows = file.query(fmt::format("SELECT {}, p.number, {}, s.{} FROM {} AS s JOIN {} AS p ON p.number = s.point "
-                                       "WHERE s.sampling IN ({}) ORDER BY "
-                                       "1, p.number, s.rowid",
-                                       group, picture.successive ? "0" : run.column(x), run.column(y), run.samples,
-                                       run.points, in_list(shown_samplings(picture, run))));
+    const std::string group = picture.group.empty() ? "0" : run.column(picture.group);
+    auto rows = file.query(fmt::format("SELECT {}, p.number, {}, {} FROM {} WHERE s.sampling IN ({}) ORDER BY 1, "
+                                       "p.number, s.rowid",
+                                       group, picture.successive ? "0" : run.column(x), run.column(y), run.joined,
+                                       in_list(shown_samplings(picture, run))));
     std::map<double, std::vector<PlanePoint>> groups;
     std::int64_t last = -1;
     double before = 0;
@@ -451,8 +460,8 @@ Figure scatter(const StudyPicture& picture, const ResultFile& file) {
                 figure.panels.push_back(panel_of(picture, x, run.unit(x), ys[v], run.unit(ys[v])));
             FigureSeries series{picture.runs.size() > 1 ? picture.runs[r] : "", FigureSeries::Style::impulses, r, {}};
             series.style = FigureSeries::Style::circles;
-            auto rows = file.query(
-                fmt::format("SELECT {}, {} FROM {} ORDER BY number", run.column(x), run.column(ys[v]), run.points));
+            auto rows = file.query(fmt::format("SELECT {}, {} FROM {} AS p ORDER BY number", run.column(x),
+                                               run.column(ys[v]), run.points));
             while (rows.next())
                 if (!rows.is_null(0) && !rows.is_null(1))
                     series.points.push_back({rows.number(0), rows.number(1)});

@@ -123,8 +123,10 @@ ResultFile::ResultFile(const std::string& path, Access access) {
                          fmt::format("the result file has format {}, this version of graze knows format {}",
                                      format, result_format),
                          "use the version of graze that wrote it, or run the study into another folder");
-    if (!writing)
+    if (!writing) {
+        database.execute("PRAGMA cache_size = -65536; PRAGMA query_only = 1");
         return;
+    }
     if (empty)
         database.execute("PRAGMA page_size = 8192");
     database.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; PRAGMA cache_size = -32768; "
