@@ -50,7 +50,7 @@ TEST(RegressionTest, LeavesResidualsThatNoLineCanLessen) {
         moment += residual * (x[i] - 1000);
     }
     // Each mean is a sum of 500 values of about 3000, rounded 500 times; its error enters all 500 residuals.
-    const double bound = 4 * 500 * 500 * 3000 * eps;
+    const double bound = 4.0 * 500 * 500 * 3000 * eps;
     EXPECT_NEAR(sum, 0, bound);
     EXPECT_NEAR(moment, 0, 5 * bound);
 }
