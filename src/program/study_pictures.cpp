@@ -412,10 +412,11 @@ ResultPicture fitted(const StudyPicture& picture, const ResultFile& file) {
                           {"intercept", ""},
                           {"intercept_error", ""},
                           {"points", ""}});
+    panel.key_inside = true;
     std::size_t colour = 0;
     for (const auto& [value, points] : groups) {
         std::vector<double> xs, ys;
-        double least = std::numeric_limits<double>::infinity(), greatest = 0;
+        double least = std::numeric_limits<double>::infinity(), greatest = -least;
         for (const PlanePoint& point : points) {
             const bool in_range = !picture.fit || (point.x > picture.fit->first && point.x < picture.fit->second);
             if (!in_range || (picture.logarithmic_x && !(point.x > 0)) || (picture.logarithmic_y && !(point.y > 0)))
