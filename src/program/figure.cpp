@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <limits>
 #include <unordered_set>
 
@@ -69,7 +70,7 @@ std::string style_text(const FigureSeries& series, bool crowded) {
     switch (series.style) {
     case FigureSeries::Style::dots:
         return crowded ? fmt::format("with dots lc rgb '{}'", colour)
-                       : fmt::format("with points pt 7 ps 0.25 lc rgb '{}'", colour);
+                       : fmt::format("with points pt 7 ps 0.15 lc rgb '{}'", colour);
     case FigureSeries::Style::circles:
         return fmt::format("with points pt 6 ps 0.8 lw 1.4 lc rgb '{}'", colour);
     case FigureSeries::Style::line:
@@ -89,7 +90,7 @@ std::string range_text(const std::optional<std::pair<double, double>>& range) {
 std::string data_text(const FigureSeries& series, const FigurePanel& panel, bool& crowded) {
     const bool dots = series.style == FigureSeries::Style::dots;
     const std::vector<PlanePoint> points = dots ? thinned(series, panel) : series.points;
-    constexpr std::size_t crowd = 3000;
+    constexpr std::size_t crowd = 20000;
     crowded = points.size() > crowd;
     std::string text;
     for (const PlanePoint& point : points)
@@ -104,6 +105,8 @@ std::string panel_commands(const FigurePanel& panel) {
     text += panel.logarithmic_x ? "set logscale x\nset format x '10^{%T}'\n" : "unset logscale x\nset format x '%g'\n";
     text += panel.logarithmic_y ? "set logscale y\nset format y '10^{%T}'\n" : "unset logscale y\nset format y '%g'\n";
     text += fmt::format("set xrange {}\nset yrange {}\n", range_text(panel.x_range), range_text(panel.y_range));
+    text += panel.key_inside ? "set key inside bottom right vertical Left reverse\n"
+                             : "set key outside bottom center horizontal noreverse\n";
     text += "unset arrow\n";
     for (const double mark : panel.marks)
         text += fmt::format("set arrow from first {0},graph 0 to first {0},graph 1 nohead lw 0.5 dt 3 lc rgb "
@@ -171,7 +174,13 @@ void draw_figure(const Figure& figure, const std::string& path, const std::strin
     if (!data_path.empty())
         write_file(data_path, figure.script(ending, path));
     FileReplacement file(path);
-    const ProcessResult result = run_process({gnuplot, "-"}, figure.script(ending, file.temporary_path()));
+    // From a file: gnuplot reads standard input letter by letter, which takes it long for many points.
+    FileReplacement commands(path + ".gp");
+    {
+        std::ofstream stream(commands.temporary_path(), std::ios::binary);
+        stream << figure.script(ending, file.temporary_path());
+    }
+    const ProcessResult result = run_process({gnuplot, commands.temporary_path()}, "");
     if (result.status != 0)
         throw InputError(fmt::format("gnuplot could not draw '{}': {}", path, one_line(result.output)),
                          "keep its commands by --data FILE and run gnuplot FILE");

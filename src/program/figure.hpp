@@ -22,6 +22,7 @@ struct FigurePanel {
     std::string title;
     std::string x_label, y_label, x_unit, y_unit; ///< names and units
     bool logarithmic_x = false, logarithmic_y = false;
+    bool key_inside = false; ///< the legend has long lines
     std::optional<std::pair<double, double>> x_range, y_range;
     std::vector<FigureSeries> series;
     std::vector<double> marks; ///< thin vertical lines

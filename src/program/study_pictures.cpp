@@ -412,6 +412,7 @@ ResultPicture fitted(const StudyPicture& picture, const ResultFile& file) {
                           {"intercept", ""},
                           {"intercept_error", ""},
                           {"points", ""}});
+    panel.key_inside = true;
     std::size_t colour = 0;
     for (const auto& [value, points] : groups) {
         std::vector<double> xs, ys;

@@ -87,7 +87,7 @@ void ReturnWatcher::passage(const Passage& passage) {
     if (passage.probe != map_->probe() || passage.time - leg_start_ <= shortest_)
         return;
     const double since = passage.time - (returns_ > 0 ? std::max(recent(0).time, leg_start_) : leg_start_);
-    if (map_->is_on_event(workspace_, passage.mode, passage.state, simultaneous * since)) {
+    if (map_->is_on_event(workspace_, passage.mode, passage.state, periods_, simultaneous * since)) {
         pending_ = true;
         pending_time_ = passage.time;
         return;

@@ -9,6 +9,12 @@
 
 namespace graze {
 
+namespace {
+
+constexpr double simultaneous_phase = 1e-10; ///< share of a period
+
+} // namespace
+
 SectionMap::SectionMap(const Simulation& simulation, std::size_t probe)
     : simulation_(&simulation), probe_(probe), states_(simulation.compiled().states()), takes_part_(states_, true) {
     const Model& model = simulation.model();
@@ -78,11 +84,25 @@ void SectionMap::settle_on_section(Workspace& workspace, std::span<double> state
         state[i] -= workspace.gradient[0] * workspace.gradient[1 + i] / square;
 }
 
-bool SectionMap::is_on_event(Workspace& workspace, std::size_t mode, std::span<const double> state, double time) const {
-    const auto& compiled = simulation_->compiled().mode(mode);
-    if (compiled.watched.empty())
+bool SectionMap::is_on_event(Workspace& workspace, std::size_t mode, std::span<const double> state,
+                             std::span<const double> periods, double time) const {
+    if (simulation_->compiled().mode(mode).watched.empty())
         return false;
     std::copy(state.begin(), state.end(), workspace.inputs.begin());
+    if (meets_event(workspace, mode, time))
+        return true;
+    // A phase at the beginning of its period is also at its end, where clocks have their events.
+    bool at_end = false;
+    for (std::size_t i = 0; i < states_; ++i)
+        if (periods[i] > 0 && state[i] < simultaneous_phase * periods[i]) {
+            workspace.inputs[i] += periods[i];
+            at_end = true;
+        }
+    return at_end && meets_event(workspace, mode, time);
+}
+
+bool SectionMap::meets_event(Workspace& workspace, std::size_t mode, double time) const {
+    const auto& compiled = simulation_->compiled().mode(mode);
     compiled.rates.evaluate(workspace.inputs, workspace.field, workspace.work);
     compiled.events.evaluate(workspace.inputs, workspace.events, workspace.work);
     compiled.event_gradients.evaluate(workspace.inputs, workspace.event_gradients, workspace.work);

@@ -38,9 +38,12 @@ public:
     /// Moves a state onto a crossing section by one step of Newton's method; a phase is left as it is.
     void settle_on_section(Workspace& workspace, std::span<double> state) const;
     /// Whether an event of the mode happens within `time` of the state.
-    bool is_on_event(Workspace& workspace, std::size_t mode, std::span<const double> state, double time) const;
+    bool is_on_event(Workspace& workspace, std::size_t mode, std::span<const double> state,
+                     std::span<const double> periods, double time) const;
 
 private:
+    bool meets_event(Workspace& workspace, std::size_t mode, double time) const;
+
     const Simulation* simulation_;
     std::size_t probe_, states_;
     Function section_; ///< value, then gradient; of crossings

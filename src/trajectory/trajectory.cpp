@@ -78,6 +78,7 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     arc_start_ = true;
     stuck_ = false;
     served_ = no_event;
+    stop_after_contact_ = false;
     pending_.reset();
     together_.clear();
     touches_.clear();
@@ -98,6 +99,7 @@ void Trajectory::extend(double end_time) {
                          "give an end that is not before the present time");
     outcome_ = {};
     end_time_ = end_time;
+    stop_after_contact_ = false;
 }
 
 void Trajectory::carry_tangents(std::span<const double> seeds, std::size_t directions) {
@@ -168,7 +170,7 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
         begin_arc(step);
         if (finished() || arc_start_)
             return;
-        if (observer_->stop())
+        if (observer_->stop() || stop_after_contact_)
             return finish(Ending::stopped, time_);
     }
     if (remaining <= 0)
@@ -182,7 +184,15 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
     const std::size_t jumping = limit_to_branch(step);
     last = last && step == whole;
     std::size_t watched = step > 0 ? find_contact(step, outlook, lane) : no_event;
-    const bool stopped = make_step(step);
+    const double contact_at = step;
+    bool stopped = make_step(step);
+    if (stopped && watched != no_event && contact_at - step <= 64 * epsilon * std::max(std::abs(time_), largest_step_)) {
+        // A contact at the very passage belongs to it: were it left for later, a clock that is set back at the end of
+        // its period would have passed it by.
+        step = contact_at;
+        stop_after_contact_ = true;
+        stopped = false;
+    }
     if (stopped) {
         watched = no_event;
         last = false;
