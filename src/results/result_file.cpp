@@ -143,6 +143,10 @@ ResultFile::~ResultFile() {
         return;
     try {
         flush();
+        state_->writer.reset();
+        // One plain file, which can be read where nothing can be written; not while somebody reads it.
+        if (state_->lock)
+            state_->database.execute("PRAGMA journal_mode = DELETE");
     } catch (...) { // whoever wants to know has called flush
         state_->sqlite_rollback();
     }

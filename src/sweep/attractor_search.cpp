@@ -151,7 +151,7 @@ void AttractorSearch::begin(std::span<const double> parameters, std::span<const 
     visited_.clear();
     limit_ = setting_->options.cycles;
     disturbances_ = 0;
-    finding_ = false;
+    finding_ = confirming_ = false;
     result_ = {};
     main_->start(state, mode, 0, setting_->options.longest_return > 0 ? setting_->options.longest_return : forever);
     const std::size_t before = std::min(limit_, setting_->options.lyapunov_cycles);
@@ -187,7 +187,7 @@ bool AttractorSearch::settle() {
 }
 
 bool AttractorSearch::examine_return() {
-    if (exponent_.begun())
+    if (exponent_.begun() && !confirming_)
         exponent_.add_return(*main_);
     if (watcher_.returns() > setting_->options.cycles)
         visited_.insert(visited_.end(), watcher_.recent(0).state.begin(), watcher_.recent(0).state.end());
@@ -208,10 +208,16 @@ void AttractorSearch::start_exponent() {
 
 bool AttractorSearch::go_on() {
     const std::size_t returns = watcher_.returns();
-    const bool look_again = limit_ > setting_->options.cycles && returns % returns_between_looks == 0;
+    const bool look_again = limit_ > setting_->options.cycles && returns % returns_between_looks == 0 && !confirming_;
     if ((returns >= limit_ || look_again) && conclude())
         return false;
     const std::size_t before = std::min(setting_->options.cycles, setting_->options.lyapunov_cycles);
+    if (confirming_) {
+        watcher_.stop_after(limit_);
+        const double longest_confirmed = setting_->options.longest_return;
+        main_->extend(longest_confirmed > 0 ? main_->time() + longest_confirmed : forever);
+        return true;
+    }
     if (before > 0 && !exponent_.begun() && returns + before >= setting_->options.cycles)
         start_exponent();
     watcher_.stop_after(exponent_.begun() ? returns + 1 : setting_->options.cycles - before);
@@ -285,26 +291,41 @@ bool AttractorSearch::leave_unstable_orbit() {
         return false;
     for (std::size_t i = 0; i < state.size(); ++i)
         state[i] += (along < 0 ? -size : size) * direction[static_cast<Eigen::Index>(i)] / length;
-    const double time = main_->time();
-    const double duration = finder_.duration() / static_cast<double>(finder_.period());
-    watcher_.start_leg(time, soonest * duration);
     std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
-    const double longest = setting_->options.longest_return;
-    main_->start(state, finder_.mode(), time, longest > 0 ? time + longest : forever);
-    if (exponent_.begun())
+    restart(state, finder_.mode(), finder_.duration() / static_cast<double>(finder_.period()));
+    if (exponent_.begun() && !confirming_)
         exponent_.seed(*main_);
     return true;
 }
 
+/// Many transients look chaotic until they suddenly settle: what does is followed as long again.
+void AttractorSearch::confirm_chaos() {
+    confirming_ = true;
+    limit_ = watcher_.returns() + setting_->options.cycles;
+    std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
+    restart(watcher_.recent(0).state, watcher_.recent(0).mode, watcher_.recent(0).time - watcher_.recent(1).time);
+}
+
+/// Starts the motion anew where it is, or close to that, without derivatives.
+void AttractorSearch::restart(std::span<const double> state, std::size_t mode, double duration) {
+    const double time = main_->time(), longest = setting_->options.longest_return;
+    watcher_.start_leg(time, soonest * duration);
+    main_->start(state, mode, time, longest > 0 ? time + longest : forever);
+}
+
 /// After all cycles. @return whether the point is done
 bool AttractorSearch::conclude() {
+    if (confirming_)
+        return !finish(Label::chaotic);
     if (!exponent_.begun())
         return !finish(Label::unsettled);
     if (exponent_.known()) {
         const double growth = exponent_.value() * exponent_.time_per_return();
         if (exponent_.value() > clear_of_zero * exponent_.error() &&
-            growth * static_cast<double>(exponent_.returns()) > least_growth)
-            return !finish(Label::chaotic);
+            growth * static_cast<double>(exponent_.returns()) > least_growth) {
+            confirm_chaos();
+            return false;
+        }
         if (watcher_.returns() >= limit_ && limit_ > setting_->options.cycles &&
             std::abs(growth) * static_cast<double>(exponent_.returns()) < neutral && is_quasi_periodic())
             return !finish(Label::quasi_periodic);

@@ -44,6 +44,8 @@ private:
     bool is_attracting() const;
     bool leave_unstable_orbit();
     bool conclude();
+    void confirm_chaos();
+    void restart(std::span<const double> state, std::size_t mode, double duration);
     bool comes_back();
     bool is_quasi_periodic();
     bool finish_periodic();
@@ -56,7 +58,8 @@ private:
     OrbitFinder finder_;
     Exponent exponent_;
     std::optional<Trajectory> main_;
-    bool finding_ = false; ///< an orbit: the finder's trajectory is to be run
+    bool confirming_ = false; ///< that the motion remains chaotic
+    bool finding_ = false;    ///< an orbit: the finder's trajectory is to be run
     std::vector<double> parameters_, periods_, thresholds_;
     std::vector<double> visited_; ///< states at returns of the time after `cycles`
     std::size_t limit_ = 0, disturbances_ = 0;

@@ -182,7 +182,7 @@ std::vector<std::complex<double>> return_multipliers(const SectionMap& map, cons
     if (jacobian.active.empty())
         return multipliers;
     const Eigen::EigenSolver<Eigen::MatrixXd> solver(scaled_matrix(jacobian, scale));
-    const Eigen::VectorXcd values = solver.eigenvalues();
+    const Eigen::VectorXcd& values = solver.eigenvalues();
     std::vector<Eigen::Index> order(jacobian.active.size());
     for (std::size_t i = 0; i < order.size(); ++i)
         order[i] = static_cast<Eigen::Index>(i);

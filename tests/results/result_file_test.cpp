@@ -1,0 +1,325 @@
+#include "graze/results/result_file.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <thread>
+
+namespace graze {
+namespace {
+
+using testing::HasSubstr;
+
+class ResultFileTest : public testing::Test {
+protected:
+    void SetUp() override {
+        folder_ =
+            std::filesystem::temp_directory_path() / ("graze-results-" + std::to_string(getpid()) + "-" +
+                                                      testing::UnitTest::GetInstance()->current_test_info()->name());
+        std::filesystem::remove_all(folder_);
+        std::filesystem::create_directories(folder_);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+    std::string path(const std::string& name = "results.sqlite") const { return (folder_ / name).string(); }
+
+    std::filesystem::path folder_;
+};
+
+RunRecord run_named(const std::string& name) {
+    RunRecord run;
+    run.name = name;
+    run.kind = "sweep";
+    run.model_name = "oscillator";
+    run.model = "name = \"oscillator\"\n# 'quotes' \"and\" more";
+    run.settings = "{\"cycles\":150}";
+    run.fingerprint = "abc";
+    run.version = "0.1.0";
+    run.coordinates = {{"V", "V"}, {"label", ""}};
+    run.states = {{"q", "m"}, {"v", "m/s"}};
+    run.values = {{"v", "m/s"}, {"time", "s"}};
+    run.samplings = {"rising", "falling"};
+    run.modes = {"free", "held"};
+    run.directions = {"up", "down"};
+    run.points = 100;
+    return run;
+}
+
+PointRecord point_numbered(std::size_t number) {
+    PointRecord point;
+    point.number = number;
+    point.chain = number / 10;
+    point.direction = number % 10 < 5 ? 0 : 1;
+    point.coordinates = {4.5 + 0.001 * static_cast<double>(number), 1.0 / 3};
+    PointResult& result = point.result;
+    result.label = Label::periodic;
+    result.period = 3;
+    result.duration = 0.48;
+    result.signature = "impact^4";
+    result.symmetric = true;
+    result.multipliers = {{0.6128, 0.1}, {0.6128, -0.1}};
+    result.residual = 1e-15;
+    result.lyapunov = -1.02;
+    result.cycles = 56;
+    result.periods_run = 70;
+    result.time = 9.6;
+    result.state = {0.1 + static_cast<double>(number), -0.2};
+    result.mode = 1;
+    result.outcome = {Ending::stopped, 9.6, "it's over"};
+    result.samples.width = 2;
+    for (std::size_t s = 0; s < 6; ++s) {
+        result.samples.samplings.push_back(s % 2);
+        result.samples.times.push_back(0.08 * static_cast<double>(s));
+        result.samples.values.push_back(std::sin(static_cast<double>(number + s)));
+        result.samples.values.push_back(static_cast<double>(s));
+    }
+    return point;
+}
+
+void expect_equal(const PointRecord& a, const PointRecord& b) {
+    EXPECT_EQ(a.number, b.number);
+    EXPECT_EQ(a.chain, b.chain);
+    EXPECT_EQ(a.direction, b.direction);
+    EXPECT_EQ(a.coordinates, b.coordinates);
+    EXPECT_EQ(a.result.label, b.result.label);
+    EXPECT_EQ(a.result.period, b.result.period);
+    EXPECT_EQ(a.result.duration, b.result.duration);
+    EXPECT_EQ(a.result.signature, b.result.signature);
+    EXPECT_EQ(a.result.symmetric, b.result.symmetric);
+    EXPECT_EQ(a.result.multipliers, b.result.multipliers);
+    EXPECT_EQ(a.result.residual, b.result.residual);
+    EXPECT_EQ(a.result.lyapunov, b.result.lyapunov);
+    EXPECT_EQ(a.result.lyapunov_error, b.result.lyapunov_error);
+    EXPECT_EQ(a.result.cycles, b.result.cycles);
+    EXPECT_EQ(a.result.periods_run, b.result.periods_run);
+    EXPECT_EQ(a.result.time, b.result.time);
+    EXPECT_EQ(a.result.state, b.result.state);
+    EXPECT_EQ(a.result.mode, b.result.mode);
+    EXPECT_EQ(a.result.outcome.ending, b.result.outcome.ending);
+    EXPECT_EQ(a.result.outcome.time, b.result.outcome.time);
+    EXPECT_EQ(a.result.outcome.detail, b.result.outcome.detail);
+    EXPECT_EQ(a.result.samples.samplings, b.result.samples.samplings);
+    EXPECT_EQ(a.result.samples.times, b.result.samples.times);
+    EXPECT_EQ(a.result.samples.values, b.result.samples.values);
+}
+
+TEST_F(ResultFileTest, gives_back_what_it_was_given) {
+    {
+        ResultFile file(path(), ResultFile::Access::write);
+        file.begin_run(run_named("sweep_6.25-Hz"));
+        for (const std::size_t number : {0, 1, 7, 12})
+            file.add_point("sweep_6.25-Hz", point_numbered(number));
+        file.complete_run("sweep_6.25-Hz");
+    }
+    const ResultFile file(path(), ResultFile::Access::read);
+    const auto run = file.find_run("sweep_6.25-Hz");
+    ASSERT_TRUE(run);
+    const RunRecord given = run_named("");
+    EXPECT_EQ(run->status, RunStatus::complete);
+    EXPECT_EQ(run->model, given.model);
+    EXPECT_EQ(run->settings, given.settings);
+    EXPECT_EQ(run->fingerprint, given.fingerprint);
+    EXPECT_EQ(run->coordinates[1].name, "label");
+    EXPECT_EQ(run->states[1].unit, "m/s");
+    EXPECT_EQ(run->samplings, given.samplings);
+    EXPECT_EQ(run->modes, given.modes);
+    EXPECT_EQ(run->points, 100u);
+    EXPECT_EQ(file.point_count(run->name), 4u);
+    for (const std::size_t number : {0, 1, 7, 12})
+        expect_equal(*file.point(run->name, number), point_numbered(number));
+    EXPECT_FALSE(file.point(run->name, 2));
+    // Nothing is left beside the file but its lock.
+    EXPECT_FALSE(std::filesystem::exists(path() + "-wal"));
+}
+
+TEST_F(ResultFileTest, writes_no_numbers_that_are_none) {
+    ResultFile file(path(), ResultFile::Access::write);
+    file.begin_run(run_named("r"));
+    PointRecord point = point_numbered(0);
+    point.result.label = Label::singular;
+    point.result.state[0] = std::nan("");
+    point.result.samples.values[0] = INFINITY;
+    file.add_point("r", point);
+    file.flush();
+    auto rows = file.query("SELECT end_q, period FROM points_r");
+    ASSERT_TRUE(rows.next());
+    EXPECT_TRUE(rows.is_null(0));
+    EXPECT_TRUE(rows.is_null(1));
+    EXPECT_TRUE(std::isnan(file.point("r", 0)->result.state[0]));
+}
+
+TEST_F(ResultFileTest, finds_nearest_and_last_points) {
+    ResultFile file(path(), ResultFile::Access::write);
+    file.begin_run(run_named("r"));
+    for (const std::size_t number : {0, 1, 2, 3, 4, 5, 6, 10, 11})
+        file.add_point("r", point_numbered(number));
+    EXPECT_EQ(file.nearest_point("r", "V", 4.5021, {})->number, 2u);
+    EXPECT_EQ(file.nearest_point("r", "V", 4.5, 1)->number, 5u);
+    EXPECT_EQ(file.nearest_point("r", "V", 99, {})->number, 11u);
+    EXPECT_FALSE(file.nearest_point("r", "W", 1, {}));
+    const auto last = file.last_points("r", 10);
+    ASSERT_EQ(last.size(), 2u);
+    EXPECT_EQ(last[0].number, 6u);
+    EXPECT_EQ(last[1].number, 11u);
+    EXPECT_EQ(last[1].result.state, point_numbered(11).result.state);
+}
+
+TEST_F(ResultFileTest, a_run_begun_anew_replaces_the_old_one) {
+    ResultFile file(path(), ResultFile::Access::write);
+    for (const char* name : {"a", "b"}) {
+        file.begin_run(run_named(name));
+        file.add_point(name, point_numbered(3));
+    }
+    file.begin_run(run_named("a"));
+    EXPECT_EQ(file.point_count("a"), 0u);
+    EXPECT_EQ(file.point_count("b"), 1u);
+    {
+        auto rows = file.query("SELECT count(*) FROM multipliers");
+        ASSERT_TRUE(rows.next());
+        EXPECT_EQ(rows.integer(0), 2);
+    }
+    file.remove_run("b");
+    EXPECT_EQ(file.runs().size(), 1u);
+}
+
+TEST_F(ResultFileTest, views_tell_where_labels_change) {
+    ResultFile file(path(), ResultFile::Access::write);
+    file.begin_run(run_named("r"));
+    for (std::size_t number = 0; number < 5; ++number) {
+        PointRecord point = point_numbered(number);
+        if (number >= 3)
+            point.result.label = Label::chaotic;
+        file.add_point("r", point);
+    }
+    auto rows = file.query("SELECT coordinate_before, coordinate, label_before, label FROM label_changes");
+    ASSERT_TRUE(rows.next());
+    EXPECT_EQ(rows.number(0), 4.502);
+    EXPECT_EQ(rows.number(1), 4.503);
+    EXPECT_EQ(rows.text(2), "periodic");
+    EXPECT_EQ(rows.text(3), "chaotic");
+    EXPECT_FALSE(rows.next());
+}
+
+std::string refusal(const std::string& path, ResultFile::Access access) {
+    try {
+        const ResultFile file(path, access);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST_F(ResultFileTest, refuses_what_it_cannot_read) {
+    EXPECT_THAT(refusal(path(), ResultFile::Access::read), HasSubstr("there is no such result file"));
+    std::ofstream(path("text")) << std::string(5000, 'x');
+    EXPECT_THAT(refusal(path("text"), ResultFile::Access::read), HasSubstr("no result file of graze"));
+    EXPECT_THAT(refusal(path("text"), ResultFile::Access::write), HasSubstr("no result file of graze"));
+    EXPECT_THAT(refusal(path("none/results.sqlite"), ResultFile::Access::write), HasSubstr("cannot be written"));
+    { ResultFile file(path(), ResultFile::Access::write); }
+    sqlite3* database = nullptr;
+    ASSERT_EQ(sqlite3_open(path().c_str(), &database), SQLITE_OK);
+    sqlite3_exec(database, "PRAGMA user_version = 99", nullptr, nullptr, nullptr);
+    sqlite3_close(database);
+    EXPECT_THAT(refusal(path(), ResultFile::Access::read),
+                HasSubstr("format 99, this version of graze knows format 1"));
+}
+
+TEST_F(ResultFileTest, only_one_process_writes_and_others_read) {
+    ResultFile file(path(), ResultFile::Access::write);
+    file.begin_run(run_named("r"));
+    file.add_point("r", point_numbered(0));
+    file.flush();
+    EXPECT_THAT(refusal(path(), ResultFile::Access::write), HasSubstr("another graze writes to this result file"));
+    const ResultFile reader(path(), ResultFile::Access::read);
+    EXPECT_EQ(reader.point_count("r"), 1u);
+}
+
+TEST_F(ResultFileTest, a_full_disk_is_said_and_loses_nothing) {
+    {
+        ResultFile file(path(), ResultFile::Access::write);
+        file.begin_run(run_named("r"));
+        for (std::size_t number = 0; number < 10; ++number)
+            file.add_point("r", point_numbered(number));
+        file.flush();
+    }
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        // A bound on the size of files is met as a full disk is.
+        std::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{300'000, 300'000};
+        setrlimit(RLIMIT_FSIZE, &limit);
+        int code = 1;
+        try {
+            ResultFile file(path(), ResultFile::Access::write);
+            for (std::size_t number = 10; number < 100'000; ++number)
+                file.add_point("r", point_numbered(number));
+            file.flush();
+        } catch (const InputError& error) {
+            code = std::string(error.what()).find("make room on the disk") != std::string::npos ? 0 : 2;
+        }
+        _exit(code);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+    ResultFile file(path(), ResultFile::Access::write);
+    EXPECT_GE(file.point_count("r"), 10u);
+    for (std::size_t number = 0; number < 10; ++number)
+        expect_equal(*file.point("r", number), point_numbered(number));
+}
+
+TEST_F(ResultFileTest, whoever_is_killed_leaves_whole_points) {
+    std::mt19937 random(1);
+    std::size_t before = 0;
+    {
+        ResultFile file(path(), ResultFile::Access::write);
+        file.begin_run(run_named("r"));
+    }
+    for (int round = 0; round < 100; ++round) {
+        const pid_t child = fork();
+        ASSERT_GE(child, 0);
+        if (child == 0) {
+            try {
+                ResultFile file(path(), ResultFile::Access::write);
+                for (std::size_t number = file.point_count("r"); number < 1'000'000; ++number) {
+                    file.add_point("r", point_numbered(number));
+                    if (number % 16 == 0)
+                        file.flush();
+                }
+            } catch (...) {
+                _exit(1);
+            }
+            _exit(0);
+        }
+        std::this_thread::sleep_for(std::chrono::microseconds(std::uniform_int_distribution<>(500, 12'000)(random)));
+        kill(child, SIGKILL);
+        waitpid(child, nullptr, 0);
+        const ResultFile file(path(), ResultFile::Access::read);
+        const std::size_t count = file.point_count("r");
+        ASSERT_GE(count, before);
+        if (count > 0)
+            expect_equal(*file.point("r", count - 1), point_numbered(count - 1));
+        auto rows = file.query("SELECT count(*), (SELECT count(*) FROM multipliers) FROM samples_r");
+        ASSERT_TRUE(rows.next());
+        ASSERT_EQ(rows.integer(0), static_cast<std::int64_t>(6 * count));
+        ASSERT_EQ(rows.integer(1), static_cast<std::int64_t>(2 * count));
+        before = count;
+    }
+    EXPECT_GT(before, 100u);
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,138 @@
+#include "graze/study/runner.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <atomic>
+#include <bit>
+#include <cstdint>
+#include <filesystem>
+
+namespace graze {
+namespace {
+
+using testing::HasSubstr;
+
+const char* const text = R"(
+name = "s"
+model = "impact-oscillator"
+[runs.sweep]
+kind = "sweep"
+vary = { omega = { from = 2.7, to = 2.9, step = 0.02 } }
+direction = "both"
+cycles = 60
+[runs.basin]
+kind = "basin"
+draws = 9
+vary = { x = { random = [-1, 0] } }
+cycles = 60
+start = { run = "sweep", at = { omega = 2.8 }, direction = "up" }
+)";
+
+class RunnerTest : public testing::Test {
+protected:
+    void SetUp() override {
+        path_ =
+            (std::filesystem::temp_directory_path() / ("graze-runner-" + std::to_string(getpid()) + "-" +
+                                                       testing::UnitTest::GetInstance()->current_test_info()->name()))
+                .string();
+        remove();
+    }
+    void TearDown() override { remove(); }
+    void remove() {
+        for (const char* ending : {"", ".lock", ".a", ".a.lock"})
+            std::filesystem::remove(path_ + ending);
+    }
+    std::string path_;
+};
+
+/// Everything that runs leave in a file.
+std::string contents(const ResultFile& file) {
+    std::string all;
+    for (const RunRecord& run : file.runs())
+        for (const std::string& table : {"points_" + run.name, "samples_" + run.name}) {
+            auto rows = file.query("SELECT * FROM \"" + table + "\" ORDER BY rowid");
+            while (rows.next()) {
+                for (std::size_t c = 0; c < rows.columns(); ++c)
+                    all += rows.is_text(c) || rows.is_null(c)
+                               ? rows.text(c) + '|'
+                               : std::to_string(std::bit_cast<std::uint64_t>(rows.number(c))) + '|';
+                all += '\n';
+            }
+        }
+    return all;
+}
+
+TEST_F(RunnerTest, does_once_what_is_asked_for) {
+    const Study study = parse_study(text, "s.toml");
+    ResultFile file(path_, ResultFile::Access::write);
+    const auto first = run_study(study, file, {.jobs = 2, .only = {}, .interrupted = {}, .progress = {}});
+    ASSERT_EQ(first.size(), 2u);
+    EXPECT_EQ(first[0].points, 22u);
+    EXPECT_EQ(first[0].computed, 22u);
+    EXPECT_EQ(first[1].computed, 9u);
+    const auto second = run_study(study, file, {.jobs = 2, .only = {}, .interrupted = {}, .progress = {}});
+    EXPECT_EQ(second[0].computed, 0u);
+    EXPECT_EQ(second[1].computed, 0u);
+    EXPECT_TRUE(second[1].complete);
+}
+
+TEST_F(RunnerTest, only_what_changed_is_done_again) {
+    Study study = parse_study(text, "s.toml");
+    ResultFile file(path_, ResultFile::Access::write);
+    run_study(study, file, {});
+    study.runs[1].attractor.cycles = 61;
+    auto reports = run_study(study, file, {});
+    EXPECT_EQ(reports[0].computed, 0u);
+    EXPECT_EQ(reports[1].computed, 9u);
+    study.runs[0].simulation.tolerance = 1e-11; // the basin starts from the sweep
+    reports = run_study(study, file, {});
+    EXPECT_EQ(reports[0].computed, 22u);
+    EXPECT_EQ(reports[1].computed, 9u);
+}
+
+TEST_F(RunnerTest, goes_on_anywhere_and_gives_the_same_bits) {
+    const Study study = parse_study(text, "s.toml");
+    std::string whole;
+    {
+        ResultFile file(path_ + ".a", ResultFile::Access::write);
+        run_study(study, file, {});
+        whole = contents(file);
+    }
+    ResultFile file(path_, ResultFile::Access::write);
+    std::size_t interruptions = 0;
+    for (std::size_t stop_after = 1;; ++stop_after) {
+        std::atomic<std::size_t> done{0};
+        RunnerOptions options;
+        options.jobs = 1 + static_cast<int>(stop_after % 3);
+        options.interrupted = [&] { return done >= stop_after; };
+        options.progress = [&](const std::string&, std::size_t, std::size_t) { ++done; };
+        const auto reports = run_study(study, file, options);
+        if (reports.back().complete && reports.size() == 2)
+            break;
+        ++interruptions;
+        ASSERT_LT(interruptions, 100u);
+    }
+    EXPECT_GT(interruptions, 3u);
+    EXPECT_EQ(contents(file), whole);
+}
+
+TEST_F(RunnerTest, says_where_a_run_cannot_start) {
+    Study study = parse_study(text, "s.toml");
+    study.runs[1].start->coordinate = "e";
+    ResultFile file(path_, ResultFile::Access::write);
+    try {
+        run_study(study, file, {});
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("s.toml:14:1: run 'sweep' has no coordinate 'e'"));
+    }
+    EXPECT_EQ(file.point_count("sweep"), 22u); // nothing is lost
+}
+
+} // namespace
+} // namespace graze

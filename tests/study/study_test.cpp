@@ -1,0 +1,148 @@
+#include "graze/study/study.hpp"
+
+#include "graze/study/runner.hpp"
+#include "graze/study/study_catalogue.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace graze {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const std::string head = "name = \"s\"\nmodel = \"impact-oscillator\"\n";
+
+std::string refusal(const std::string& text) {
+    try {
+        parse_study(text, "s.toml");
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+StudyRun only_run(const std::string& text) {
+    return parse_study(head + text, "s.toml").runs.at(0);
+}
+
+TEST(Study, steps_are_the_decimals_that_one_means) {
+    const StudyRun run =
+        only_run("[runs.a]\nkind = \"sweep\"\nvary = { omega = { from = 4.5, to = 5.5, step = 0.001 } }");
+    ASSERT_EQ(run.axes.at(0).values.size(), 1001u);
+    EXPECT_EQ(run.axes[0].values[333], 4.833);
+    EXPECT_EQ(run.axes[0].values[1000], 5.5);
+}
+
+TEST(Study, varies_by_lists_points_logarithms_and_draws) {
+    const StudyRun run = only_run(R"([runs.a]
+kind = "basin"
+draws = 3
+seed = 7
+vary = { omega = [3, 2.5], x = { from = 0, to = 1, points = 5 }, e = { from = 0.01, to = 1, points = 3, scale = "log" }, v = { random = [2, 3] } }
+)");
+    ASSERT_EQ(run.axes.size(), 4u);
+    EXPECT_THAT(run.axes[0].values, ElementsAre(2.5, 3));
+    EXPECT_THAT(run.axes[1].values, ElementsAre(0, 0.25, 0.5, 0.75, 1));
+    EXPECT_TRUE(run.axes[1].is_state);
+    EXPECT_NEAR(run.axes[2].values[1], 0.1, 1e-16);
+    const Plan plan = plan_of(run, nullptr);
+    EXPECT_EQ(plan.points(), 2u * 5 * 3 * 3);
+    for (std::size_t point = 0; point < plan.points(); ++point) {
+        const auto at = coordinates_of(run, point);
+        EXPECT_GE(at[3], 2);
+        EXPECT_LT(at[3], 3);
+        const PointStart start = plan.start(point);
+        EXPECT_EQ(start.state[run.axes[1].index], at[1]);
+        EXPECT_EQ(start.parameters[run.axes[0].index], at[0]);
+        EXPECT_EQ(coordinates_of(run, point), at);
+    }
+    EXPECT_NE(coordinates_of(run, 0)[3], coordinates_of(run, 1)[3]);
+}
+
+TEST(Study, sweeps_go_up_down_or_both_ways) {
+    const auto values = [](const char* direction) {
+        const StudyRun run = only_run("[runs.a]\nkind = \"sweep\"\nvary = { omega = [1, 2, 3] }\ndirection = \"" +
+                                      std::string(direction) + '"');
+        std::vector<double> result;
+        for (std::size_t p = 0; p < plan_of(run, nullptr).points(); ++p)
+            result.push_back(coordinates_of(run, p)[0]);
+        return result;
+    };
+    EXPECT_THAT(values("up"), ElementsAre(1, 2, 3));
+    EXPECT_THAT(values("down"), ElementsAre(3, 2, 1));
+    EXPECT_THAT(values("both"), ElementsAre(1, 2, 3, 3, 2, 1));
+}
+
+TEST(Study, runs_come_after_those_they_start_from) {
+    const Study study = parse_study(head + R"(
+[runs.second]
+kind = "simulate"
+periods = 3
+start = { run = "first" }
+[runs.first]
+kind = "simulate"
+time = "2*pi"
+)",
+                                    "s.toml");
+    EXPECT_EQ(study.runs[0].name, "first");
+    EXPECT_NEAR(study.runs[0].transient.time, 6.283185307179586, 1e-15);
+    EXPECT_EQ(study.runs[1].name, "second");
+}
+
+TEST(Study, shipped_ones_can_be_read) {
+    EXPECT_THAT(shipped_studies(),
+                ElementsAre("ball-and-shaker", "electromagnetic-testbed", "mems-switch", "microactuator", "microbeam"));
+    for (const std::string& name : shipped_studies())
+        EXPECT_FALSE(load_study(name).runs.empty()) << name;
+}
+
+TEST(Study, mistakes_are_told_with_their_place_and_remedy) {
+    struct Case {
+        std::string text, message;
+    };
+    const std::string sweep = "[runs.a]\nkind = \"sweep\"\nvary = { omega = [1, 2] }\n";
+    for (const Case& wrong : std::vector<Case>{
+             {"", "s.toml:1:1: the study has no name; give name = \"...\" in its first line"},
+             {"name = \"s\"", "s.toml:1:1: the study has no runs; add a table [runs.NAME]"},
+             {"name = 3", "s.toml:1:8: name must be a string, not a number; give a string"},
+             {"nme = 3", "s.toml:1:1: unknown key 'nme'; did you mean 'name'?"},
+             {head + "[runs.a]", "s.toml:3:7: runs.a has no kind; give kind = \"simulate\", \"sweep\" or \"basin\""},
+             {head + "[runs.a]\nkind = \"swep\"", "s.toml:4:8: runs.a.kind cannot be 'swep'; did you mean 'sweep'?"},
+             {head + "[runs.\"a b\"]\nkind = \"sweep\"",
+              "s.toml:3:7: 'a b' cannot be the name of a run; use letters, digits, '.', '_' and '-'"},
+             {head + "[runs.a]\nkind = \"sweep\"",
+              "s.toml:3:7: runs.a sweeps nothing; give vary = { PARAMETER = { from = A, to = B, step = S } }"},
+             {head + sweep + "cycels = 3", "s.toml:6:1: unknown key 'cycels' in runs.a; did you mean 'cycles'?"},
+             {head + sweep + "cycles = 0", "s.toml:6:10: runs.a.cycles is 0; give a whole number from 1 to 1000000000"},
+             {head + sweep + "section = \"phas0\"",
+              "s.toml:6:11: model 'impact-oscillator' has no section 'phas0'; did you mean 'phase0'?"},
+             {head + sweep + "values = [\"speed*\"]", "s.toml:6:12: unknown name 'speed'"},
+             {head + sweep + "sample = { a = { contacts = \"wal\" } }", "has no event 'wal'"},
+             {head + sweep + "sample = { a = { image = \"mirror\" } }", "declares no symmetry 'mirror'"},
+             {head + sweep + "bounds = { y = [0, 1] }", "the model has no state 'y'"},
+             {head + sweep + "start = { run = \"b\" }", "s.toml:6:1: the study has no run 'b'"},
+             {head + sweep + "start = { run = \"a\" }", "run 'a' starts from itself"},
+             {head + "[runs.a]\nkind = \"sweep\"\nvary = { omga = [1, 2] }",
+              "the model has no parameter or state 'omga'"},
+             {head + "[runs.a]\nkind = \"sweep\"\nvary = { omega = [1, 1] }", "is empty or has a value twice"},
+             {head + "[runs.a]\nkind = \"sweep\"\nvary = { omega = { from = 2, to = 1, step = 0.1 } }",
+              "runs.a.vary.omega goes from 2 to 1; let it rise; `direction` says which way a sweep goes"},
+             {head + "[runs.a]\nkind = \"sweep\"\nvary = { omega = { from = 1, to = 2, step = 1e-12 } }",
+              "has more than 10000000 values"},
+             {head + "[runs.a]\nkind = \"sweep\"\nvary = { omega = { from = 1 } }", "lacks `to`"},
+             {head + "[runs.a]\nkind = \"basin\"\nvary = { x = { random = [0, 1] } }", "does not say how many"},
+             {head + "[runs.a]\nkind = \"simulate\"", "nothing ends the simulation"},
+             {head + sweep + "set = { zta = 1 }", "s.toml:6:9"},
+             {head + sweep + "tolerance = 3", "tolerance"},
+             {head + sweep + "[pictures.p]\nkind = \"bifurcation\"\nrun = \"b\"", "the study has no run 'b'"},
+             {head + sweep + "[pictures.p]\nkind = \"bifurcation\"", "pictures.p shows no run"},
+             {"name = \"s\"\nmodel = \"no-model\"\n" + sweep, "s.toml:2:9"}})
+        EXPECT_THAT(refusal(wrong.text), HasSubstr(wrong.message)) << wrong.text;
+}
+
+} // namespace
+} // namespace graze
