@@ -73,7 +73,7 @@ std::string query_of(const ExportArguments& arguments, const ResultFile& file) {
                 columns += ", " + run.column(column.name);
             columns += ", s.sampling, s.time";
             for (const ResultColumn& column : run.record.values)
-                columns += ", " + run.column(column.name);
+                columns += ", " + run.value_column(column.name);
         }
         const std::string from = arguments.what == "points" ? run.points + " AS p" : run.joined;
         const std::string order = arguments.what == "points" ? "p.number" : "s.rowid";

@@ -66,6 +66,10 @@ std::string StoredRun::column(const std::string& name) const {
     return find(record.values, name) ? "s." + quoted_column(name) : name;
 }
 
+std::string StoredRun::value_column(const std::string& name) const {
+    return "s." + quoted_column(name);
+}
+
 std::string StoredRun::unit(const std::string& name) const {
     for (const auto* columns : {&record.coordinates, &record.values})
         if (const ResultColumn* column = find(*columns, name))

@@ -25,6 +25,8 @@ struct StoredRun {
 
     /// Column of a coordinate (of p) or value (of s); other texts are expressions in columns and stay as they are.
     std::string column(const std::string& name) const;
+    /// Column of a value, even if a coordinate has the same name.
+    std::string value_column(const std::string& name) const;
     std::string unit(const std::string& name) const;
     bool has_value(const std::string& name) const;
 };

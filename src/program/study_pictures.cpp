@@ -150,7 +150,7 @@ Figure bifurcation(const StudyPicture& picture, const ResultFile& file) {
                 }
                 auto rows = file.query(
                     fmt::format("SELECT {}, {}, s.sampling FROM {} WHERE p.direction = '{}' AND s.sampling IN ({})",
-                                run.column(x), run.column(value), run.joined, direction, in_list(samplings)));
+                                run.column(x), run.value_column(value), run.joined, direction, in_list(samplings)));
                 while (rows.next())
                     if (!rows.is_null(1))
                         panel.series[series.at(rows.text(2))].points.push_back({rows.number(0), rows.number(1)});
@@ -206,8 +206,8 @@ ResultPicture basin(const StudyPicture& picture, const ResultFile& file) {
     const std::string y = picture.y.empty() ? run.record.coordinates[1].name : picture.y.front();
     std::string means, ranges;
     for (const ResultColumn& column : run.record.values) {
-        means += ", avg(" + run.column(column.name) + ")";
-        ranges += (ranges.empty() ? "" : ", ") + fmt::format("max({0}) - min({0})", run.column(column.name));
+        means += ", avg(" + run.value_column(column.name) + ")";
+        ranges += (ranges.empty() ? "" : ", ") + fmt::format("max({0}) - min({0})", run.value_column(column.name));
     }
     std::vector<double> spreads;
     if (auto rows = file.query(fmt::format("SELECT {} FROM {} AS s", ranges.empty() ? "0" : ranges, run.samples));
@@ -390,7 +390,7 @@ ResultPicture fitted(const StudyPicture& picture, const ResultFile& file) {
     const std::string group = picture.group.empty() ? "0" : run.column(picture.group);
     auto rows = file.query(fmt::format("SELECT {}, p.number, {}, {} FROM {} WHERE s.sampling IN ({}) ORDER BY 1, "
                                        "p.number, s.rowid",
-                                       group, picture.successive ? "0" : run.column(x), run.column(y), run.joined,
+                                       group, picture.successive ? "0" : run.column(x), run.value_column(y), run.joined,
                                        in_list(shown_samplings(picture, run))));
     std::map<double, std::vector<PlanePoint>> groups;
     std::int64_t last = -1;

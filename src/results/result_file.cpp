@@ -18,7 +18,7 @@ namespace graze {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr auto between_commits = std::chrono::milliseconds(500);
+constexpr auto between_commits = std::chrono::milliseconds(50);
 /// Samples of a point follow one another from this many times its number on.
 constexpr std::int64_t samples_of_a_point = std::int64_t{1} << 24;
 
