@@ -62,6 +62,8 @@ if(TARGET graze_executable)
         )
     endif()
     add_test(NAME demo COMMAND bash ${PROJECT_SOURCE_DIR}/examples/demo.sh ${PROJECT_BINARY_DIR}/demo)
-    set_tests_properties(demo PROPERTIES ENVIRONMENT "GRAZE=$<TARGET_FILE:graze_executable>")
+    set_tests_properties(
+        demo PROPERTIES ENVIRONMENT "GRAZE=$<TARGET_FILE:graze_executable>" LABELS slow TIMEOUT 1200
+    )
     include(tests/documentation/documentation.cmake)
 endif()

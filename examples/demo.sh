@@ -1,35 +1,21 @@
 #!/usr/bin/env bash
-# Trajectories of two machines of the literature: an electromagnetic testbed that impacts just below the voltage at which
-# it would graze its stop, and a MEMS switch that impacts make snap through. Leaves tables and pictures.
+# What an electromagnetic testbed does as its voltage is swept up and down at three frequencies: bifurcation diagrams,
+# phase portraits and spectra. Run again, it only does what is missing.
 # usage: [GRAZE=program] demo.sh [FOLDER]
 set -euo pipefail
 graze=${GRAZE:-graze}
 folder=${1:-demo}
-mkdir -p "$folder"
-folder=$(realpath "$folder")
-written=()
-
-simulate() { # NAME OPTION...: the contacts as a table and the motion as a picture
-    echo "graze simulate ${*:2}"
-    "$graze" simulate "${@:2}" --contacts --format csv --plot "$folder/$1.png" >"$folder/$1-contacts.csv"
-    written+=("$1.png" "$1-contacts.csv")
-}
-
-# At 4.833 V, below the 4.833263 V at which the motion without impacts touches the stop, a motion with impacts coexists
-# that repeats after three periods of the voltage: first how it sets in, then what remains.
-simulate testbed electromagnetic-testbed --set V0=4.833 --from I=0.1 --periods 20
-simulate testbed-settled electromagnetic-testbed --set V0=4.833 --from I=0.1 --skip 300 --periods 6
-echo "graze simulate electromagnetic-testbed --set V0=4.833 --from I=0.1 --periods 300 --section phase0 --format csv"
-"$graze" simulate electromagnetic-testbed --set V0=4.833 --from I=0.1 --periods 300 --section phase0 --format csv \
-    >"$folder/testbed-phase0.csv"
-written+=(testbed-phase0.csv)
-
-# A ten-thousandth above its grazing voltage the switch touches its stop four times, ever harder, and snaps through.
-simulate switch mems-switch
+echo "graze run electromagnetic-testbed --output $folder"
+"$graze" run electromagnetic-testbed --output "$folder" --progress
 
 echo
-echo "The pictures and data are:"
-for file in "${written[@]}"; do
-    [[ -s $folder/$file ]] || { echo "$folder/$file was not written" >&2; exit 1; }
-    echo "  $folder/$file"
+echo "Where the motion changes at 6.25 Hz, on the way up and down (for at least 20 mV):"
+"$graze" export "$folder" --digits 6 --sql "
+SELECT direction, min(V0) AS \"from\", max(V0) AS \"to\", label, period, symmetric, signature FROM (
+  SELECT *, sum(new) OVER (ORDER BY number) AS stretch FROM (
+    SELECT *, (label IS NOT lag(label) OVER w OR period IS NOT lag(period) OVER w OR symmetric IS NOT lag(symmetric) OVER w)
+              AS new FROM points_sweep_6_25Hz WINDOW w AS (ORDER BY number)))
+GROUP BY stretch HAVING count(*) >= 20 ORDER BY stretch"
+for picture in fig-5-10 fig-5-11 fig-5-12 fig-5-14 fig-5-15; do
+    [[ -s $folder/$picture.png ]] || { echo "$folder/$picture.png was not drawn" >&2; exit 1; }
 done
