@@ -90,10 +90,10 @@ std::optional<std::pair<double, double>> extent_of(const ResultFile& file, const
 
 /// Where something changes that lasted before and lasts after.
 std::vector<double> changes(const ResultFile& file, const StoredRun& run, const std::string& direction) {
-    auto rows = file.query(
-        fmt::format("SELECT {}, label, period, symmetric, chain FROM {} AS p WHERE direction = '{}' ORDER BY "
-                    "number",
-                    run.column(run.record.coordinates.front().name), run.points, direction));
+    auto rows = file.query(fmt::format(
+        "SELECT {}, label, period, symmetric, chain, signature FROM {} AS p WHERE direction = '{}' ORDER BY "
+        "number",
+        run.column(run.record.coordinates.front().name), run.points, direction));
     struct Stretch {
         std::string kind;
         double first, last;
@@ -104,7 +104,7 @@ std::vector<double> changes(const ResultFile& file, const StoredRun& run, const 
     while (rows.next()) {
         if (rows.integer(4) != 0)
             return {}; // several chains: their changes would hide one another
-        const std::string kind = fmt::format("{} {} {}", rows.text(1), rows.text(2), rows.text(3));
+        const std::string kind = fmt::format("{} {} {} {}", rows.text(1), rows.text(2), rows.text(3), rows.text(5));
         if (stretches.empty() || stretches.back().kind != kind)
             stretches.push_back({kind, rows.number(0), rows.number(0), 0});
         stretches.back().last = rows.number(0);
@@ -124,6 +124,26 @@ std::vector<double> changes(const ResultFile& file, const StoredRun& run, const 
     if (marks.size() > most_marks)
         marks.clear();
     return marks;
+}
+
+/// Panels of the same value get the same axis, for up and down to be compared.
+void share_axes(Figure& figure) {
+    std::map<std::string, std::pair<double, double>> extents;
+    for (const FigurePanel& panel : figure.panels)
+        for (const FigureSeries& series : panel.series)
+            for (const PlanePoint& point : series.points) {
+                const auto [at, first] = extents.try_emplace(panel.y_label, point.y, point.y);
+                at->second.first = std::min(at->second.first, point.y);
+                at->second.second = std::max(at->second.second, point.y);
+            }
+    constexpr double margin = 0.04;
+    for (FigurePanel& panel : figure.panels)
+        if (const auto at = extents.find(panel.y_label);
+            at != extents.end() && !panel.y_range && !panel.logarithmic_y) {
+            const auto [low, high] = at->second;
+            if (low < high)
+                panel.y_range = std::pair(low - margin * (high - low), high + margin * (high - low));
+        }
 }
 
 Figure bifurcation(const StudyPicture& picture, const ResultFile& file) {
@@ -161,6 +181,7 @@ Figure bifurcation(const StudyPicture& picture, const ResultFile& file) {
                 figure.panels.push_back(std::move(panel));
             }
     }
+    share_axes(figure);
     return figure;
 }
 

@@ -85,14 +85,15 @@ CREATE VIEW orbits AS SELECT run, number, direction, coordinate, period, duratio
 CREATE VIEW label_counts AS SELECT run, direction, label, period, symmetric, count(*) AS points FROM all_points
     GROUP BY run, direction, label, period, symmetric;
 CREATE VIEW label_changes AS SELECT run, chain, direction, coordinate_before, coordinate, label_before, label,
-    period_before, period, symmetric_before, symmetric FROM (
-    SELECT run, number, chain, direction, coordinate, label, period, symmetric,
+    period_before, period, signature_before, signature, symmetric_before, symmetric FROM (
+    SELECT run, number, chain, direction, coordinate, label, period, signature, symmetric,
         lag(coordinate) OVER chains AS coordinate_before, lag(label) OVER chains AS label_before,
         lag(period) OVER chains AS period_before, lag(symmetric) OVER chains AS symmetric_before,
-        lag(direction) OVER chains AS direction_before
+        lag(direction) OVER chains AS direction_before, lag(signature) OVER chains AS signature_before
     FROM all_points WINDOW chains AS (PARTITION BY run, chain ORDER BY number))
     WHERE direction_before = direction
-      AND (label IS NOT label_before OR period IS NOT period_before OR symmetric IS NOT symmetric_before);
+      AND (label IS NOT label_before OR period IS NOT period_before OR symmetric IS NOT symmetric_before
+           OR signature IS NOT signature_before);
 )";
 }
 
