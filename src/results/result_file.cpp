@@ -119,10 +119,10 @@ ResultFile::ResultFile(const std::string& path, Access access) {
         throw InputError(Place{path, 0, 0}, "this is no result file of graze",
                          "give the results.sqlite of a study, or its folder");
     if (!empty && format != result_format)
-        throw InputError(Place{path, 0, 0},
-                         fmt::format("the result file has format {}, this version of graze knows format {}",
-                                     format, result_format),
-                         "use the version of graze that wrote it, or run the study into another folder");
+        throw InputError(
+            Place{path, 0, 0},
+            fmt::format("the result file has format {}, this version of graze knows format {}", format, result_format),
+            "use the version of graze that wrote it, or run the study into another folder");
     if (!writing) {
         database.execute("PRAGMA cache_size = -65536; PRAGMA query_only = 1");
         return;

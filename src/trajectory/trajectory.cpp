@@ -186,7 +186,8 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
     std::size_t watched = step > 0 ? find_contact(step, outlook, lane) : no_event;
     const double contact_at = step;
     bool stopped = make_step(step);
-    if (stopped && watched != no_event && contact_at - step <= 64 * epsilon * std::max(std::abs(time_), largest_step_)) {
+    if (stopped && watched != no_event &&
+        contact_at - step <= 64 * epsilon * std::max(std::abs(time_), largest_step_)) {
         // A contact at the very passage belongs to it: were it left for later, a clock that is set back at the end of
         // its period would have passed it by.
         step = contact_at;

@@ -7,9 +7,9 @@
 
 namespace graze {
 
-/// Writes runs as an HDF5 file: a group for each, with model, settings, fingerprint and version as attributes, and in it
-/// groups `points`, `samples` and `multipliers` with a dataset for each column (64-bit floats, whole numbers or texts).
-/// Numbers that are missing are NaN there, whole numbers -1.
+/// Writes runs as an HDF5 file: a group for each, with model, settings, fingerprint and version as attributes, and in
+/// it groups `points`, `samples` and `multipliers` with a dataset for each column (64-bit floats, whole numbers or
+/// texts). Numbers that are missing are NaN there, whole numbers -1.
 /// @throws InputError when the file cannot be written
 void export_hdf5(const ResultFile& file, const std::vector<std::string>& runs, const std::string& path);
 

@@ -166,7 +166,7 @@ private:
     std::size_t mode_ = 0, steps_ = 0;
     double time_ = 0, time_low_ = 0, start_time_ = 0, end_time_ = 0;
     double previous_step_ = 0, largest_step_ = 0;
-    bool stop_after_contact_ = false; ///< the observer stopped at a passage where a contact happens too
+    bool stop_after_contact_ = false;       ///< the observer stopped at a passage where a contact happens too
     bool arc_start_ = true, stuck_ = false; ///< stuck: the arc begins where contacts have accumulated
     double proposed_ = 0;                   ///< step by the series alone
     std::size_t served_ = no_event;         ///< event of the contact at which the present arc began
