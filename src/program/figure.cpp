@@ -28,6 +28,12 @@ constexpr double grain = 1.0 / 2000;
 constexpr std::array<const char*, 8> palette{"#1f4e9c", "#c8232c", "#2a8c4a", "#d98200",
                                              "#7b3fa0", "#1797a6", "#8a5a32", "#606060"};
 
+const char* colour_text(std::size_t colour) {
+    if (colour == FigureSeries::grey)
+        return "#b0b0b0";
+    return colour == FigureSeries::black ? "#000000" : palette[colour % palette.size()];
+}
+
 bool is_drawn(const PlanePoint& point, const FigurePanel& panel) {
     return std::isfinite(point.x) && std::isfinite(point.y) && (!panel.logarithmic_x || point.x > 0) &&
            (!panel.logarithmic_y || point.y > 0);
@@ -66,7 +72,7 @@ std::vector<PlanePoint> thinned(const FigureSeries& series, const FigurePanel& p
 }
 
 std::string style_text(const FigureSeries& series, bool crowded) {
-    const char* colour = palette[series.colour % palette.size()];
+    const char* colour = colour_text(series.colour);
     switch (series.style) {
     case FigureSeries::Style::dots:
         return crowded ? fmt::format("with dots lc rgb '{}'", colour)
@@ -127,8 +133,7 @@ std::string panel_commands(const FigurePanel& panel) {
         plots += fmt::format("{}{} {} {}", plots.empty() ? "" : ", ", "'-'", style_text(series, crowded),
                              tiny ? "notitle" : title);
         if (tiny)
-            plots += fmt::format(", NaN with points pt 7 ps 0.7 lc rgb '{}' {}",
-                                 palette[series.colour % palette.size()], title);
+            plots += fmt::format(", NaN with points pt 7 ps 0.7 lc rgb '{}' {}", colour_text(series.colour), title);
     }
     if (plots.empty())
         return text + "set label 99 'no data' at graph 0.5,0.5 center\nset xrange [0:1]\nset yrange [0:1]\n"

@@ -12,7 +12,8 @@ namespace graze {
 /// Something drawn in a panel.
 struct FigureSeries {
     enum class Style { dots, circles, line, dashed, impulses };
-    std::string title; ///< plain text; empty: not in the legend
+    static constexpr std::size_t grey = 1000, black = 1001; ///< colours outside of the palette
+    std::string title;                                      ///< plain text; empty: not in the legend
     Style style = Style::dots;
     std::size_t colour = 0;         ///< index in a palette
     std::vector<PlanePoint> points; ///< a point that is not finite interrupts a line

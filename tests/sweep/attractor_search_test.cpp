@@ -172,14 +172,65 @@ TEST(AttractorSearch, bouncing_ball_doubles_its_period_at_the_closed_form_thresh
     }
 }
 
-TEST(AttractorSearch, smooth_linear_oscillator_has_the_multipliers_of_its_damping) {
+TEST(AttractorSearch, linear_impact_oscillator_has_the_exponent_of_its_closed_form) {
+    // Between impacts area shrinks by exp(-2 zeta t), at each impact by e^2. With one impact per period T of the force
+    // the product of the multipliers is e^2 exp(-2 zeta T); as they are complex, each exponent is half its logarithm.
     Model model = load_model("impact-oscillator");
-    const auto find = [&](const char* name) { return *model.parameters[*model.find_parameter(name)].value; };
-    ASSERT_TRUE(model.find_parameter("zeta"));
-    const double zeta = find("zeta");
-    const PointResult result = settle(model, model.sections.front().name);
-    EXPECT_TRUE(result.label == Label::periodic || result.label == Label::chaotic);
-    EXPECT_GT(zeta, 0);
+    AttractorOptions options;
+    options.section = "phase0";
+    options.cycles = 3000;
+    const double zeta = 0.1, e = 0.8;
+    std::size_t complex = 0;
+    for (const double omega : {1.8, 2.0, 2.2, 2.5, 2.9}) {
+        model.set_parameter("zeta", zeta);
+        model.set_parameter("e", e);
+        model.set_parameter("omega", omega);
+        model.set_parameter("sigma", 0);
+        const PointResult result = settle(model, options);
+        const auto impacts = [&]() -> int {
+            if (result.signature == "impact")
+                return 1;
+            return result.signature == "impact^2" ? 2 : 0;
+        }();
+        if (result.label != Label::periodic || impacts == 0)
+            continue;
+        ASSERT_EQ(result.multipliers.size(), 2u) << omega;
+        const double product = std::pow(e, 2 * impacts) * std::exp(-2 * zeta * result.duration);
+        EXPECT_NEAR((result.multipliers[0] * result.multipliers[1]).real(), product, 1e-9) << omega;
+        if (result.multipliers[0].imag() != 0) {
+            ++complex;
+            EXPECT_NEAR(*result.lyapunov, 0.5 * std::log(product) / result.duration, 1e-9) << omega;
+        }
+    }
+    EXPECT_GE(complex, 2u);
+}
+
+TEST(AttractorSearch, linear_oscillator_without_contact_has_the_exponent_of_its_damping) {
+    Model model = load_model("impact-oscillator");
+    model.set_parameter("zeta", 0.05);
+    model.set_parameter("sigma", 50);
+    model.set_initial("x", 0.2);
+    AttractorOptions options;
+    options.section = "phase0";
+    const PointResult result = settle(model, options);
+    ASSERT_EQ(result.label, Label::periodic);
+    EXPECT_EQ(result.signature, "");
+    ASSERT_TRUE(result.lyapunov);
+    EXPECT_NEAR(*result.lyapunov, -0.05, 1e-12);
+}
+
+TEST(AttractorSearch, exponent_averaged_along_a_motion_equals_that_of_the_multipliers) {
+    // Of the stable orbit of period two, whose search is kept from finding it: largest_period is 1.
+    AttractorOptions options;
+    options.section = "half";
+    options.cycles = 1200;
+    options.lyapunov_cycles = 1000;
+    options.largest_period = 1;
+    const double r = 3.2;
+    const PointResult averaged = settle(logistic(r), options);
+    EXPECT_NE(averaged.label, Label::chaotic);
+    ASSERT_TRUE(averaged.lyapunov);
+    EXPECT_NEAR(*averaged.lyapunov, 0.5 * std::log(std::abs(4 + 2 * r - r * r)), 1e-3);
 }
 
 TEST(AttractorSearch, two_incommensurate_frequencies_are_quasi_periodic) {

@@ -1,0 +1,131 @@
+#include "program/picture_kinds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t most_marks = 8;
+constexpr double least_stretch = 0.01; ///< share of a sweep on both sides of a change that is marked
+
+/// From the least to the greatest value of what is swept.
+std::optional<std::pair<double, double>> extent_of(const ResultFile& file, const StoredRun& run) {
+    auto rows = file.query(fmt::format("SELECT min({0}), max({0}) FROM {1} AS p",
+                                       run.column(run.record.coordinates.front().name), run.points));
+    if (!rows.next() || rows.is_null(0) || !(rows.number(0) < rows.number(1)))
+        return std::nullopt;
+    return std::pair(rows.number(0), rows.number(1));
+}
+
+/// Where something changes that lasted before and lasts after.
+std::vector<double> changes(const ResultFile& file, const StoredRun& run, const std::string& direction) {
+    auto rows = file.query(fmt::format(
+        "SELECT {}, label, period, symmetric, chain, signature FROM {} AS p WHERE direction = '{}' ORDER BY "
+        "number",
+        run.column(run.record.coordinates.front().name), run.points, direction));
+    struct Stretch {
+        std::string kind;
+        double first, last;
+        std::size_t points;
+    };
+    std::vector<Stretch> stretches;
+    std::size_t all = 0;
+    while (rows.next()) {
+        if (rows.integer(4) != 0)
+            return {}; // several chains: their changes would hide one another
+        const std::string kind = fmt::format("{} {} {} {}", rows.text(1), rows.text(2), rows.text(3), rows.text(5));
+        if (stretches.empty() || stretches.back().kind != kind)
+            stretches.push_back({kind, rows.number(0), rows.number(0), 0});
+        stretches.back().last = rows.number(0);
+        ++stretches.back().points;
+        ++all;
+    }
+    struct Mark {
+        double at;
+        std::size_t points; ///< of the shorter of the stretches that it separates
+    };
+    std::vector<Mark> found;
+    const double least = least_stretch * static_cast<double>(all);
+    const Stretch* before = nullptr;
+    for (const Stretch& stretch : stretches) {
+        if (static_cast<double>(stretch.points) < least)
+            continue;
+        if (before && before->kind != stretch.kind)
+            found.push_back({0.5 * (before->last + stretch.first), std::min(before->points, stretch.points)});
+        before = &stretch;
+    }
+    // Of many, those that part the longest stretches.
+    std::stable_sort(found.begin(), found.end(), [](const Mark& a, const Mark& b) { return a.points > b.points; });
+    found.resize(std::min(found.size(), most_marks));
+    std::vector<double> marks;
+    for (const Mark& mark : found)
+        marks.push_back(mark.at);
+    return marks;
+}
+
+/// Panels of the same value get the same axis, for up and down to be compared.
+void share_axes(Figure& figure) {
+    std::map<std::string, std::pair<double, double>> extents;
+    for (const FigurePanel& panel : figure.panels)
+        for (const FigureSeries& series : panel.series)
+            for (const PlanePoint& point : series.points) {
+                const auto [at, first] = extents.try_emplace(panel.y_label, point.y, point.y);
+                at->second.first = std::min(at->second.first, point.y);
+                at->second.second = std::max(at->second.second, point.y);
+            }
+    constexpr double margin = 0.04;
+    for (FigurePanel& panel : figure.panels)
+        if (const auto at = extents.find(panel.y_label);
+            at != extents.end() && !panel.y_range && !panel.logarithmic_y) {
+            const auto [low, high] = at->second;
+            if (low < high)
+                panel.y_range = std::pair(low - margin * (high - low), high + margin * (high - low));
+        }
+}
+
+} // namespace
+
+Figure bifurcation_picture(const StudyPicture& picture, const ResultFile& file) {
+    Figure figure;
+    for (const std::string& name : picture.runs) {
+        const StoredRun run(file, name, picture.place);
+        const std::vector<std::string> values = chosen_values(picture, run), samplings = shown_samplings(picture, run);
+        require_values(picture, run, values);
+        const std::string x = first_coordinate(picture, run);
+        const std::vector<std::string> directions =
+            picture.directions.empty() ? run.record.directions : picture.directions;
+        figure.columns = values.size() > 1 ? values.size() : directions.size();
+        for (const std::string& direction : directions)
+            for (const std::string& value : values) {
+                FigurePanel panel = panel_of(picture, x, run.unit(x), value, run.unit(value));
+                const char letter = static_cast<char>('a' + figure.panels.size());
+                panel.title =
+                    fmt::format("({}) {}", letter, direction.empty() ? name : fmt::format("{} {}", x, direction));
+                std::map<std::string, std::size_t> series;
+                for (std::size_t s = 0; s < samplings.size(); ++s) {
+                    series[samplings[s]] = s;
+                    panel.series.push_back(
+                        {samplings.size() > 1 ? samplings[s] : "", FigureSeries::Style::dots, s, {}});
+                }
+                auto rows = file.query(
+                    fmt::format("SELECT {}, {}, s.sampling FROM {} WHERE p.direction = '{}' AND s.sampling IN ({})",
+                                run.column(x), run.value_column(value), run.joined, direction, in_list(samplings)));
+                while (rows.next())
+                    if (!rows.is_null(1))
+                        panel.series[series.at(rows.text(2))].points.push_back({rows.number(0), rows.number(1)});
+                if (!panel.x_range && picture.x.empty())
+                    panel.x_range = extent_of(file, run);
+                if (run.record.kind == "sweep" && picture.x.empty())
+                    panel.marks = changes(file, run, direction);
+                figure.panels.push_back(std::move(panel));
+            }
+    }
+    share_axes(figure);
+    return figure;
+}
+
+} // namespace graze

@@ -1,0 +1,84 @@
+#include "program/picture_kinds.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "program/gnuplot_text.hpp"
+#include "program/values.hpp"
+
+#include <fmt/format.h>
+
+namespace graze {
+
+std::string in_list(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) {
+        text += text.empty() ? "'" : ",'";
+        for (const char c : name)
+            text += c == '\'' ? std::string("''") : std::string(1, c);
+        text += '\'';
+    }
+    return text;
+}
+
+std::vector<std::string> chosen_values(const StudyPicture& picture, const StoredRun& run) {
+    if (!picture.y.empty())
+        return picture.y;
+    std::vector<std::string> names;
+    for (const ResultColumn& column : run.record.values)
+        names.push_back(column.name);
+    return names;
+}
+
+void require_values(const StudyPicture& picture, const StoredRun& run, const std::vector<std::string>& names) {
+    std::vector<std::string> known;
+    for (const ResultColumn& column : run.record.values)
+        known.push_back(column.name);
+    for (const std::string& name : names)
+        if (!run.has_value(name))
+            throw InputError(picture.place, fmt::format("run '{}' has no value '{}'", run.record.name, name),
+                             name_advice(name, known, "it has none"));
+}
+
+std::string first_coordinate(const StudyPicture& picture, const StoredRun& run) {
+    if (!picture.x.empty())
+        return picture.x;
+    if (run.record.coordinates.empty())
+        throw InputError(picture.place, fmt::format("run '{}' varies nothing", run.record.name),
+                         "draw its history instead");
+    return run.record.coordinates.front().name;
+}
+
+std::vector<std::string> shown_samplings(const StudyPicture& picture, const StoredRun& run) {
+    return picture.samplings.empty() ? run.record.samplings : picture.samplings;
+}
+
+FigurePanel panel_of(const StudyPicture& picture, const std::string& x, const std::string& x_unit, const std::string& y,
+                     const std::string& y_unit) {
+    FigurePanel panel;
+    panel.x_label = x;
+    panel.y_label = y;
+    panel.x_unit = x_unit;
+    panel.y_unit = y_unit;
+    panel.logarithmic_x = picture.logarithmic_x;
+    panel.logarithmic_y = picture.logarithmic_y;
+    panel.x_range = picture.x_range;
+    panel.y_range = picture.y_range;
+    return panel;
+}
+
+std::vector<double> samples_of(const PointRecord& point, const StoredRun& run, const std::string& value,
+                               const std::string& sampling, std::vector<double>* times) {
+    std::vector<double> result;
+    const SampleSet& samples = point.result.samples;
+    std::size_t column = 0;
+    while (column < run.record.values.size() && run.record.values[column].name != value)
+        ++column;
+    for (std::size_t s = 0; s < samples.size() && column < samples.width; ++s)
+        if (run.record.samplings[samples.samplings[s]] == sampling) {
+            result.push_back(samples.values[s * samples.width + column]);
+            if (times)
+                times->push_back(samples.times[s]);
+        }
+    return result;
+}
+
+} // namespace graze

@@ -1,0 +1,106 @@
+#include "program/picture_kinds.hpp"
+
+#include "graze/results/regression.hpp"
+#include "program/gnuplot_text.hpp"
+#include "program/values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace graze {
+
+ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& file) {
+    ResultPicture result;
+    const StoredRun run(file, picture.runs.front(), picture.place);
+    const std::string y = chosen_values(picture, run).front();
+    require_values(picture, run, {y});
+    const std::string x = picture.successive ? y : first_coordinate(picture, run);
+    const std::string group = picture.group.empty() ? "0" : run.column(picture.group);
+    auto rows = file.query(fmt::format("SELECT {}, p.number, {}, {} FROM {} WHERE s.sampling IN ({}) ORDER BY 1, "
+                                       "p.number, s.rowid",
+                                       group, picture.successive ? "0" : run.column(x), run.value_column(y), run.joined,
+                                       in_list(shown_samplings(picture, run))));
+    std::map<double, std::vector<PlanePoint>> groups;
+    std::int64_t last = -1;
+    double before = 0;
+    while (rows.next()) {
+        const double value = rows.number(3);
+        if (!picture.successive)
+            groups[rows.number(0)].push_back({rows.number(2), value});
+        else if (rows.integer(1) == last)
+            groups[rows.number(0)].push_back({before, value});
+        last = rows.integer(1);
+        before = value;
+    }
+    FigurePanel panel = panel_of(picture, picture.successive ? y + " of one contact" : x, run.unit(x),
+                                 picture.successive ? y + " of the next" : y, run.unit(y));
+    result.table = Table({{picture.group.empty() ? "group" : picture.group, run.unit(picture.group)},
+                          {"slope", ""},
+                          {"slope_error", ""},
+                          {"intercept", ""},
+                          {"intercept_error", ""},
+                          {"points", ""}});
+    panel.key_inside = true;
+    std::size_t colour = 0;
+    for (const auto& [value, points] : groups) {
+        std::vector<double> xs, ys;
+        double least = std::numeric_limits<double>::infinity(), greatest = -least;
+        for (const PlanePoint& point : points) {
+            const bool in_range = !picture.fit || (point.x > picture.fit->first && point.x < picture.fit->second);
+            if (!in_range || (picture.logarithmic_x && !(point.x > 0)) || (picture.logarithmic_y && !(point.y > 0)))
+                continue;
+            xs.push_back(picture.logarithmic_x ? std::log10(point.x) : point.x);
+            ys.push_back(picture.logarithmic_y ? std::log10(point.y) : point.y);
+            least = std::min(least, point.x);
+            greatest = std::max(greatest, point.x);
+        }
+        const Regression line = regression(xs, ys);
+        const std::string title =
+            picture.group.empty() ? "" : fmt::format("{} = {}: ", picture.group, number_text(value));
+        panel.series.push_back({"", FigureSeries::Style::dots, colour, points});
+        if (line.points > 1) {
+            FigureSeries fit{fmt::format("{}slope {:.4f}, intercept {:.4f}", title, line.slope, line.intercept),
+                             FigureSeries::Style::line,
+                             colour,
+                             {}};
+            for (const double end : {least, greatest}) {
+                const double at = line.intercept + line.slope * (picture.logarithmic_x ? std::log10(end) : end);
+                fit.points.push_back({end, picture.logarithmic_y ? std::pow(10, at) : at});
+            }
+            panel.series.push_back(std::move(fit));
+        }
+        for (const double number : {value, line.slope, line.slope_error, line.intercept, line.intercept_error,
+                                    static_cast<double>(line.points)})
+            result.table.add(number);
+        ++colour;
+    }
+    result.figure.panels.push_back(std::move(panel));
+    return result;
+}
+
+Figure scatter_picture(const StudyPicture& picture, const ResultFile& file) {
+    Figure figure;
+    for (std::size_t r = 0; r < picture.runs.size(); ++r) {
+        const StoredRun run(file, picture.runs[r], picture.place);
+        const std::string x = first_coordinate(picture, run);
+        const std::vector<std::string> ys = picture.y.empty() ? std::vector<std::string>{"lyapunov"} : picture.y;
+        for (std::size_t v = 0; v < ys.size(); ++v) {
+            if (v >= figure.panels.size())
+                figure.panels.push_back(panel_of(picture, x, run.unit(x), ys[v], run.unit(ys[v])));
+            FigureSeries series{picture.runs.size() > 1 ? picture.runs[r] : "", FigureSeries::Style::circles, r, {}};
+            const bool sampled = run.has_value(ys[v]);
+            auto rows = file.query(fmt::format("SELECT {}, {} FROM {} ORDER BY p.number", run.column(x),
+                                               run.column(ys[v]), sampled ? run.joined : run.points + " AS p"));
+            while (rows.next())
+                if (!rows.is_null(0) && !rows.is_null(1))
+                    series.points.push_back({rows.number(0), rows.number(1)});
+            figure.panels[v].series.push_back(std::move(series));
+        }
+    }
+    return figure;
+}
+
+} // namespace graze

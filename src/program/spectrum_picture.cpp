@@ -1,0 +1,73 @@
+#include "program/picture_kinds.hpp"
+
+#include "graze/results/spectrum.hpp"
+#include "program/gnuplot_text.hpp"
+#include "program/values.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace graze {
+
+ResultPicture spectrum_picture(const StudyPicture& picture, const ResultFile& file) {
+    constexpr std::size_t wanted = 60;
+    ResultPicture result;
+    result.table = Table({{"run", ""}, {"frequency", ""}, {"amplitude_percent", ""}});
+    FigurePanel panel;
+    for (std::size_t r = 0; r < picture.runs.size(); ++r) {
+        const StoredRun run(file, picture.runs[r], picture.place);
+        const std::string value = chosen_values(picture, run).front();
+        const std::string sampling = shown_samplings(picture, run).front();
+        require_values(picture, run, {value});
+        std::vector<std::pair<std::string, PointRecord>> points;
+        for (const auto& at : picture.at) {
+            StudyPicture one = picture;
+            one.at = {at};
+            points.emplace_back(fmt::format("{} = {}", at.first, number_text(at.second)), chosen_point(file, run, one));
+        }
+        if (points.empty())
+            points.emplace_back(picture.runs[r], chosen_point(file, run, picture));
+        for (const auto& [title, point] : points) {
+            std::vector<double> times, values = samples_of(point, run, value, sampling, &times);
+            double spacing = 0;
+            if (point.result.label == Label::periodic && !values.empty()) {
+                spacing = point.result.duration / static_cast<double>(values.size());
+                const std::vector<double> period = values;
+                while (values.size() + period.size() <= wanted)
+                    values.insert(values.end(), period.begin(), period.end());
+            } else if (times.size() > 1) {
+                spacing = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+            }
+            if (values.size() < 2 || !(spacing > 0))
+                throw InputError(picture.place,
+                                 fmt::format("run '{}' has too few samples for a spectrum", run.record.name),
+                                 "choose another sampling or point");
+            const Spectrum parts = spectrum(values, 1 / spacing);
+            if (parts.mean == 0)
+                throw InputError(picture.place,
+                                 fmt::format("the mean of '{}' is zero, of which a spectrum shows shares", value),
+                                 "choose a value that does not vanish, as its square");
+            FigureSeries series{title, FigureSeries::Style::impulses, panel.series.size(), {}};
+            for (std::size_t k = 0; k < parts.frequencies.size(); ++k) {
+                const double percent = 100 * parts.amplitudes[k] / std::abs(parts.mean);
+                series.points.push_back({parts.frequencies[k], percent});
+                result.table.add(title);
+                result.table.add(parts.frequencies[k]);
+                result.table.add(percent);
+            }
+            panel.series.push_back(std::move(series));
+            panel.y_label = fmt::format("amplitude of {} / mean", value);
+            panel.y_unit = "%";
+            panel.x_unit = run.model.time_unit == "s" ? "Hz" : "";
+        }
+    }
+    panel.x_label = "frequency";
+    panel.logarithmic_y = picture.logarithmic_y;
+    panel.x_range = picture.x_range;
+    panel.y_range = picture.y_range;
+    result.figure.panels.push_back(std::move(panel));
+    return result;
+}
+
+} // namespace graze
