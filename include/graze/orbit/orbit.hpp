@@ -1,0 +1,35 @@
+#pragma once
+
+#include "graze/model/model.hpp"
+#include "graze/orbit/signature.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace graze {
+
+/// A periodic orbit of a hybrid system, or a candidate for one: for each segment the state in which it starts (just
+/// after the jump before it) and its duration.
+struct Orbit {
+    Signature signature;
+    std::vector<double> parameters;          ///< the independent ones, in the model's order
+    std::vector<std::vector<double>> starts; ///< of each segment
+    std::vector<double> durations;           ///< of each segment
+    /// A symmetry of the model of which the segments are the first half: its image of the last segment's end is the
+    /// first segment's start.
+    std::optional<std::size_t> symmetry;
+
+    std::size_t segments() const { return signature.size(); }
+    /// Time after which everything repeats: twice the sum of durations for a half orbit.
+    double period() const;
+};
+
+/// The whole of an orbit that is given by its half: segments of the second half are images of those of the first.
+/// Others are returned as they are.
+Orbit whole_orbit(const Model& model, const Orbit& orbit);
+
+/// @throws InputError unless numbers fit the model and are finite, and the signature is possible
+void validate_orbit(const Model& model, const Orbit& orbit);
+
+} // namespace graze

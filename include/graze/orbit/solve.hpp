@@ -1,0 +1,74 @@
+#pragma once
+
+#include "graze/orbit/certificate.hpp"
+#include "graze/orbit/orbit.hpp"
+#include "graze/sweep/attractor.hpp"
+#include "graze/trajectory/simulation.hpp"
+
+#include <complex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace graze {
+
+struct OrbitOptions {
+    double tolerance = 1e-13; ///< of the integration; 1e-16 .. 1e-2
+    double accuracy = 1e-10;  ///< last correction of Newton's method, relative to the size of each unknown
+    std::size_t iterations = 25;
+    bool error_estimate = true; ///< by a further correction at a tolerance a hundred times smaller
+    /// @throws InputError naming the option that is out of range
+    void validate() const;
+};
+
+enum class OrbitOutcome {
+    converged,
+    not_converged, ///< Newton's method did not find an orbit within the iterations
+    singular,      ///< the equations do not determine an orbit here, as at a fold
+    undefined,     ///< a segment leaves the domain of the model, or its solution ceases to exist
+};
+std::string_view name_of(OrbitOutcome outcome);
+
+/// A periodic orbit with what is known of it.
+struct OrbitSolution {
+    Orbit orbit; ///< the last iterate when not converged
+    OrbitOutcome outcome = OrbitOutcome::not_converged;
+    std::string detail; ///< why not converged
+    std::size_t iterations = 0;
+    double residual = 0;         ///< of the equations, relative to the size of each unknown
+    std::optional<double> error; ///< estimate, relative in the same sense
+    /// Floquet multipliers of the whole orbit's section map, largest first; empty where an event is met without speed.
+    std::vector<std::complex<double>> multipliers;
+    std::vector<std::complex<double>>
+        half_multipliers; ///< of an orbit that is given by its half: their squares are those
+    Certificate certificate;
+};
+
+/// A periodic orbit near a candidate, by Newton's method on multiple shooting with exact derivatives, damped where it
+/// would overshoot.
+/// @throws InputError when the candidate does not fit the model or the options are out of range
+OrbitSolution solve_orbit(const Model& model, const Orbit& candidate, const OrbitOptions& options = {});
+
+/// The orbit that simulation settles on at the model's parameters and initial state: its signature, starts and
+/// durations, polished. Given by its half if it is its own image under the model's (first) symmetry.
+/// @throws InputError when the motion does not settle on a periodic orbit, or contacts accumulate within it: says what
+///         it does instead
+OrbitSolution find_orbit(const Model& model, const AttractorOptions& settle, const OrbitOptions& options = {},
+                         const SimulationOptions& simulation = {});
+
+/// The half of an orbit that is its own image under a symmetry of the model, or none if it is not.
+std::optional<Orbit> half_orbit(const Model& model, const Orbit& orbit, double tolerance = 1e-6);
+
+/// Follows the model's motion from a state for a time and lists the segments that it has, without transitions that
+/// change nothing; the last one, cut off by the end, is left out. What a signature is made of.
+struct FollowedMotion {
+    Signature segments;
+    std::vector<std::vector<double>> starts; ///< of each segment, and of the one that was cut off
+    std::vector<double> durations;
+    std::string problem; ///< why the motion could not be followed (chatter, singular end); empty when all is well
+};
+FollowedMotion follow_motion(const Simulation& simulation, std::span<const double> parameters,
+                             std::span<const double> state, std::size_t mode, double time);
+
+} // namespace graze

@@ -1,0 +1,140 @@
+#include "orbit/arc_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t most_steps = 100000;
+
+} // namespace
+
+ArcFlow::ArcFlow(const Simulation& simulation, std::vector<std::size_t> free)
+    : simulation_(&simulation), free_(std::move(free)), states_(simulation.compiled().states()),
+      directions_(states_ + free_.size()), step_size_(simulation.order(), simulation.options().tolerance),
+      single_(simulation, LaneKind::single), tangent_(simulation, LaneKind::tangent) {
+    lanes_ = static_cast<std::size_t>(tangent_.width()) - 1;
+    const std::size_t width = lanes_ + 1;
+    parameters_.resize(simulation.compiled().parameters());
+    parameter_lanes_.resize(parameters_.size() * width);
+    seeds_.resize(states_ * width);
+    sums_.resize(std::max<std::size_t>(states_, 1) * width);
+    next_.resize(states_ * directions_);
+    matrix_.resize(states_ * directions_);
+    times_.resize(width);
+}
+
+void ArcFlow::set_parameters(std::span<const double> parameters) {
+    std::copy(parameters.begin(), parameters.end(), parameters_.begin());
+    single_.set_parameters(parameters_);
+    const std::size_t width = lanes_ + 1;
+    std::fill(parameter_lanes_.begin(), parameter_lanes_.end(), 0.0);
+    for (std::size_t j = 0; j < parameters_.size(); ++j)
+        parameter_lanes_[j * width] = parameters_[j];
+    if (directions_ <= lanes_) {
+        for (std::size_t f = 0; f < free_.size(); ++f)
+            parameter_lanes_[free_[f] * width + 1 + states_ + f] = 1;
+        tangent_.set_parameters(parameter_lanes_);
+    }
+}
+
+/// Length of the next step, with the sign of what remains.
+double ArcFlow::step_of(const Jet& jet, double remaining) {
+    const double step = step_size_(jet.series().first(states_), previous_);
+    if (!(step < std::numeric_limits<double>::infinity())) // NaN stays
+        return std::isnan(step) ? step : remaining;
+    previous_ = step;
+    return std::copysign(std::min(step, std::abs(remaining)), remaining);
+}
+
+ArcFlow::Ending ArcFlow::run(std::size_t mode, std::span<double> state, double duration, const StepVisitor& visit) {
+    if (!std::isfinite(duration))
+        return Ending::undefined;
+    Jet& jet = single_(mode);
+    double time = 0, remaining = duration;
+    previous_ = 0;
+    for (std::size_t count = 0; remaining != 0; ++count) {
+        if (count >= most_steps)
+            return Ending::too_long;
+        jet.compute(state);
+        const double step = step_of(jet, remaining);
+        if (std::isnan(step))
+            return Ending::undefined;
+        if (std::abs(step) < std::abs(duration) * 1e-14 && step != remaining)
+            return Ending::singular;
+        if (visit)
+            visit(jet, time, step);
+        const double at[1] = {step};
+        jet.evaluate_states(at, sums_);
+        std::copy_n(sums_.begin(), states_, state.begin());
+        ++steps_;
+        time += step;
+        remaining = step == remaining ? 0 : remaining - step;
+    }
+    return std::all_of(state.begin(), state.end(), [](double x) { return std::isfinite(x); }) ? Ending::done
+                                                                                              : Ending::undefined;
+}
+
+/// Fills lanes with a state and its derivatives in `count` directions from `first` on.
+void ArcFlow::load(std::size_t mode, std::span<const double> state, std::size_t first, std::size_t count) {
+    const std::size_t width = lanes_ + 1;
+    if (directions_ > lanes_) {
+        for (std::size_t f = 0; f < free_.size(); ++f)
+            for (std::size_t l = 0; l < lanes_; ++l)
+                parameter_lanes_[free_[f] * width + 1 + l] = first + l == states_ + f ? 1 : 0;
+        tangent_(mode).set_parameters(parameter_lanes_);
+    }
+    for (std::size_t i = 0; i < states_; ++i) {
+        seeds_[i * width] = state[i];
+        for (std::size_t l = 0; l < lanes_; ++l)
+            seeds_[i * width + 1 + l] = l < count ? matrix_[i * directions_ + first + l] : 0;
+    }
+}
+
+ArcFlow::Ending ArcFlow::run(std::size_t mode, std::span<double> state, double duration, Eigen::MatrixXd& derivatives) {
+    if (!std::isfinite(duration))
+        return Ending::undefined;
+    Jet& jet = tangent_(mode);
+    const std::size_t width = lanes_ + 1;
+    std::fill(matrix_.begin(), matrix_.end(), 0.0);
+    for (std::size_t i = 0; i < states_; ++i)
+        matrix_[i * directions_ + i] = 1;
+    double remaining = duration;
+    previous_ = 0;
+    for (std::size_t count = 0; remaining != 0; ++count) {
+        if (count >= most_steps)
+            return Ending::too_long;
+        double step = 0;
+        for (std::size_t first = 0; first < directions_; first += lanes_) {
+            const std::size_t here = std::min(lanes_, directions_ - first);
+            load(mode, state, first, here);
+            jet.compute(seeds_);
+            if (first == 0) {
+                step = step_of(jet, remaining);
+                if (std::isnan(step))
+                    return Ending::undefined;
+                if (std::abs(step) < std::abs(duration) * 1e-14 && step != remaining)
+                    return Ending::singular;
+                std::fill(times_.begin(), times_.end(), step);
+            }
+            jet.evaluate_states(times_, sums_);
+            for (std::size_t i = 0; i < states_; ++i)
+                std::copy_n(&sums_[i * width + 1], here, &next_[i * directions_ + first]);
+        }
+        for (std::size_t i = 0; i < states_; ++i)
+            state[i] = sums_[i * width];
+        matrix_.swap(next_);
+        ++steps_;
+        remaining = step == remaining ? 0 : remaining - step;
+    }
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    derivatives = Eigen::Map<const RowMajor>(matrix_.data(), static_cast<Eigen::Index>(states_),
+                                             static_cast<Eigen::Index>(directions_));
+    const bool finite = std::all_of(state.begin(), state.end(), [](double x) { return std::isfinite(x); });
+    return finite && derivatives.allFinite() ? Ending::done : Ending::undefined;
+}
+
+} // namespace graze

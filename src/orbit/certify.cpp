@@ -1,0 +1,229 @@
+#include "orbit/certify.hpp"
+
+#include "graze/flow/roots.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+/// Values of event functions below this share of their size along the arc count as zero.
+constexpr double on_surface = 1e-9;
+
+Eigen::Index index(std::size_t i) {
+    return static_cast<Eigen::Index>(i);
+}
+
+/// Follows the watched events along one segment.
+class ArcWatcher {
+public:
+    ArcWatcher(const Shooting& shooting, std::size_t segment)
+        : shooting_(&shooting), segment_(segment),
+          mode_(&shooting.simulation().compiled().mode(shooting.signature()[segment].mode)),
+          roots_(shooting.simulation().order()), order_(static_cast<std::size_t>(shooting.simulation().order())),
+          sizes_(mode_->watched.size(), 0.0), falls_(mode_->watched.size(), std::numeric_limits<double>::infinity()),
+          starts_(mode_->watched.size(), 0.0) {
+        const CompiledModel& compiled = shooting.simulation().compiled();
+        for (std::size_t w = 0; w < mode_->watched.size(); ++w)
+            harmless_.push_back(is_harmless(compiled, mode_->transitions[w]));
+    }
+
+    void look(const Jet& jet, double begin, double time, double length) {
+        const double sign = length < 0 ? -1 : 1;
+        for (std::size_t w = 0; w < mode_->watched.size(); ++w) {
+            if (harmless_[w] && !is_own(w))
+                continue;
+            const double* c = jet.output(w);
+            coefficients_.assign(c, c + order_ + 1);
+            double power = 1;
+            for (double& coefficient : coefficients_) {
+                coefficient *= power;
+                power *= sign;
+            }
+            const double size = RootFinder::enclosure(coefficients_, std::abs(length), RootStart::as_is).size;
+            sizes_[w] = std::max(sizes_[w], size);
+            const bool first = begin + time == 0;
+            if (first)
+                starts_[w] = coefficients_[0];
+            look_for_extrema(w, begin + time, length);
+            if (std::isinf(falls_[w])) {
+                Root root;
+                const bool zero = std::abs(coefficients_[0]) <= on_surface * size;
+                if (roots_.first_falling(coefficients_, std::abs(length),
+                                         first && zero ? RootStart::deflate : RootStart::as_is, root))
+                    falls_[w] = begin + time + sign * root.at;
+            }
+        }
+    }
+
+    /// What is wrong with the segment, if anything. @param ends event functions at its end
+    std::string verdict(double duration, std::span<const double> ends) const {
+        const Model& model = shooting_->model();
+        if (duration < 0)
+            return fmt::format("segment {} has negative duration", segment_ + 1);
+        for (std::size_t w = 0; w < mode_->watched.size(); ++w) {
+            if (harmless_[w] && !is_own(w))
+                continue;
+            const Event& event = model.events[mode_->watched[w]];
+            const double zero = on_surface * std::max(sizes_[w], std::numeric_limits<double>::min());
+            const double late = std::abs(duration) * 1e-9;
+            if (event.kind == EventKind::barrier && starts_[w] < -zero)
+                return fmt::format("segment {} begins beyond event '{}'", segment_ + 1, event.name);
+            if (falls_[w] < duration - late)
+                return fmt::format("event '{}' comes within segment {}", event.name, segment_ + 1);
+            if (!is_own(w) && event.kind == EventKind::barrier && ends[w] < -zero)
+                return fmt::format("segment {} ends beyond event '{}'", segment_ + 1, event.name);
+        }
+        return {};
+    }
+    const std::vector<ArcMinimum>& minima() const { return minima_; }
+    bool is_own(std::size_t w) const {
+        const Segment& segment = shooting_->signature()[segment_];
+        return segment.end == SegmentEnd::event && mode_->transitions[w] == segment.index;
+    }
+    bool is_harmless_here(std::size_t w) const { return harmless_[w]; }
+
+private:
+    void look_for_extrema(std::size_t w, double time, double length) {
+        derivative_.clear();
+        for (std::size_t k = 1; k < coefficients_.size(); ++k)
+            derivative_.push_back(static_cast<double>(k) * coefficients_[k]);
+        const double reach = std::abs(length), sign = length < 0 ? -1 : 1;
+        const bool is_section = shooting_->model().events[mode_->watched[w]].kind == EventKind::section;
+        roots_.crossings(derivative_, reach, RootStart::as_is, found_);
+        for (const Root& root : found_) {
+            const bool minimum = root.kind == RootKind::rising;
+            if (!minimum && !is_section)
+                continue;
+            const double value = evaluate_polynomial(coefficients_, root.at);
+            minima_.push_back({segment_, mode_->watched[w], time + sign * root.at, minimum ? value : -value});
+        }
+    }
+
+    const Shooting* shooting_;
+    std::size_t segment_;
+    const CompiledModel::CompiledMode* mode_;
+    RootFinder roots_;
+    std::size_t order_;
+    std::vector<double> sizes_, falls_, starts_, coefficients_, derivative_;
+    std::vector<bool> harmless_;
+    std::vector<Root> found_;
+    std::vector<ArcMinimum> minima_;
+};
+
+/// How far the alternative that leads to `next` is from not being taken: negative when it is not.
+double guard_margin(const CompiledModel::CompiledTransition& transition, std::size_t next,
+                    std::span<const double> inputs, std::span<double> work) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double before = infinity, best = -infinity;
+    std::vector<double> values;
+    for (const auto& alternative : transition.next) {
+        values.resize(alternative.conditions.outputs());
+        alternative.conditions.evaluate(inputs, values, work);
+        double margin = infinity;
+        for (const double value : values)
+            margin = std::min(margin, value);
+        if (alternative.mode == next)
+            best = std::max(best, std::min(before, margin));
+        else
+            before = std::min(before, -margin); // those before must fail
+    }
+    return best;
+}
+
+} // namespace
+
+bool is_harmless(const CompiledModel& model, std::size_t transition) {
+    const Transition& one = model.model().transitions[transition];
+    return model.jump(one.jump).identity &&
+           std::all_of(one.next.begin(), one.next.end(),
+                       [&](const Alternative& alternative) { return alternative.mode == one.mode; });
+}
+
+Certificate certify(Shooting& shooting, const Eigen::VectorXd& unknowns) {
+    const CompiledModel& compiled = shooting.simulation().compiled();
+    const std::size_t states = shooting.states();
+    std::vector<double> inputs(states + shooting.parameters().size()), work(compiled.workspace()), values, gradients;
+    std::copy(shooting.parameters().begin(), shooting.parameters().end(),
+              inputs.begin() + static_cast<std::ptrdiff_t>(states));
+    Certificate certificate;
+    const auto object = [&](std::string reason) {
+        if (certificate.admissible && !reason.empty()) {
+            certificate.admissible = false;
+            certificate.reason = std::move(reason);
+        }
+    };
+    const std::size_t segments = shooting.signature().size();
+    for (std::size_t s = 0; s < segments; ++s) {
+        const Segment& segment = shooting.signature()[s];
+        const auto& mode = compiled.mode(segment.mode);
+        ArcWatcher watcher(shooting, s);
+        double begin = 0;
+        for (std::size_t k = shooting.first_piece(s); k <= shooting.last_piece(s); ++k) {
+            const double* start = unknowns.data() + shooting.start_of(k);
+            std::vector<double> state(start, start + states);
+            const double duration = unknowns[index(shooting.duration_of(k))];
+            shooting.flow().run(segment.mode, state, duration, [&](const Jet& jet, double time, double length) {
+                watcher.look(jet, begin, time, length);
+            });
+            begin += duration;
+        }
+        const Shooting::Piece& last = shooting.piece(shooting.last_piece(s));
+        std::copy(last.end.begin(), last.end.end(), inputs.begin());
+        values.resize(mode.watched.size());
+        gradients.resize(mode.watched.size() * states);
+        mode.events.evaluate(inputs, values, work);
+        mode.event_gradients.evaluate(inputs, gradients, work);
+        for (std::size_t w = 0; w < mode.watched.size(); ++w) {
+            if (watcher.is_own(w) || watcher.is_harmless_here(w))
+                continue;
+            const double rate =
+                Eigen::Map<const Eigen::VectorXd>(&gradients[w * states], index(states)).dot(last.field);
+            certificate.end_values.push_back({s, mode.watched[w], values[w], rate});
+        }
+        object(watcher.verdict(begin, values));
+        certificate.minima.insert(certificate.minima.end(), watcher.minima().begin(), watcher.minima().end());
+        const double rate = shooting.rate_at_end(s);
+        if (segment.end == SegmentEnd::section) {
+            certificate.approach_speeds.push_back(std::abs(rate));
+            certificate.departures.push_back(rate);
+            certificate.guard_margins.push_back(std::numeric_limits<double>::infinity());
+            continue;
+        }
+        certificate.approach_speeds.push_back(-rate);
+        if (rate > 0)
+            object(fmt::format("the event that ends segment {} rises instead of falling", s + 1));
+        // The symmetry's image is the start that the guard of a half orbit's last jump does not see.
+        std::vector<double> after = last.end;
+        const auto& jump = compiled.jump(shooting.model().transitions[segment.index].jump);
+        if (!jump.identity)
+            jump.map.evaluate(inputs, after, work);
+        std::copy(after.begin(), after.end(), inputs.begin());
+        std::size_t next = shooting.signature()[(s + 1) % segments].mode;
+        if (shooting.symmetry() && s + 1 == segments) {
+            const auto& images = shooting.model().symmetries[*shooting.symmetry()].modes;
+            next = static_cast<std::size_t>(std::find(images.begin(), images.end(), next) - images.begin());
+        }
+        const double margin = guard_margin(compiled.transition(segment.index), next, inputs, work);
+        certificate.guard_margins.push_back(margin);
+        if (margin < 0)
+            object(fmt::format("the guard after segment {} leads to another mode", s + 1));
+        std::vector<double> field(states);
+        compiled.mode(next).rates.evaluate(inputs, field, work);
+        const auto& watched = mode.watched;
+        const auto w = static_cast<std::size_t>(
+            std::find(mode.transitions.begin(), mode.transitions.end(), segment.index) - mode.transitions.begin());
+        gradients.resize(watched.size() * states);
+        mode.event_gradients.evaluate(inputs, gradients, work);
+        certificate.departures.push_back(Eigen::Map<const Eigen::VectorXd>(&gradients[w * states], index(states))
+                                             .dot(Eigen::Map<const Eigen::VectorXd>(field.data(), index(states))));
+    }
+    return certificate;
+}
+
+} // namespace graze

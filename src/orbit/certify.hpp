@@ -1,0 +1,25 @@
+#pragma once
+
+#include "graze/orbit/certificate.hpp"
+#include "orbit/shooting.hpp"
+
+#include <Eigen/Core>
+
+#include <complex>
+#include <vector>
+
+namespace graze {
+
+/// Whether a transition changes nothing: neither state nor mode. Orbits need not list it.
+bool is_harmless(const CompiledModel& model, std::size_t transition);
+
+/// Checks every watched event over every arc, by the roots of its Taylor polynomials. `shooting` must have been
+/// evaluated at the unknowns.
+Certificate certify(Shooting& shooting, const Eigen::VectorXd& unknowns);
+
+/// Floquet multipliers of the section map at the start of the first segment, largest first: of the half orbit for one
+/// that is given by its half. Without those that drifting or unchanged states, and shifts along the flow, would add.
+/// Empty where an event is reached without speed. `shooting` must have been evaluated at the unknowns.
+std::vector<std::complex<double>> floquet_multipliers(const Shooting& shooting, const Eigen::VectorXd& unknowns);
+
+} // namespace graze

@@ -1,0 +1,185 @@
+#include "graze/orbit/solve.hpp"
+#include "graze/sweep/point_search.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/trajectory/trajectory.hpp"
+#include "orbit/arc_flow.hpp"
+#include "orbit/certify.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+/// Writes down the contacts of a motion.
+class SegmentRecorder : public Observer {
+public:
+    SegmentRecorder(const CompiledModel& model, FollowedMotion& motion) : model_(&model), motion_(&motion) {}
+
+    void contact(const Contact& contact) override {
+        if (contact.kind == ContactKind::touch)
+            return;
+        if (contact.kind == ContactKind::sticking) {
+            motion_->problem = fmt::format("contacts at '{}' accumulate at time {:.9g}",
+                                           model_->model().events[contact.event].name, contact.time);
+            return;
+        }
+        if (is_harmless(*model_, contact.transition))
+            return;
+        motion_->segments.push_back({contact.mode_before, SegmentEnd::event, contact.transition});
+        motion_->durations.push_back(contact.time - last_);
+        motion_->starts.emplace_back(contact.after.begin(), contact.after.end());
+        last_ = contact.time;
+    }
+    bool stop() override { return !motion_->problem.empty(); }
+
+private:
+    const CompiledModel* model_;
+    FollowedMotion* motion_;
+    double last_ = 0;
+};
+
+double distance(std::span<const double> a, std::span<const double> b, std::span<const double> periods,
+                const Model& model) {
+    double result = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        if (model.states[i].drifting)
+            continue;
+        double difference = a[i] - b[i], size = std::max(std::abs(a[i]), std::abs(b[i]));
+        if (periods[i] > 0) {
+            difference -= std::round(difference / periods[i]) * periods[i];
+            size = periods[i];
+        }
+        if (difference != 0)
+            result = std::max(result, std::abs(difference) / size);
+    }
+    return result;
+}
+
+} // namespace
+
+FollowedMotion follow_motion(const Simulation& simulation, std::span<const double> parameters,
+                             std::span<const double> state, std::size_t mode, double time) {
+    FollowedMotion motion;
+    motion.starts.emplace_back(state.begin(), state.end());
+    SegmentRecorder recorder(simulation.compiled(), motion);
+    Trajectory trajectory(simulation, parameters, recorder);
+    trajectory.start(state, mode, 0, time);
+    JetSet jets(simulation, LaneKind::single);
+    run(trajectory, jets);
+    const Outcome& outcome = trajectory.outcome();
+    if (motion.problem.empty() && outcome.ending != Ending::end_time && outcome.ending != Ending::stopped)
+        motion.problem = fmt::format("the motion ends at time {:.9g}: {}{}{}", outcome.time, name_of(outcome.ending),
+                                     outcome.detail.empty() ? "" : ", ", outcome.detail);
+    return motion;
+}
+
+std::optional<Orbit> half_orbit(const Model& model, const Orbit& orbit, double tolerance) {
+    if (model.symmetries.empty() || orbit.symmetry)
+        return std::nullopt;
+    const CompiledModel compiled(model);
+    std::vector<double> periods(model.states.size()), work(compiled.workspace());
+    compiled.periods().evaluate(orbit.parameters, periods, work);
+    std::vector<Expression> inputs = model.state_symbols();
+    const auto parameters = model.parameter_symbols();
+    inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+    for (std::size_t index = 0; index < model.symmetries.size(); ++index) {
+        const Symmetry& symmetry = model.symmetries[index];
+        const Function map(inputs, model.expand(symmetry.map));
+        const auto image = [&](std::vector<double> state) {
+            state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
+            return map(state);
+        };
+        Orbit half = orbit;
+        half.symmetry = index;
+        const std::size_t count = orbit.segments();
+        if (count == 1 && orbit.signature[0].end == SegmentEnd::section) {
+            const Simulation simulation(model);
+            ArcFlow flow(simulation, {});
+            flow.set_parameters(orbit.parameters);
+            std::vector<double> state = orbit.starts[0];
+            half.durations[0] = 0.5 * orbit.durations[0];
+            if (symmetry.modes[orbit.signature[0].mode] == orbit.signature[0].mode &&
+                flow.run(orbit.signature[0].mode, state, half.durations[0]) == ArcFlow::Ending::done &&
+                distance(image(state), orbit.starts[0], periods, model) < tolerance)
+                return half;
+            continue;
+        }
+        if (count % 2 != 0)
+            continue;
+        bool same = true;
+        for (std::size_t k = 0; k < count / 2 && same; ++k)
+            same = symmetry.modes[orbit.signature[k].mode] == orbit.signature[k + count / 2].mode &&
+                   std::abs(orbit.durations[k] - orbit.durations[k + count / 2]) < tolerance * orbit.period() &&
+                   distance(image(orbit.starts[k + count / 2]), orbit.starts[k], periods, model) < tolerance;
+        if (!same)
+            continue;
+        half.signature.resize(count / 2);
+        half.starts.resize(count / 2);
+        half.durations.resize(count / 2);
+        return half;
+    }
+    return std::nullopt;
+}
+
+OrbitSolution find_orbit(const Model& model, const AttractorOptions& settle, const OrbitOptions& options,
+                         const SimulationOptions& simulation) {
+    const auto factory = attractor_searches(model, settle, {}, {}, simulation);
+    const auto search = factory->make();
+    search->begin(model.parameter_values(), model.initial_state(), model.initial_mode);
+    JetSet jets(factory->simulation(), LaneKind::single);
+    do
+        run(search->trajectory(), jets);
+    while (search->proceed());
+    const PointResult& result = search->result();
+    if (result.label != Label::periodic)
+        throw InputError(fmt::format("the motion does not settle on a periodic orbit: it is {}", name_of(result.label)),
+                         "start elsewhere, allow more cycles or longer periods, or give the orbit's states");
+    FollowedMotion motion =
+        follow_motion(factory->simulation(), model.parameter_values(), result.state, result.mode, result.duration);
+    if (!motion.problem.empty())
+        throw InputError("the orbit has no signature: " + motion.problem,
+                         "choose parameters at which contacts do not accumulate");
+    Orbit orbit;
+    orbit.parameters = model.parameter_values();
+    if (motion.segments.empty()) {
+        orbit.signature = {{result.mode, SegmentEnd::section, *model.find_section(settle.section)}};
+        orbit.starts = {result.state};
+        orbit.durations = {result.duration};
+        // An orbit that passes the section several times is closed after the last of them.
+        if (result.period > 1) {
+            const double part = result.duration / static_cast<double>(result.period);
+            orbit.signature.assign(result.period, orbit.signature.front());
+            orbit.starts.clear();
+            orbit.durations.assign(result.period, part);
+            ArcFlow flow(factory->simulation(), {});
+            flow.set_parameters(orbit.parameters);
+            std::vector<double> state = result.state;
+            for (std::size_t k = 0; k < result.period; ++k) {
+                orbit.starts.push_back(state);
+                flow.run(result.mode, state, part);
+            }
+        }
+    } else {
+        // From the state on the section to the first contact is the end of the last segment.
+        const std::size_t count = motion.segments.size();
+        double known = 0;
+        for (std::size_t k = 1; k < count; ++k) {
+            orbit.signature.push_back(motion.segments[k]);
+            orbit.starts.push_back(motion.starts[k]);
+            orbit.durations.push_back(motion.durations[k]);
+            known += motion.durations[k];
+        }
+        orbit.signature.push_back(motion.segments[0]);
+        orbit.starts.push_back(motion.starts[count]);
+        orbit.durations.push_back(result.duration - known);
+    }
+    if (const auto half = half_orbit(model, orbit))
+        orbit = *half;
+    return solve_orbit(model, orbit, options);
+}
+
+} // namespace graze

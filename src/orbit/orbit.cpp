@@ -1,0 +1,124 @@
+#include "graze/orbit/orbit.hpp"
+
+#include "graze/symbolic/function.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+namespace graze {
+
+double Orbit::period() const {
+    return std::accumulate(durations.begin(), durations.end(), 0.0) * (symmetry ? 2 : 1);
+}
+
+namespace {
+
+/// The image of a segment that an event ends: in the image of its mode, the transition whose event function is the
+/// image of its own, which is judged by values at states of the orbit.
+std::size_t image_of_transition(const Model& model, const Function& symmetry, std::size_t mode, std::size_t transition,
+                                const Orbit& orbit) {
+    const auto inputs_of = [&](std::vector<double> state) {
+        state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
+        return state;
+    };
+    std::vector<Expression> symbols = model.state_symbols();
+    const auto parameters = model.parameter_symbols();
+    symbols.insert(symbols.end(), parameters.begin(), parameters.end());
+    const auto function_of = [&](std::size_t index) {
+        const Expression expanded = model.expand(model.events[model.transitions[index].event].function);
+        return Function(symbols, std::span(&expanded, 1));
+    };
+    const Function own = function_of(transition);
+    for (std::size_t candidate = 0; candidate < model.transitions.size(); ++candidate) {
+        if (model.transitions[candidate].mode != mode)
+            continue;
+        const Function other = function_of(candidate);
+        bool same = true;
+        double size = 0, difference = 0;
+        for (const std::vector<double>& start : orbit.starts) {
+            // Also away from the orbit, where different functions happen to be equal less often.
+            for (const double displacement : {0.0, 0.37, -0.61}) {
+                std::vector<double> state = start;
+                for (std::size_t i = 0; i < state.size(); ++i)
+                    state[i] += displacement * (1 + std::abs(state[i])) / static_cast<double>(i + 2);
+                const double value = own(inputs_of(state))[0], image = other(inputs_of(symmetry(inputs_of(state))))[0];
+                same = same && std::isfinite(value) == std::isfinite(image);
+                if (std::isfinite(value) && std::isfinite(image)) {
+                    size = std::max({size, std::abs(value), std::abs(image)});
+                    difference = std::max(difference, std::abs(value - image));
+                }
+            }
+        }
+        if (same && difference <= 1e-9 * size)
+            return candidate;
+    }
+    throw InputError(
+        fmt::format("the symmetry does not take transition '{}' to any other", model.transitions[transition].label),
+        "see graze check for what is wrong with the symmetry");
+}
+
+} // namespace
+
+Orbit whole_orbit(const Model& model, const Orbit& orbit) {
+    if (!orbit.symmetry)
+        return orbit;
+    const Symmetry& symmetry = model.symmetries[*orbit.symmetry];
+    std::vector<Expression> inputs = model.state_symbols();
+    const auto parameters = model.parameter_symbols();
+    inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+    const Function map(inputs, model.expand(symmetry.map));
+    Orbit whole = orbit;
+    whole.symmetry.reset();
+    for (std::size_t k = 0; k < orbit.segments(); ++k) {
+        Segment segment = orbit.signature[k];
+        segment.mode = symmetry.modes[segment.mode];
+        if (segment.end == SegmentEnd::event)
+            segment.index = image_of_transition(model, map, segment.mode, segment.index, orbit);
+        std::vector<double> values = orbit.starts[k];
+        values.insert(values.end(), orbit.parameters.begin(), orbit.parameters.end());
+        // The image of a section is no section of the model: the motion just goes on.
+        if (k == 0 && orbit.signature.back().end == SegmentEnd::section) {
+            whole.signature.back() = segment;
+            whole.durations.back() += orbit.durations[0];
+            continue;
+        }
+        whole.signature.push_back(segment);
+        whole.starts.push_back(map(values));
+        whole.durations.push_back(orbit.durations[k]);
+    }
+    return whole;
+}
+
+void validate_orbit(const Model& model, const Orbit& orbit) {
+    validate_signature(model, orbit.signature);
+    if (orbit.parameters.size() != model.parameter_symbols().size())
+        throw InputError(fmt::format("the orbit has {} parameters and the model {}", orbit.parameters.size(),
+                                     model.parameter_symbols().size()),
+                         "give one value for each independent parameter");
+    if (orbit.starts.size() != orbit.segments() || orbit.durations.size() != orbit.segments())
+        throw InputError(fmt::format("{} segments have {} starts and {} durations", orbit.segments(),
+                                     orbit.starts.size(), orbit.durations.size()),
+                         "give a start and a duration for each segment of the signature");
+    for (std::size_t k = 0; k < orbit.segments(); ++k) {
+        if (orbit.starts[k].size() != model.states.size())
+            throw InputError(fmt::format("the start of segment {} has {} numbers", k + 1, orbit.starts[k].size()),
+                             fmt::format("give the model's {} states", model.states.size()));
+        for (const double value : orbit.starts[k])
+            if (!std::isfinite(value))
+                throw InputError(fmt::format("the start of segment {} is not finite", k + 1), "give finite numbers");
+        if (!std::isfinite(orbit.durations[k]))
+            throw InputError(fmt::format("the duration of segment {} is not finite", k + 1), "give a finite number");
+    }
+    for (const double value : orbit.parameters)
+        if (!std::isfinite(value))
+            throw InputError("a parameter of the orbit is not finite", "give finite numbers");
+    if (orbit.symmetry && *orbit.symmetry >= model.symmetries.size())
+        throw InputError("the orbit has a symmetry that the model does not have", "declare it in the model");
+}
+
+} // namespace graze

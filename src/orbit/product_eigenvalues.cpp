@@ -1,0 +1,67 @@
+#include "orbit/product_eigenvalues.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+/// Enough to separate eigenvalues whose moduli differ by a factor of six.
+constexpr int sweeps = 16;
+constexpr double separated = 1e-13;
+
+} // namespace
+
+std::vector<std::complex<double>> product_eigenvalues(const std::vector<Eigen::MatrixXd>& factors) {
+    std::vector<std::complex<double>> result;
+    if (factors.empty() || factors.front().rows() == 0)
+        return result;
+    const Eigen::Index n = factors.front().rows();
+    Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(n, n), before = basis;
+    std::vector<Eigen::MatrixXd> triangles(factors.size());
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+        before = basis;
+        for (std::size_t k = 0; k < factors.size(); ++k) {
+            const Eigen::MatrixXd image = factors[k] * basis;
+            const Eigen::HouseholderQR<Eigen::MatrixXd> qr(image);
+            triangles[k] = qr.matrixQR().triangularView<Eigen::Upper>();
+            basis = qr.householderQ() * Eigen::MatrixXd::Identity(n, n);
+        }
+    }
+    // In the basis before the last sweep the product is turn * (product of triangles).
+    const Eigen::MatrixXd turn = before.transpose() * basis;
+    for (Eigen::Index begin = 0; begin < n;) {
+        Eigen::Index end = begin + 1;
+        while (end < n && turn.block(end, begin, n - end, end - begin).norm() > separated)
+            ++end;
+        const Eigen::Index size = end - begin;
+        Eigen::MatrixXd block = Eigen::MatrixXd::Identity(size, size);
+        double exponent = 0;
+        for (const Eigen::MatrixXd& triangle : triangles) {
+            block = triangle.block(begin, begin, size, size) * block;
+            const double norm = block.norm();
+            if (norm > 0 && std::isfinite(norm)) {
+                block /= norm;
+                exponent += std::log(norm);
+            }
+        }
+        block = turn.block(begin, begin, size, size) * block;
+        const double factor = std::exp(exponent);
+        if (!block.allFinite() || !std::isfinite(factor)) {
+            result.insert(result.end(), static_cast<std::size_t>(size), std::numeric_limits<double>::infinity());
+        } else {
+            const Eigen::EigenSolver<Eigen::MatrixXd> solver(block, false);
+            for (Eigen::Index i = 0; i < size; ++i)
+                result.push_back(solver.eigenvalues()[i] * factor);
+        }
+        begin = end;
+    }
+    std::stable_sort(result.begin(), result.end(), [](auto a, auto b) { return std::abs(a) > std::abs(b); });
+    return result;
+}
+
+} // namespace graze

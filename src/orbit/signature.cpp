@@ -1,0 +1,280 @@
+#include "graze/orbit/signature.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t most_segments = 100000;
+
+struct Name {
+    std::string text;
+    int column = 0;
+};
+
+/// Names and groups with repetitions, made flat.
+class SignatureReader {
+public:
+    SignatureReader(std::string_view text, const Place& place) : text_(text), place_(place) {}
+
+    std::vector<Name> read() {
+        std::vector<std::vector<Name>> open(1);
+        std::string brackets;
+        for (skip(); at_ < text_.size(); skip()) {
+            const char c = text_[at_];
+            if (c == '(' || c == '{') {
+                brackets += c;
+                open.emplace_back();
+                ++at_;
+            } else if (c == ')' || c == '}') {
+                if (brackets.empty() || brackets.back() != (c == ')' ? '(' : '{'))
+                    fail(fmt::format("'{}' closes nothing", c), "balance braces and parentheses");
+                brackets.pop_back();
+                ++at_;
+                std::vector<Name> group = std::move(open.back());
+                open.pop_back();
+                append(open.back(), group, repetitions());
+            } else {
+                const std::size_t begin = at_;
+                while (at_ < text_.size() && is_name(text_[at_]))
+                    ++at_;
+                if (at_ == begin)
+                    fail(fmt::format("'{}' does not belong into a signature", c), "list labels as in (J1 J8)^2");
+                const Name name{std::string(text_.substr(begin, at_ - begin)), static_cast<int>(begin)};
+                append(open.back(), {name}, repetitions());
+            }
+        }
+        if (!brackets.empty())
+            fail(fmt::format("'{}' is not closed", brackets.back()), "balance braces and parentheses");
+        if (open.front().empty())
+            fail("the signature is empty", "list at least one event or section");
+        return open.front();
+    }
+
+    [[noreturn]] void fail(const std::string& problem, const std::string& remedy,
+                           std::optional<int> column = {}) const {
+        Place place = place_;
+        if (place.column > 0)
+            place.column += column.value_or(static_cast<int>(std::min(at_, text_.size())));
+        throw InputError(place, fmt::format("in the signature '{}': {}", text_, problem), remedy);
+    }
+
+private:
+    static bool is_name(char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == ':';
+    }
+    void skip() {
+        while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == ',' || text_[at_] == '\t'))
+            ++at_;
+    }
+    std::size_t repetitions() {
+        skip();
+        if (at_ >= text_.size() || text_[at_] != '^')
+            return 1;
+        ++at_;
+        skip();
+        std::size_t count = 0;
+        const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), count);
+        if (error != std::errc() || count == 0 || count > most_segments)
+            fail("what follows ^ is not a number of repetitions", "give a whole number from 1 on");
+        at_ = static_cast<std::size_t>(end - text_.data());
+        return count;
+    }
+    void append(std::vector<Name>& to, const std::vector<Name>& names, std::size_t times) {
+        if (to.size() + names.size() * times > most_segments)
+            fail("it has too many segments", fmt::format("keep to {}", most_segments));
+        for (std::size_t i = 0; i < times; ++i)
+            to.insert(to.end(), names.begin(), names.end());
+    }
+
+    std::string_view text_;
+    const Place& place_;
+    std::size_t at_ = 0;
+};
+
+/// Everything that a name may stand for.
+std::vector<Segment> candidates(const Model& model, const std::string& name) {
+    std::vector<Segment> result;
+    const auto colon = name.find(':');
+    std::optional<std::size_t> mode;
+    if (colon != std::string::npos)
+        mode = model.find_mode(name.substr(0, colon));
+    const std::string rest = mode ? name.substr(colon + 1) : name;
+    for (std::size_t t = 0; t < model.transitions.size(); ++t) {
+        const Transition& transition = model.transitions[t];
+        if (transition.label == name ||
+            ((!mode || transition.mode == *mode) &&
+             (transition.label == rest || (mode && model.events[transition.event].name == rest))))
+            result.push_back({transition.mode, SegmentEnd::event, t});
+    }
+    if (const auto section = model.find_section(rest))
+        for (std::size_t m = 0; m < model.modes.size(); ++m)
+            if (!mode || m == *mode)
+                result.push_back({m, SegmentEnd::section, *section});
+    return result;
+}
+
+bool can_follow(const Model& model, const Segment& before, const Segment& after) {
+    return before.end == SegmentEnd::section ? before.mode == after.mode
+                                             : can_lead_to(model.transitions[before.index], after.mode);
+}
+
+/// Chooses one candidate for each place so that each can follow the one before, cyclically.
+std::optional<Signature> choose(const Model& model, const std::vector<std::vector<Segment>>& places) {
+    const std::size_t count = places.size();
+    for (const Segment& first : places[0]) {
+        // reached[k][c]: the candidate of place k - 1 from which candidate c of place k was reached.
+        constexpr auto none = static_cast<std::size_t>(-1);
+        std::vector<std::vector<std::size_t>> reached(count);
+        for (std::size_t k = 1; k < count; ++k) {
+            reached[k].assign(places[k].size(), none);
+            for (std::size_t b = 0; b < places[k - 1].size(); ++b) {
+                const bool open = k == 1 ? places[0][b] == first : reached[k - 1][b] != none;
+                for (std::size_t c = 0; open && c < places[k].size(); ++c)
+                    if (reached[k][c] == none && can_follow(model, places[k - 1][b], places[k][c]))
+                        reached[k][c] = b;
+            }
+        }
+        for (std::size_t c = 0; c < places[count - 1].size(); ++c) {
+            const bool open = count == 1 ? places[0][c] == first : reached[count - 1][c] != none;
+            if (!open || !can_follow(model, places[count - 1][c], first))
+                continue;
+            Signature result(count);
+            std::size_t at = c;
+            for (std::size_t k = count; k-- > 0;) {
+                result[k] = places[k][at];
+                if (k > 0)
+                    at = reached[k][at];
+            }
+            return result;
+        }
+    }
+    return std::nullopt;
+}
+
+std::string joined(const std::vector<std::string>& names, std::size_t first, std::size_t count) {
+    std::string text;
+    for (std::size_t i = 0; i < count; ++i)
+        text += (i > 0 ? " " : "") + names[first + i];
+    return text;
+}
+
+/// Repetitions from `begin` on: the block length whose repetition covers most.
+std::pair<std::size_t, std::size_t> best_repetition(const std::vector<std::string>& names, std::size_t begin) {
+    constexpr std::size_t longest_block = 64;
+    std::size_t best_length = 1, best_times = 1;
+    for (std::size_t length = 1; length <= longest_block && begin + 2 * length <= names.size(); ++length) {
+        std::size_t times = 1;
+        while (begin + (times + 1) * length <= names.size() &&
+               std::equal(names.begin() + static_cast<std::ptrdiff_t>(begin),
+                          names.begin() + static_cast<std::ptrdiff_t>(begin + length),
+                          names.begin() + static_cast<std::ptrdiff_t>(begin + times * length)))
+            ++times;
+        if (times > 1 && length * times > best_length * best_times) {
+            best_length = length;
+            best_times = times;
+        }
+    }
+    return {best_length, best_times};
+}
+
+} // namespace
+
+bool can_lead_to(const Transition& transition, std::size_t mode) {
+    return std::any_of(transition.next.begin(), transition.next.end(),
+                       [&](const Alternative& alternative) { return alternative.mode == mode; });
+}
+
+const std::string& end_name(const Model& model, const Segment& segment) {
+    return segment.end == SegmentEnd::event ? model.transitions[segment.index].label
+                                            : model.sections[segment.index].name;
+}
+
+Signature parse_signature(const Model& model, std::string_view text, const Place& place) {
+    SignatureReader reader(text, place);
+    const std::vector<Name> names = reader.read();
+    std::vector<std::vector<Segment>> places;
+    for (const Name& name : names) {
+        places.push_back(candidates(model, name.text));
+        if (!places.back().empty())
+            continue;
+        std::vector<std::string> known;
+        for (const Transition& transition : model.transitions)
+            known.push_back(transition.label);
+        for (const Section& section : model.sections)
+            known.push_back(section.name);
+        const std::string near = nearest_name(name.text, known);
+        reader.fail(fmt::format("the model has no transition or section '{}'", name.text),
+                    near.empty() ? "use labels of transitions and names of sections"
+                                 : fmt::format("did you mean '{}'?", near),
+                    name.column);
+    }
+    for (std::size_t k = 0; k + 1 < places.size(); ++k) {
+        bool possible = false;
+        for (const Segment& before : places[k])
+            for (const Segment& after : places[k + 1])
+                possible = possible || can_follow(model, before, after);
+        if (!possible)
+            reader.fail(fmt::format("'{}' cannot follow '{}'", names[k + 1].text, names[k].text),
+                        "see what can by: graze graph MODEL", names[k + 1].column);
+    }
+    const auto signature = choose(model, places);
+    if (!signature)
+        reader.fail("no cycle of the model's graph has these transitions", "see the graph by: graze graph MODEL",
+                    names.front().column);
+    return *signature;
+}
+
+std::string to_string(const Model& model, const Signature& signature) {
+    // A name that could mean several segments is qualified by its mode.
+    std::vector<std::string> names;
+    for (const Segment& segment : signature) {
+        const std::string& name = end_name(model, segment);
+        const std::size_t meanings = segment.end == SegmentEnd::event ? candidates(model, name).size() : 1;
+        names.push_back(
+            meanings > 1 && name.find(':') == std::string::npos ? model.modes[segment.mode].name + ":" + name : name);
+    }
+    std::string text;
+    for (std::size_t begin = 0; begin < names.size();) {
+        const auto [length, times] = best_repetition(names, begin);
+        const std::string block = joined(names, begin, length);
+        text += text.empty() ? "" : " ";
+        if (times == 1)
+            text += block;
+        else
+            text += length == 1 ? fmt::format("{}^{}", block, times) : fmt::format("({})^{}", block, times);
+        begin += length * times;
+    }
+    return text;
+}
+
+void validate_signature(const Model& model, const Signature& signature, const Place& place) {
+    if (signature.empty())
+        throw InputError(place, "the signature is empty", "list at least one event or section");
+    for (const Segment& segment : signature) {
+        const bool known = segment.end == SegmentEnd::event ? segment.index < model.transitions.size()
+                                                            : segment.index < model.sections.size();
+        if (!known || segment.mode >= model.modes.size() ||
+            (segment.end == SegmentEnd::event && model.transitions[segment.index].mode != segment.mode))
+            throw InputError(place, "the signature has a segment that the model does not have",
+                             "read it by parse_signature");
+    }
+    for (std::size_t k = 0; k < signature.size(); ++k) {
+        const Segment& before = signature[k];
+        const Segment& after = signature[(k + 1) % signature.size()];
+        if (!can_follow(model, before, after))
+            throw InputError(place,
+                             fmt::format("'{}' cannot follow '{}' in mode '{}'", end_name(model, after),
+                                         end_name(model, before), model.modes[before.mode].name),
+                             "see what can by: graze graph MODEL");
+    }
+}
+
+} // namespace graze

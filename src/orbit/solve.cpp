@@ -1,0 +1,128 @@
+#include "graze/orbit/solve.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "orbit/certify.hpp"
+#include "orbit/newton.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+constexpr int most_halvings = 8;
+
+double largest(const Eigen::VectorXd& step, const Eigen::VectorXd& scales) {
+    return step.cwiseQuotient(scales).cwiseAbs().maxCoeff();
+}
+
+SimulationOptions integration(double tolerance) {
+    SimulationOptions options;
+    options.tolerance = std::max(tolerance, smallest_tolerance);
+    return options;
+}
+
+} // namespace
+
+void OrbitOptions::validate() const {
+    if (!(tolerance >= smallest_tolerance && tolerance <= largest_tolerance))
+        throw InputError(fmt::format("the tolerance {} is out of range", tolerance),
+                         fmt::format("choose from {} to {}", smallest_tolerance, largest_tolerance));
+    if (!(accuracy >= 1e-15 && accuracy <= 1e-2))
+        throw InputError(fmt::format("the accuracy {} is out of range", accuracy), "choose from 1e-15 to 1e-2");
+    if (iterations == 0)
+        throw InputError("no iterations are allowed", "allow at least one");
+}
+
+std::string_view name_of(OrbitOutcome outcome) {
+    switch (outcome) {
+    case OrbitOutcome::converged:
+        return "converged";
+    case OrbitOutcome::not_converged:
+        return "not converged";
+    case OrbitOutcome::singular:
+        return "singular";
+    case OrbitOutcome::undefined:
+        return "undefined";
+    }
+    return "";
+}
+
+OrbitOutcome solve_shooting(Shooting& shooting, Eigen::VectorXd& unknowns, const OrbitOptions& options,
+                            std::size_t& iterations, std::string& detail) {
+    const Eigen::MatrixXd no_borders(0, static_cast<Eigen::Index>(shooting.unknowns()));
+    const Eigen::VectorXd nothing(0);
+    if (!shooting.evaluate(unknowns)) {
+        detail = shooting.problem();
+        return OrbitOutcome::undefined;
+    }
+    for (iterations = 1; iterations <= options.iterations; ++iterations) {
+        Eigen::VectorXd step;
+        if (!shooting.solve(no_borders, nothing, false, step)) {
+            detail = "the equations are singular: at a fold, or because states are not determined";
+            return OrbitOutcome::singular;
+        }
+        const double size = largest(step, shooting.scales()), before = shooting.residual();
+        double factor = 1;
+        bool improved = false;
+        for (int halving = 0; halving < most_halvings && !improved; ++halving, factor *= 0.5) {
+            const Eigen::VectorXd next = unknowns + factor * step;
+            const bool possible = shooting.evaluate(next);
+            // Near the solution round-off decides, and any residual will do.
+            improved = possible && (shooting.residual() <= (1 - 0.1 * factor) * before || size < 1e-6);
+            if (improved)
+                unknowns = next;
+        }
+        if (!improved) {
+            const std::string problem = shooting.problem();
+            shooting.evaluate(unknowns);
+            detail = problem.empty() ? fmt::format("residuals do not fall below {:.3g}", before) : problem;
+            return problem.empty() ? OrbitOutcome::not_converged : OrbitOutcome::undefined;
+        }
+        if (size < options.accuracy)
+            return OrbitOutcome::converged;
+    }
+    detail =
+        fmt::format("{} iterations were not enough; the residual is {:.3g}", options.iterations, shooting.residual());
+    return OrbitOutcome::not_converged;
+}
+
+void describe_orbit(Shooting& shooting, const Eigen::VectorXd& unknowns, OrbitSolution& solution) {
+    solution.residual = shooting.residual();
+    solution.multipliers = floquet_multipliers(shooting, unknowns);
+    if (shooting.symmetry()) {
+        solution.half_multipliers = solution.multipliers;
+        for (auto& multiplier : solution.multipliers)
+            multiplier *= multiplier;
+    }
+    solution.certificate = certify(shooting, unknowns);
+}
+
+OrbitSolution solve_orbit(const Model& model, const Orbit& candidate, const OrbitOptions& options) {
+    options.validate();
+    validate_orbit(model, candidate);
+    const Simulation simulation(model, {}, {}, integration(options.tolerance));
+    Shooting shooting(simulation, candidate, {});
+    Eigen::VectorXd unknowns = shooting.unknowns_of(candidate);
+    OrbitSolution solution;
+    solution.outcome = solve_shooting(shooting, unknowns, options, solution.iterations, solution.detail);
+    solution.orbit = shooting.orbit_of(unknowns);
+    solution.residual = shooting.residual();
+    if (solution.outcome != OrbitOutcome::converged)
+        return solution;
+    describe_orbit(shooting, unknowns, solution);
+    if (options.error_estimate) {
+        const Simulation tighter(model, {}, {}, integration(0.01 * options.tolerance));
+        Shooting again(tighter, solution.orbit, {});
+        Eigen::VectorXd step, there = again.unknowns_of(solution.orbit);
+        const Eigen::MatrixXd no_borders(0, static_cast<Eigen::Index>(again.unknowns()));
+        if (again.evaluate(there) && again.solve(no_borders, Eigen::VectorXd(0), false, step))
+            solution.error = largest(step, again.scales());
+    }
+    return solution;
+}
+
+} // namespace graze

@@ -1,0 +1,79 @@
+#include "orbit/product_eigenvalues.hpp"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace graze {
+namespace {
+
+/// Factors whose product has the given real eigenvalues: random changes of basis between diagonal factors.
+std::vector<Eigen::MatrixXd> factors_with(const std::vector<double>& eigenvalues, std::size_t count) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal;
+    const auto n = static_cast<Eigen::Index>(eigenvalues.size());
+    std::vector<Eigen::MatrixXd> bases, factors;
+    for (std::size_t k = 0; k < count; ++k)
+        bases.push_back(Eigen::HouseholderQR<Eigen::MatrixXd>(Eigen::MatrixXd::NullaryExpr(n, n, [&] {
+                            return normal(random);
+                        })).householderQ());
+    for (std::size_t k = 0; k < count; ++k) {
+        Eigen::VectorXd roots(n);
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const double value = eigenvalues[static_cast<std::size_t>(i)];
+            roots[i] = std::pow(std::abs(value), 1.0 / static_cast<double>(count)) * (k == 0 && value < 0 ? -1 : 1);
+        }
+        factors.push_back(bases[(k + 1) % count] * roots.asDiagonal() * bases[k].transpose());
+    }
+    return factors;
+}
+
+TEST(ProductEigenvalues, keep_eighteen_powers_of_ten_apart) {
+    const std::vector<double> known{1e6, -3.0, 0.5, 2e-7, -1e-12};
+    for (const std::size_t count : {5u, 20u, 100u}) {
+        const auto found = product_eigenvalues(factors_with(known, count));
+        ASSERT_EQ(found.size(), known.size());
+        for (std::size_t i = 0; i < known.size(); ++i) {
+            EXPECT_NEAR(found[i].real() / known[i], 1, 1e-11) << count << " " << i;
+            EXPECT_EQ(found[i].imag(), 0);
+        }
+    }
+}
+
+TEST(ProductEigenvalues, equal_those_of_the_product_when_that_is_harmless) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    for (int trial = 0; trial < 50; ++trial) {
+        std::vector<Eigen::MatrixXd> factors;
+        Eigen::MatrixXd product = Eigen::MatrixXd::Identity(4, 4);
+        for (int k = 0; k < 3; ++k) {
+            factors.push_back(Eigen::MatrixXd::NullaryExpr(4, 4, [&] { return normal(random); }));
+            product = factors.back() * product;
+        }
+        const auto found = product_eigenvalues(factors);
+        std::complex<double> sum = 0, prod = 1;
+        for (const auto value : found) {
+            sum += value;
+            prod *= value;
+        }
+        EXPECT_NEAR(sum.real(), product.trace(), 1e-12 * product.norm());
+        EXPECT_NEAR(sum.imag(), 0, 1e-12 * product.norm());
+        EXPECT_NEAR(prod.real(), product.determinant(), 1e-10 * std::pow(product.norm(), 4));
+    }
+}
+
+TEST(ProductEigenvalues, complex_pairs_and_zeros) {
+    Eigen::MatrixXd turn(3, 3), squash(3, 3);
+    turn << 0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, 1;
+    squash << 2, 0, 0, 0, 2, 0, 0, 0, 0;
+    const auto found = product_eigenvalues({turn, squash});
+    EXPECT_NEAR(std::abs(found[0]), 2, 1e-14);
+    EXPECT_NEAR(std::abs(found[0].imag()), 1.6, 1e-14);
+    EXPECT_NEAR(std::abs(found[2]), 0, 1e-300);
+    EXPECT_TRUE(product_eigenvalues({}).empty());
+}
+
+} // namespace
+} // namespace graze

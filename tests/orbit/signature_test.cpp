@@ -1,0 +1,60 @@
+#include "graze/model/catalogue.hpp"
+#include "graze/orbit/signature.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <gtest/gtest.h>
+
+namespace graze {
+namespace {
+
+std::string again(const char* model_name, const char* text) {
+    const Model model = load_model(model_name);
+    const Signature signature = parse_signature(model, text);
+    validate_signature(model, signature);
+    const std::string written = to_string(model, signature);
+    EXPECT_EQ(parse_signature(model, written), signature) << written;
+    return written;
+}
+
+TEST(Signature, reads_what_people_write) {
+    EXPECT_EQ(again("impact-microactuator", "{J1,J8}^2"), "(J1 J8)^2");
+    EXPECT_EQ(again("impact-microactuator", "J5"), "J5");
+    EXPECT_EQ(again("impact-microactuator", "{J1 J8}^10, J1, J8"), "(J1 J8)^11");
+    EXPECT_EQ(again("impact-oscillator", "impact^3"), "impact^3");
+    EXPECT_EQ(again("electromagnetic-testbed", "phase0"), "phase0");
+}
+
+TEST(Signature, modes_follow_from_the_graph) {
+    const Model model = load_model("impact-microactuator");
+    const Signature signature = parse_signature(model, "J1 J8");
+    EXPECT_EQ(model.modes[signature[0].mode].name, "stick");
+    EXPECT_EQ(model.modes[signature[1].mode].name, "slip_plus");
+}
+
+std::string message(const char* text) {
+    const Model model = load_model("impact-microactuator");
+    try {
+        parse_signature(model, text, {"study.toml", 3, 10});
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Signature, mistakes_are_told_with_their_place) {
+    EXPECT_NE(message("J1 J99").find("study.toml:3:13: in the signature 'J1 J99': the model has no transition"),
+              std::string::npos)
+        << message("J1 J99");
+    EXPECT_NE(message("J5 J1 J9").find("no cycle"), std::string::npos) << message("J5 J1 J9");
+    EXPECT_NE(message("J8 J6").find("'J6' cannot follow 'J8'"), std::string::npos) << message("J8 J6");
+    EXPECT_NE(message("{J1").find("not closed"), std::string::npos);
+    EXPECT_NE(message("J1)").find("closes nothing"), std::string::npos);
+    EXPECT_NE(message("J1^0").find("repetitions"), std::string::npos);
+    EXPECT_NE(message("J1^x").find("repetitions"), std::string::npos);
+    EXPECT_NE(message("J1^99999 J8^99999").find("too many"), std::string::npos);
+    EXPECT_NE(message("").find("empty"), std::string::npos);
+    EXPECT_NE(message("J1;J8").find("does not belong"), std::string::npos);
+}
+
+} // namespace
+} // namespace graze

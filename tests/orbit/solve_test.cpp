@@ -1,0 +1,201 @@
+#include "graze/model/catalogue.hpp"
+#include "graze/model/model_file.hpp"
+#include "graze/orbit/solve.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// One impact per n periods of the force of a linear impact oscillator x'' + 2 zeta x' + x = cos(omega t), in closed
+/// form (Shaw and Holmes 1983): the free motion from the stop and back is linear in the impact velocity and in the
+/// force's phase, which the two conditions x = sigma and v_after = -e v_before determine.
+struct OneImpact {
+    double speed = 0, phase = 0; ///< velocity after the impact (negative), phase at it
+    bool exists = false;
+};
+OneImpact one_impact(double zeta, double omega, double sigma, double e, int n, bool upper) {
+    const double T = 2 * pi * n / omega, d = std::sqrt(1 - zeta * zeta), decay = std::exp(-zeta * T);
+    const double c = std::cos(d * T), s = std::sin(d * T);
+    // x = particular + free; particular = A cos(theta) + B sin(theta).
+    const double denominator = (1 - omega * omega) * (1 - omega * omega) + 4 * zeta * zeta * omega * omega;
+    const double A = (1 - omega * omega) / denominator, B = 2 * zeta * omega / denominator;
+    // Free part: y(0) = sigma - p, y'(0) = w - p'; y(T) = sigma - p, y'(T) = -w/e - p' with p, p' of the phase.
+    const double m11 = decay * (c + zeta / d * s), m12 = decay * s / d, m21 = -decay * s / d,
+                 m22 = decay * (c - zeta / d * s);
+    // (1 - m11) y0 = m12 z0 with z0 = w - p'; m21 y0 + m22 z0 = z0 - w (1 + 1/e).
+    // y0 = a z0, w = b z0:
+    const double a = m12 / (1 - m11), b = (1 - m22 - m21 * a) * e / (1 + e);
+    // p' = w - z0 = (b - 1) z0, p = sigma - a z0; p = r cos(phi), p' = -r omega sin(phi), r^2 = A^2 + B^2.
+    const double k = (b - 1) / omega, r2 = A * A + B * B;
+    // (sigma - a z)^2 + (k z)^2 = r2
+    const double qa = a * a + k * k, qb = -2 * sigma * a, qc = sigma * sigma - r2, disc = qb * qb - 4 * qa * qc;
+    OneImpact result;
+    if (disc < 0)
+        return result;
+    const double z = (-qb + (upper ? 1 : -1) * std::sqrt(disc)) / (2 * qa);
+    result.exists = true;
+    result.speed = b * z;
+    // p = A cos + B sin, p'/omega = -A sin + B cos
+    const double p = sigma - a * z, q = k * z;
+    result.phase = std::atan2(B * p - A * q, A * p + B * q);
+    return result;
+}
+
+TEST(SolveOrbit, linear_impact_oscillator_has_its_closed_form) {
+    Model model = load_model("impact-oscillator");
+    const double zeta = 0.05, omega = 2.4, sigma = 0.02, e = 0.7;
+    model.set_parameter("zeta", zeta);
+    model.set_parameter("omega", omega);
+    model.set_parameter("sigma", sigma);
+    model.set_parameter("e", e);
+    std::size_t found = 0;
+    for (const int n : {1, 2, 3})
+        for (const bool upper : {false, true}) {
+            const OneImpact known = one_impact(zeta, omega, sigma, e, n, upper);
+            if (!known.exists || known.speed >= 0)
+                continue;
+            ++found;
+            Orbit guess;
+            guess.signature = parse_signature(model, "impact");
+            guess.parameters = model.parameter_values();
+            guess.starts = {{sigma, known.speed * 1.02, known.phase + 0.02}};
+            guess.durations = {2 * pi * n / omega * 0.99};
+            const OrbitSolution solution = solve_orbit(model, guess);
+            ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
+            EXPECT_NEAR(solution.orbit.starts[0][1], known.speed, 1e-12);
+            EXPECT_NEAR(std::remainder(solution.orbit.starts[0][2] - known.phase, 2 * pi), 0, 1e-12);
+            EXPECT_NEAR(solution.orbit.period(), 2 * pi * n / omega, 1e-12);
+            ASSERT_EQ(solution.multipliers.size(), 2u);
+            // Saltation in closed form: trace and determinant.
+            const double T = 2 * pi * n / omega, d = std::sqrt(1 - zeta * zeta), decay = std::exp(-zeta * T);
+            const double c = std::cos(d * T), s = std::sin(d * T);
+            const double v = -known.speed / e;
+            const double force = std::cos(known.phase) - sigma;
+            const double before = force - 2 * zeta * v, after = force - 2 * zeta * known.speed;
+            const double trace = -e * decay * (c + zeta / d * s) - e * decay * (c - zeta / d * s) +
+                                 (e * before + after) / v * decay * s / d;
+            EXPECT_NEAR((solution.multipliers[0] + solution.multipliers[1]).real(), trace, 1e-10);
+            EXPECT_NEAR((solution.multipliers[0] * solution.multipliers[1]).real(), e * e * decay * decay, 1e-11);
+            ASSERT_TRUE(solution.error);
+            EXPECT_LT(*solution.error, 1e-11);
+            EXPECT_NEAR(solution.certificate.approach_speeds[0], v, 1e-12);
+        }
+    EXPECT_GE(found, 3u);
+}
+
+TEST(SolveOrbit, orbits_that_penetrate_are_marked) {
+    // The upper solution with three periods to an impact crosses the stop in between, whatever Newton says.
+    Model model = load_model("impact-oscillator");
+    model.set_parameter("zeta", 0.05);
+    model.set_parameter("omega", 2.4);
+    model.set_parameter("sigma", 0.02);
+    model.set_parameter("e", 0.7);
+    std::size_t bad = 0;
+    for (const int n : {2, 3, 4, 5})
+        for (const bool upper : {false, true}) {
+            const OneImpact known = one_impact(0.05, 2.4, 0.02, 0.7, n, upper);
+            if (!known.exists)
+                continue;
+            Orbit guess{parse_signature(model, "impact"),
+                        model.parameter_values(),
+                        {{0.02, known.speed, known.phase}},
+                        {2 * pi * n / 2.4},
+                        {}};
+            const OrbitSolution solution = solve_orbit(model, guess);
+            ASSERT_EQ(solution.outcome, OrbitOutcome::converged);
+            // Simulation from the start meets the stop first at the end exactly if the orbit is admissible.
+            const Simulation simulation(model);
+            const FollowedMotion motion = follow_motion(simulation, model.parameter_values(), solution.orbit.starts[0],
+                                                        0, solution.orbit.period() * 1.001);
+            const bool real = known.speed < 0 && !motion.durations.empty() &&
+                              std::abs(motion.durations[0] - solution.orbit.period()) < 1e-6;
+            EXPECT_EQ(solution.certificate.admissible, real) << n << upper << solution.certificate.reason;
+            bad += real ? 0 : 1;
+            if (!real) {
+                EXPECT_FALSE(solution.certificate.reason.empty());
+            }
+        }
+    EXPECT_GE(bad, 2u);
+}
+
+TEST(FindOrbit, testbed_at_published_values) {
+    Model model = load_model("electromagnetic-testbed");
+    model.set_initial("I", 0.1);
+    AttractorOptions settle;
+    settle.section = "phase0";
+    settle.cycles = 600;
+    const OrbitSolution solution = find_orbit(model, settle);
+    ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
+    ASSERT_TRUE(solution.orbit.symmetry);
+    EXPECT_EQ(to_string(model, solution.orbit.signature), "impact^2");
+    EXPECT_NEAR(solution.orbit.period(), 3 / 6.25, 1e-10);
+    ASSERT_EQ(solution.multipliers.size(), 3u);
+    EXPECT_NEAR(solution.multipliers[0].real(), 0.6128, 5e-5);
+    EXPECT_NEAR(solution.multipliers[1].real(), 0.1126, 5e-5);
+    EXPECT_TRUE(solution.certificate.admissible) << solution.certificate.reason;
+    // Half and whole orbit are the same thing.
+    const OrbitSolution whole = solve_orbit(model, whole_orbit(model, solution.orbit));
+    ASSERT_EQ(whole.outcome, OrbitOutcome::converged) << whole.detail;
+    EXPECT_LE(whole.iterations, 2u);
+    EXPECT_NEAR(std::abs(whole.multipliers[0] - solution.multipliers[0]), 0, 1e-8);
+}
+
+TEST(FindOrbit, a_motion_without_contact_ends_at_the_section) {
+    Model model = load_model("electromagnetic-testbed");
+    model.set_parameter("V0", 4.5);
+    AttractorOptions settle;
+    settle.section = "phase0";
+    const OrbitSolution solution = find_orbit(model, settle);
+    ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
+    EXPECT_TRUE(solution.orbit.symmetry);
+    EXPECT_EQ(to_string(model, solution.orbit.signature), "phase0");
+    const OrbitSolution whole = solve_orbit(model, whole_orbit(model, solution.orbit));
+    ASSERT_EQ(whole.outcome, OrbitOutcome::converged) << whole.detail;
+    EXPECT_NEAR(std::abs(whole.multipliers[0] - solution.multipliers[0]), 0, 1e-10);
+}
+
+TEST(SolveOrbit, microactuator_without_impacts_holds_the_frame) {
+    Model model = load_model("impact-microactuator");
+    model.set_parameter("V", 0.2);
+    AttractorOptions settle;
+    settle.section = "phase0";
+    settle.cycles = 2000;
+    const OrbitSolution solution = find_orbit(model, settle);
+    ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
+    EXPECT_EQ(solution.multipliers.size(), 2u);
+    // Dissipation alone: the product of multipliers is that of the damping.
+    EXPECT_NEAR(std::abs(solution.multipliers[0] * solution.multipliers[1]), std::exp(-0.04 * pi / 0.9189), 1e-10);
+    // The same orbit from event to event.
+    Orbit turning = solution.orbit;
+    const Simulation simulation(model);
+    EXPECT_EQ(to_string(model, parse_signature(model, "{J5}")), "J5");
+}
+
+TEST(SolveOrbit, says_what_is_wrong) {
+    const Model model = load_model("impact-oscillator");
+    Orbit orbit;
+    orbit.signature = parse_signature(model, "impact");
+    orbit.parameters = model.parameter_values();
+    orbit.starts = {{0.1, -0.5}};
+    orbit.durations = {2};
+    EXPECT_THROW(solve_orbit(model, orbit), InputError);
+    orbit.starts = {{0.1, -0.5, NAN}};
+    EXPECT_THROW(solve_orbit(model, orbit), InputError);
+    orbit.starts = {{0.1, -0.5, 0}, {0.1, -0.5, 0}};
+    EXPECT_THROW(solve_orbit(model, orbit), InputError);
+    orbit.starts = {{0.1, 1e5, 0}};
+    orbit.durations = {1e-3};
+    const OrbitSolution lost = solve_orbit(model, orbit);
+    EXPECT_NE(lost.outcome, OrbitOutcome::converged);
+    EXPECT_FALSE(lost.detail.empty());
+}
+
+} // namespace
+} // namespace graze
