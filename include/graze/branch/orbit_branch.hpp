@@ -1,0 +1,91 @@
+#pragma once
+
+#include "graze/branch/continuation.hpp"
+#include "graze/branch/special_point.hpp"
+#include "graze/orbit/solve.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace graze {
+
+struct BranchSettings {
+    std::size_t parameter = 0;             ///< that varies: its place among the model's independent ones
+    int direction = 1;                     ///< in which it goes at first: up (1) or down (-1)
+    std::size_t steps = 300;               ///< at most
+    std::optional<double> least, greatest; ///< of the parameter, where the branch ends
+    ContinuationOptions continuation;
+    OrbitOptions orbit;
+    std::vector<PointType> stop_at;   ///< types at which the branch ends
+    bool stop_when_unphysical = true; ///< ends where orbits cease to be admissible
+    /// @throws InputError naming what is out of range
+    void validate(const Model& model) const;
+};
+
+struct BranchPoint {
+    OrbitSolution solution;
+    double parameter = 0, arclength = 0;
+    bool stable = false; ///< all multipliers within the unit circle
+    std::size_t step = 0;
+    std::size_t iterations = 0;
+};
+
+enum class BranchOutcome {
+    steps,          ///< all that were allowed have been made
+    bound,          ///< of the parameter is reached
+    stopped,        ///< at a point of a type that was to stop it
+    unphysical,     ///< beyond the last special point orbits are not admissible
+    closed,         ///< it has come back to its first point
+    no_convergence, ///< steps have become too small
+    undefined,      ///< the model is not defined beyond
+    no_start,       ///< no orbit was found to start from
+};
+std::string_view name_of(BranchOutcome outcome);
+
+/// Follows a branch of periodic orbits of one signature in one parameter, and finds what happens on the way: an
+/// iterator that one can stop and resume after any step.
+class OrbitBranch {
+public:
+    /// @param model must outlive this
+    /// @throws InputError when candidate or settings do not fit the model
+    OrbitBranch(const Model& model, const Orbit& candidate, const BranchSettings& settings);
+    ~OrbitBranch();
+    OrbitBranch(OrbitBranch&&) noexcept;
+
+    /// Finds the first point. @return false when there is none: outcome() and detail() say why
+    bool start();
+    /// The same at a solution, onto the branch through it that has this direction: of the unknowns of the shooting
+    /// problem, as SpecialPoint::tangent. @param distance of the first point; 0 for the solution itself
+    bool start_along(const std::vector<double>& direction, double distance);
+
+    /// @return false when the branch has ended
+    bool step();
+    const BranchPoint& point() const;
+    /// What was found between the last point and the one before, in the order of the branch.
+    const std::vector<SpecialPoint>& found() const;
+    BranchOutcome outcome() const;
+    const std::string& detail() const;
+
+private:
+    class Follower;
+    std::unique_ptr<Follower> follower_;
+};
+
+struct Branch {
+    std::vector<BranchPoint> points;
+    std::vector<SpecialPoint> special;
+    BranchOutcome outcome = BranchOutcome::no_start;
+    std::string detail;
+};
+
+/// Follows a whole branch. @param visit called after each point with it and what was found just before; returning false
+///        ends the branch
+using BranchVisitor = std::function<bool(const BranchPoint&, const std::vector<SpecialPoint>&)>;
+Branch follow_branch(const Model& model, const Orbit& candidate, const BranchSettings& settings,
+                     const BranchVisitor& visit = {});
+
+} // namespace graze

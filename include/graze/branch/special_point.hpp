@@ -1,0 +1,49 @@
+#pragma once
+
+#include "graze/orbit/solve.hpp"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace graze {
+
+/// What happens at a point of a branch of periodic orbits.
+enum class PointType {
+    fold,         ///< SN: the branch turns; a multiplier is 1
+    flip,         ///< PD: a multiplier is -1
+    torus,        ///< NS: two multipliers lie on the unit circle
+    branch_point, ///< BP: another branch crosses; for an orbit given by its half also the breaking of its symmetry
+    grazing,      ///< GR: an event's surface is touched without speed, inside an arc or at the end of one
+    vanishing,    ///< DZ: a segment's duration reaches zero
+    two_events,   ///< EE: two events happen at once
+    guard,        ///< GU: the guard after a jump is about to choose another mode
+    bound,        ///< BD: a bound that was given is reached
+    crossing,     ///< UZ: a monitor takes a value that was asked for
+    end,          ///< EP: the first or last point of a branch
+};
+/// The two letters above.
+std::string_view short_name(PointType type);
+/// In words, such as "fold".
+std::string_view name_of(PointType type);
+
+/// A point of a branch at which something happens, located between two computed ones.
+struct SpecialPoint {
+    PointType type = PointType::end;
+    bool located = true; ///< false: only known to lie within the bracket
+    std::string detail;  ///< what exactly, such as the event that is grazed
+    OrbitSolution solution;
+    double parameter = 0;
+    std::pair<double, double> bracket; ///< parameters of the neighbours between which it was found
+    double arclength = 0;
+    std::size_t step = 0;        ///< of the branch: found between this one and the one before
+    std::vector<double> tangent; ///< of the branch, in the unknowns of the shooting problem
+    // Of grazing, two_events, vanishing and guard:
+    std::size_t segment = 0, event = 0;
+    double time = 0;     ///< since the segment's start
+    bool at_end = false; ///< the segment's own event is met without speed, rather than another touched
+};
+
+} // namespace graze

@@ -1,0 +1,277 @@
+#include "graze/branch/continuation.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+constexpr double growth = 2, shrinkage = 0.5;
+/// Corrections that move a point further than this share of the step may lead onto another branch.
+constexpr double largest_correction = 0.5;
+/// Convergence that takes more iterations than this makes steps smaller.
+constexpr std::size_t good_iterations = 3;
+/// How near a branch must come to its first point, in units of the scales, to be closed.
+constexpr double same_point = 1e-6;
+
+void require(bool good, const char* problem, const char* remedy) {
+    if (!good)
+        throw InputError(problem, remedy);
+}
+
+} // namespace
+
+void ContinuationOptions::validate() const {
+    require(smallest_step > 0 && std::isfinite(smallest_step), "the smallest step is not positive",
+            "give a positive number");
+    require(largest_step >= smallest_step && std::isfinite(largest_step),
+            "the largest step is smaller than the smallest", "make it larger");
+    require(first_step > 0 && std::isfinite(first_step), "the first step is not positive", "give a positive number");
+    require(accuracy >= 1e-15 && accuracy <= 1e-2, "the accuracy is out of range", "choose from 1e-15 to 1e-2");
+    require(largest_angle > 0 && largest_angle < 1.5, "the largest angle is out of range",
+            "choose between 0 and 1.5 radians");
+    require(iterations > 0, "no iterations are allowed", "allow at least one");
+}
+
+std::string_view name_of(ContinuationOutcome outcome) {
+    switch (outcome) {
+    case ContinuationOutcome::going:
+        return "going";
+    case ContinuationOutcome::closed:
+        return "closed";
+    case ContinuationOutcome::no_convergence:
+        return "no convergence";
+    case ContinuationOutcome::undefined:
+        return "undefined";
+    case ContinuationOutcome::singular:
+        return "singular";
+    }
+    return "";
+}
+
+Continuation::Continuation(ContinuationProblem& problem, const ContinuationOptions& options)
+    : problem_(&problem), options_(options), next_step_(options.first_step) {
+    options_.validate();
+    row_.resize(problem.unknowns());
+    step_.resize(problem.unknowns());
+}
+
+void Continuation::set_next_step(double length) {
+    next_step_ = std::clamp(length, options_.smallest_step, options_.largest_step);
+}
+
+double Continuation::product(std::span<const double> a, std::span<const double> b) const {
+    const auto scales = problem_->scales();
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sum += a[i] / scales[i] * (b[i] / scales[i]);
+    return sum;
+}
+
+/// The row whose product with a vector is the inner product, in units of the scales, with the direction.
+void Continuation::weigh(std::span<const double> direction, std::vector<double>& row) const {
+    const auto scales = problem_->scales();
+    row.resize(direction.size());
+    for (std::size_t i = 0; i < direction.size(); ++i)
+        row[i] = direction[i] / (scales[i] * scales[i]);
+}
+
+/// Newton's method in the hyperplane across a row. @param allowed distance from where it began
+bool Continuation::correct(std::vector<double>& u, std::span<const double> row, double allowed,
+                           std::size_t& iterations) {
+    const auto scales = problem_->scales();
+    const std::vector<double> begin = u;
+    std::vector<double> moved(u.size());
+    double before = 0;
+    for (iterations = 1; iterations <= options_.iterations; ++iterations) {
+        if (!problem_->evaluate(u) || !problem_->solve(row, 0, false, step_, nullptr))
+            return false;
+        double size = 0;
+        for (std::size_t i = 0; i < u.size(); ++i) {
+            u[i] += step_[i];
+            moved[i] = u[i] - begin[i];
+            size = std::max(size, std::abs(step_[i]) / scales[i]);
+        }
+        if (!std::isfinite(size) || std::sqrt(product(moved, moved)) > allowed)
+            return false;
+        // Newton's method squares what is wrong: a correction this small has been the last one.
+        if (size < options_.accuracy ||
+            (iterations > 1 && size < 0.1 * before && size * size < options_.accuracy * 1e-4))
+            return problem_->evaluate(u);
+        if (iterations > 2 && size > before)
+            return false;
+        before = size;
+    }
+    return false;
+}
+
+/// The tangent at a point at which the problem is evaluated, on the side of the row.
+bool Continuation::find_tangent(ContinuationPoint& point, std::span<const double> row) {
+    point.tangent.resize(point.u.size());
+    if (!problem_->solve(row, 1, true, point.tangent, nullptr))
+        return false;
+    const double length = std::sqrt(product(point.tangent, point.tangent));
+    if (!(length > 0) || !std::isfinite(length))
+        return false;
+    for (double& entry : point.tangent)
+        entry /= length;
+    weigh(point.tangent, row_);
+    return problem_->solve(row_, 1, true, step_, &point.determinant);
+}
+
+bool Continuation::begin(ContinuationPoint point) {
+    point.arclength = 0;
+    problem_->accept(point.u);
+    // Scales may have changed.
+    const double length = std::sqrt(product(point.tangent, point.tangent));
+    for (double& entry : point.tangent)
+        entry /= length;
+    point_ = previous_ = first_ = std::move(point);
+    steps_ = 0;
+    outcome_ = ContinuationOutcome::going;
+    return true;
+}
+
+bool Continuation::start(std::span<const double> u, std::size_t unknown, int direction) {
+    ContinuationPoint point;
+    point.u.assign(u.begin(), u.end());
+    std::vector<double> row(u.size(), 0.0);
+    row[unknown] = 1 / problem_->scales()[unknown];
+    const double far = 1e3 * static_cast<double>(u.size());
+    outcome_ = ContinuationOutcome::undefined;
+    if (!problem_->evaluate(point.u))
+        return false;
+    outcome_ = ContinuationOutcome::no_convergence;
+    if (!correct(point.u, row, far, point.iterations))
+        return false;
+    outcome_ = ContinuationOutcome::singular;
+    row[unknown] = (direction < 0 ? -1 : 1) / problem_->scales()[unknown];
+    return find_tangent(point, row) && begin(std::move(point));
+}
+
+bool Continuation::start_at(std::span<const double> u, std::span<const double> row) {
+    ContinuationPoint point;
+    point.u.assign(u.begin(), u.end());
+    outcome_ = ContinuationOutcome::undefined;
+    if (!problem_->evaluate(point.u))
+        return false;
+    outcome_ = ContinuationOutcome::singular;
+    return find_tangent(point, row) && begin(std::move(point));
+}
+
+bool Continuation::start_along(std::span<const double> u, std::span<const double> direction, double distance) {
+    const double length = std::sqrt(product(direction, direction));
+    outcome_ = ContinuationOutcome::singular;
+    if (!(length > 0) || !std::isfinite(length))
+        return false;
+    ContinuationPoint point;
+    point.u.assign(u.begin(), u.end());
+    for (std::size_t i = 0; i < u.size(); ++i)
+        point.u[i] += distance * direction[i] / length;
+    std::vector<double> row;
+    weigh(direction, row);
+    outcome_ = ContinuationOutcome::no_convergence;
+    if (!correct(point.u, row, std::abs(distance), point.iterations))
+        return false;
+    outcome_ = ContinuationOutcome::singular;
+    if (distance < 0)
+        for (double& entry : row)
+            entry = -entry;
+    return find_tangent(point, row) && begin(std::move(point));
+}
+
+bool Continuation::step() {
+    if (outcome_ != ContinuationOutcome::going)
+        return false;
+    double length = std::clamp(next_step_, options_.smallest_step, options_.largest_step);
+    bool undefined = false;
+    problem_->accept(point_.u);
+    const double unit = std::sqrt(product(point_.tangent, point_.tangent)); // in units that may have changed
+    for (double& entry : point_.tangent)
+        entry /= unit;
+    std::vector<double> row;
+    weigh(point_.tangent, row);
+    for (;; length *= shrinkage) {
+        if (length < options_.smallest_step) {
+            outcome_ = undefined ? ContinuationOutcome::undefined : ContinuationOutcome::no_convergence;
+            return false;
+        }
+        ContinuationPoint next;
+        next.u.resize(point_.u.size());
+        for (std::size_t i = 0; i < next.u.size(); ++i)
+            next.u[i] = point_.u[i] + length * point_.tangent[i];
+        undefined = !problem_->evaluate(next.u);
+        if (undefined || !correct(next.u, row, largest_correction * length, next.iterations) ||
+            !find_tangent(next, row))
+            continue;
+        const double angle = std::acos(std::clamp(product(next.tangent, point_.tangent), -1.0, 1.0));
+        if (angle > options_.largest_angle && length > 2 * options_.smallest_step)
+            continue;
+        next.arclength = point_.arclength + length;
+        previous_ = std::move(point_);
+        point_ = std::move(next);
+        ++steps_;
+        const double by_angle = angle > 0 ? 0.7 * options_.largest_angle / angle : growth;
+        const double by_work = point_.iterations <= good_iterations ? growth : shrinkage;
+        next_step_ = std::clamp(length * std::clamp(std::min(by_angle, by_work), shrinkage, growth),
+                                options_.smallest_step, options_.largest_step);
+        if (closes())
+            outcome_ = ContinuationOutcome::closed;
+        else
+            problem_->evaluate(point_.u);
+        return true;
+    }
+}
+
+/// Whether the branch has come back to its first point on the last step.
+bool Continuation::closes() {
+    if (steps_ < 3)
+        return false;
+    std::vector<double> chord(point_.u.size()), offset(point_.u.size());
+    for (std::size_t i = 0; i < chord.size(); ++i) {
+        chord[i] = point_.u[i] - previous_.u[i];
+        offset[i] = first_.u[i] - previous_.u[i];
+    }
+    const double length2 = product(chord, chord), along = product(offset, chord) / length2;
+    if (!(along > 0 && along <= 1) || product(offset, offset) > 4 * length2 ||
+        product(first_.tangent, point_.tangent) < 0.5)
+        return false;
+    ContinuationPoint here;
+    if (!between(along, here))
+        return false;
+    for (std::size_t i = 0; i < offset.size(); ++i)
+        offset[i] = here.u[i] - first_.u[i];
+    return std::sqrt(product(offset, offset)) < same_point;
+}
+
+bool Continuation::between(double fraction, ContinuationPoint& result) {
+    const std::size_t count = point_.u.size();
+    const double length = point_.arclength - previous_.arclength;
+    std::vector<double> chord(count), row;
+    result.u.resize(count);
+    // Hermite's cubic through both points along both tangents, moved into the hyperplane.
+    const double f = fraction, g = 1 - f;
+    for (std::size_t i = 0; i < count; ++i) {
+        chord[i] = point_.u[i] - previous_.u[i];
+        result.u[i] = g * g * (1 + 2 * f) * previous_.u[i] + f * f * (3 - 2 * f) * point_.u[i] +
+                      length * f * g * (g * previous_.tangent[i] - f * point_.tangent[i]);
+    }
+    std::vector<double> offset(count);
+    for (std::size_t i = 0; i < count; ++i)
+        offset[i] = previous_.u[i] + f * chord[i] - result.u[i];
+    const double shift = product(offset, chord) / product(chord, chord);
+    for (std::size_t i = 0; i < count; ++i)
+        result.u[i] += shift * chord[i];
+    weigh(chord, row);
+    if (!correct(result.u, row, length, result.iterations) || !find_tangent(result, row))
+        return false;
+    result.arclength = previous_.arclength + f * length;
+    return true;
+}
+
+} // namespace graze

@@ -1,0 +1,85 @@
+#include "graze/branch/continuation.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+/// Cube root of the unit round-off, at which central differences are most accurate.
+constexpr double difference_step = 6e-6;
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+bool all_finite(std::span<const double> values) {
+    return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+}
+
+} // namespace
+
+DenseProblem::DenseProblem(std::size_t unknowns, Map residuals, Map jacobian, std::vector<double> scales)
+    : unknowns_(unknowns), residuals_(std::move(residuals)), jacobian_(std::move(jacobian)),
+      scales_(std::move(scales)) {
+    if (unknowns_ < 1 || !residuals_)
+        throw InputError("a continuation problem needs unknowns and residuals", "give at least one unknown");
+    if (scales_.empty())
+        scales_.assign(unknowns_, 1);
+    if (scales_.size() != unknowns_ ||
+        !std::all_of(scales_.begin(), scales_.end(), [](double x) { return x > 0 && std::isfinite(x); }))
+        throw InputError("the scales of a continuation problem do not fit", "give a positive one for each unknown");
+    values_.resize(unknowns_ - 1);
+    matrix_.resize((unknowns_ - 1) * unknowns_);
+}
+
+bool DenseProblem::evaluate(std::span<const double> u) {
+    if (!residuals_(u, values_) || !all_finite(values_))
+        return false;
+    const bool differentiated = jacobian_ ? jacobian_(u, matrix_) : differences(u);
+    return differentiated && all_finite(matrix_);
+}
+
+bool DenseProblem::differences(std::span<const double> u) {
+    std::vector<double> shifted(u.begin(), u.end()), above(values_.size()), below(values_.size());
+    for (std::size_t j = 0; j < unknowns_; ++j) {
+        const double step = difference_step * std::max(std::abs(u[j]), scales_[j]);
+        shifted[j] = u[j] + step;
+        const double high = shifted[j];
+        if (!residuals_(shifted, above))
+            return false;
+        shifted[j] = u[j] - step;
+        if (!residuals_(shifted, below))
+            return false;
+        for (std::size_t i = 0; i < values_.size(); ++i)
+            matrix_[i * unknowns_ + j] = (above[i] - below[i]) / (high - shifted[j]);
+        shifted[j] = u[j];
+    }
+    return true;
+}
+
+bool DenseProblem::solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
+                         double* determinant) {
+    const auto n = static_cast<Eigen::Index>(unknowns_);
+    const Eigen::Map<const Eigen::VectorXd> scales(scales_.data(), n);
+    Eigen::MatrixXd matrix(n, n);
+    matrix.topRows(n - 1) = Eigen::Map<const RowMajor>(matrix_.data(), n - 1, n);
+    matrix.row(n - 1) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), n);
+    matrix *= scales.asDiagonal();
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(n);
+    if (!homogeneous)
+        values.head(n - 1) = -Eigen::Map<const Eigen::VectorXd>(values_.data(), n - 1);
+    values[n - 1] = right;
+    const Eigen::FullPivLU<Eigen::MatrixXd> lu(matrix);
+    if (determinant)
+        *determinant = lu.determinant();
+    if (!lu.isInvertible())
+        return false;
+    Eigen::Map<Eigen::VectorXd>(step.data(), n) = lu.solve(values).cwiseProduct(scales);
+    return all_finite(step);
+}
+
+} // namespace graze

@@ -1,0 +1,430 @@
+#include "graze/branch/orbit_branch.hpp"
+
+#include "branch/orbit_problem.hpp"
+#include "branch/orbit_tests.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "orbit/newton.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+constexpr int most_locating_steps = 60;
+/// Fraction of a step to which points are located.
+constexpr double located_within = 1e-13;
+/// Growth of derivatives over one piece at which the segments are split anew.
+constexpr double too_much_growth = 1e6;
+
+SimulationOptions integration(const OrbitOptions& options) {
+    SimulationOptions result;
+    result.tolerance = options.tolerance;
+    return result;
+}
+
+bool is_among(PointType type, const std::vector<PointType>& types) {
+    return std::find(types.begin(), types.end(), type) != types.end();
+}
+
+/// Of several things at one place, the one that tells most comes first.
+int rank(const SpecialPoint& point) {
+    switch (point.type) {
+    case PointType::grazing:
+        return point.at_end ? 1 : 0;
+    case PointType::vanishing:
+        return 2;
+    case PointType::two_events:
+        return 3;
+    case PointType::guard:
+        return 4;
+    default:
+        return -1;
+    }
+}
+
+} // namespace
+
+void BranchSettings::validate(const Model& model) const {
+    continuation.validate();
+    orbit.validate();
+    if (parameter >= model.parameter_symbols().size())
+        throw InputError("the branch's parameter is not one of the model's", "choose an independent parameter");
+    if (direction != 1 && direction != -1)
+        throw InputError(fmt::format("the direction {} is neither 1 nor -1", direction), "give 1 for up, -1 for down");
+    if (least && greatest && !(*least < *greatest))
+        throw InputError("the branch's bounds leave no room", "give the smaller one first");
+}
+
+std::string_view name_of(BranchOutcome outcome) {
+    switch (outcome) {
+    case BranchOutcome::steps:
+        return "all steps made";
+    case BranchOutcome::bound:
+        return "bound reached";
+    case BranchOutcome::stopped:
+        return "stopped";
+    case BranchOutcome::unphysical:
+        return "unphysical beyond";
+    case BranchOutcome::closed:
+        return "closed";
+    case BranchOutcome::no_convergence:
+        return "no convergence";
+    case BranchOutcome::undefined:
+        return "undefined beyond";
+    case BranchOutcome::no_start:
+        return "no start";
+    }
+    return "";
+}
+
+class OrbitBranch::Follower {
+public:
+    Follower(const Model& model, const Orbit& candidate, const BranchSettings& settings)
+        : model_(&model), settings_(settings), simulation_(model, {}, {}, integration(settings.orbit)),
+          candidate_(candidate) {
+        settings_.validate(model);
+        validate_orbit(model, candidate);
+        make_problem(candidate);
+    }
+
+    bool start() {
+        const std::vector<double> u = unknowns_of(candidate_);
+        return begin(continuation_->start(u, problem_->parameter_place(), settings_.direction));
+    }
+
+    bool start_along(const std::vector<double>& direction, double distance) {
+        const std::vector<double> u = unknowns_of(candidate_);
+        if (direction.size() != u.size())
+            throw InputError("the direction does not fit the orbit", "give as many numbers as there are unknowns");
+        if (distance != 0)
+            return begin(continuation_->start_along(u, direction, distance));
+        std::vector<double> row = direction;
+        for (std::size_t i = 0; i < row.size(); ++i)
+            row[i] /= problem_->scales()[i] * problem_->scales()[i];
+        return begin(continuation_->start_at(u, row));
+    }
+
+    bool step() {
+        found.clear();
+        if (ended_)
+            return false;
+        if (point.step >= settings_.steps)
+            return end(BranchOutcome::steps, "");
+        renew_pieces();
+        const std::vector<BranchTest> before = tests_;
+        const bool was_admissible = point.solution.certificate.admissible;
+        const double parameter_before = point.parameter;
+        if (!continuation_->step())
+            return end(continuation_->outcome() == ContinuationOutcome::undefined ? BranchOutcome::undefined
+                                                                                  : BranchOutcome::no_convergence,
+                       problem_->shooting().problem());
+        describe(continuation_->point(), point, tests_);
+        ++point.step;
+        point.iterations = continuation_->point().iterations;
+        locate_all(before, parameter_before);
+        judge(was_admissible);
+        if (continuation_->outcome() == ContinuationOutcome::closed && !ended_)
+            finish(BranchOutcome::closed, "");
+        return true;
+    }
+
+    BranchPoint point;
+    std::vector<SpecialPoint> found;
+    BranchOutcome outcome = BranchOutcome::no_start;
+    std::string detail;
+
+private:
+    void make_problem(const Orbit& orbit) {
+        problem_ = std::make_unique<OrbitProblem>(simulation_, orbit, settings_.parameter);
+        continuation_ = std::make_unique<Continuation>(*problem_, settings_.continuation);
+    }
+
+    std::vector<double> unknowns_of(const Orbit& orbit) {
+        const Eigen::VectorXd unknowns = problem_->shooting().unknowns_of(orbit);
+        return {unknowns.begin(), unknowns.end()};
+    }
+
+    bool begin(bool begun) {
+        ended_ = !begun;
+        if (!begun) {
+            outcome = BranchOutcome::no_start;
+            detail = problem_->shooting().problem();
+            if (detail.empty())
+                detail = fmt::format("{} from the orbit that was given", name_of(continuation_->outcome()));
+            return false;
+        }
+        point = {};
+        describe(continuation_->point(), point, tests_);
+        return true;
+    }
+
+    bool end(BranchOutcome how, std::string why) {
+        finish(how, std::move(why));
+        return false;
+    }
+    void finish(BranchOutcome how, std::string why) {
+        ended_ = true;
+        outcome = how;
+        detail = std::move(why);
+    }
+
+    /// What is known of a point of the branch.
+    void describe(const ContinuationPoint& at, BranchPoint& result, std::vector<BranchTest>& tests) {
+        Shooting& shooting = problem_->shooting();
+        const auto unknowns = OrbitProblem::vector_of(at.u);
+        shooting.evaluate(unknowns);
+        result.solution = {};
+        result.solution.outcome = OrbitOutcome::converged;
+        result.solution.iterations = at.iterations;
+        result.solution.orbit = shooting.orbit_of(unknowns);
+        describe_orbit(shooting, unknowns, result.solution);
+        result.parameter = at.u[problem_->parameter_place()];
+        result.arclength = arclength_ + at.arclength;
+        const auto& multipliers = result.solution.multipliers;
+        result.stable = !multipliers.empty() &&
+                        std::all_of(multipliers.begin(), multipliers.end(), [](auto one) { return std::abs(one) < 1; });
+        tests = branch_tests(shooting, result.solution, at.tangent, at.determinant, settings_);
+    }
+
+    /// Splits segments anew when derivatives have grown too much for their pieces.
+    void renew_pieces() {
+        const Shooting& shooting = problem_->shooting();
+        bool grown = false;
+        for (std::size_t k = 0; k < shooting.pieces(); ++k)
+            grown = grown || shooting.piece(k).flow.leftCols(static_cast<Eigen::Index>(shooting.states())).norm() >
+                                 too_much_growth * growth_;
+        if (!grown)
+            return;
+        const double length = continuation_->next_step();
+        const double rise = continuation_->point().tangent[problem_->parameter_place()];
+        const std::size_t pieces = shooting.pieces();
+        arclength_ = point.arclength;
+        make_problem(point.solution.orbit);
+        if (problem_->shooting().pieces() <= pieces)
+            growth_ *= 10; // nothing was gained: ask again later
+        const std::vector<double> u = unknowns_of(point.solution.orbit);
+        continuation_->start(u, problem_->parameter_place(), rise < 0 ? -1 : 1);
+        continuation_->set_next_step(length);
+        describe(continuation_->point(), point, tests_);
+    }
+
+    void locate_all(const std::vector<BranchTest>& before, double parameter_before) {
+        if (before.size() != tests_.size())
+            return;
+        const double from = continuation_->previous().arclength;
+        const double length = continuation_->point().arclength - from;
+        for (std::size_t i = 0; i < tests_.size(); ++i) {
+            const double a = before[i].value, b = tests_[i].value;
+            const bool appeared = tests_[i].type == PointType::grazing && std::isnan(a) && b < 0;
+            const bool vanished = tests_[i].type == PointType::grazing && std::isnan(b) && a < 0;
+            if (!(a * b < 0) && !appeared && !vanished && !(b == 0 && a != 0))
+                continue;
+            if (std::optional<SpecialPoint> special = locate(i, std::isnan(a) ? 1 : a, std::isnan(b) ? 1 : b)) {
+                special->bracket = std::minmax(parameter_before, point.parameter);
+                special->step = point.step;
+                found.push_back(std::move(*special));
+            }
+        }
+        std::stable_sort(found.begin(), found.end(),
+                         [](const SpecialPoint& a, const SpecialPoint& b) { return a.arclength < b.arclength; });
+        merge(length);
+        problem_->evaluate(continuation_->point().u);
+    }
+
+    /// The zero of a test between the last two points, by the secant method kept within a bracket (M. Dowell and
+    /// P. Jarratt's Illinois variant of regula falsi, 1971).
+    std::optional<SpecialPoint> locate(std::size_t test, double low_value, double high_value) {
+        double low = 0, high = 1, fraction = 0;
+        const double first = std::abs(low_value), last = std::abs(high_value);
+        ContinuationPoint at;
+        BranchPoint there;
+        std::vector<BranchTest> tests;
+        bool found_any = false;
+        int side = 0;
+        for (int i = 0; i < most_locating_steps && high - low > located_within; ++i) {
+            fraction = low - low_value * (high - low) / (high_value - low_value);
+            if (!(fraction > low && fraction < high) || i % 8 == 7)
+                fraction = 0.5 * (low + high);
+            if (!continuation_->between(fraction, at))
+                break;
+            describe(at, there, tests);
+            found_any = true;
+            const double value = std::isnan(tests[test].value) ? 1 : tests[test].value;
+            if (value == 0)
+                break;
+            if ((value < 0) == (low_value < 0)) {
+                low = fraction;
+                low_value = value;
+                high_value *= side == -1 ? 0.5 : 1;
+                side = -1;
+            } else {
+                high = fraction;
+                high_value = value;
+                low_value *= side == 1 ? 0.5 : 1;
+                side = 1;
+            }
+        }
+        if (!found_any)
+            return std::nullopt;
+        SpecialPoint special;
+        const BranchTest& here = tests[test];
+        special.type = here.type;
+        special.solution = there.solution;
+        special.parameter = there.parameter;
+        special.arclength = there.arclength;
+        special.tangent = at.tangent;
+        special.segment = here.segment;
+        special.event = here.event;
+        special.time = here.time;
+        special.at_end = here.at_end;
+        // A zero, not a jump: the value there must be small against those at the ends.
+        special.located = std::abs(here.value) <= 1e-3 * std::max(first, last);
+        return keep(special, here) ? std::optional(special) : std::nullopt;
+    }
+
+    /// Whether a located zero means what its test stands for; puts it into words.
+    bool keep(SpecialPoint& special, const BranchTest& test) const {
+        const auto& events = model_->events;
+        switch (special.type) {
+        case PointType::torus: {
+            const auto& multipliers = special.solution.half_multipliers.empty() ? special.solution.multipliers
+                                                                                : special.solution.half_multipliers;
+            return special.located && std::any_of(multipliers.begin(), multipliers.end(), [](auto one) {
+                       return std::abs(one.imag()) > 1e-6 && std::abs(std::abs(one) - 1) < 1e-5;
+                   });
+        }
+        case PointType::fold:
+        case PointType::flip:
+            return special.located;
+        case PointType::branch_point:
+            special.detail = problem_->shooting().symmetry() ? "symmetry" : "";
+            return special.located;
+        case PointType::grazing:
+            special.detail =
+                fmt::format("{}{}", events[special.event].name, special.at_end ? ", no approach speed" : "");
+            return true;
+        case PointType::two_events: {
+            // Two events of which the other one does not fall is a touch at the very end of an arc.
+            const double speed = *std::max_element(special.solution.certificate.approach_speeds.begin(),
+                                                   special.solution.certificate.approach_speeds.end());
+            if (std::abs(test.rate) < 1e-6 * std::max(speed, std::abs(test.rate) + 1e-300)) {
+                special.type = PointType::grazing;
+                special.time = special.solution.orbit.durations[special.segment];
+            }
+            special.detail = events[special.event].name;
+            return true;
+        }
+        case PointType::vanishing:
+            special.detail = fmt::format("segment {}", special.segment + 1);
+            return true;
+        case PointType::guard:
+            special.detail =
+                fmt::format("after {}", end_name(*model_, special.solution.orbit.signature[special.segment]));
+            return true;
+        default:
+            return true;
+        }
+    }
+
+    /// Of several points at the same place that are consequences of one another, only the first in rank is kept.
+    void merge(double length) {
+        constexpr double same_place = 1e-6;
+        for (std::size_t i = 0; i < found.size(); ++i)
+            for (std::size_t j = i + 1; j < found.size();) {
+                const int a = rank(found[i]), b = rank(found[j]);
+                const bool same_type = found[i].type == found[j].type;
+                if (std::abs(found[i].arclength - found[j].arclength) > same_place * length ||
+                    ((a < 0 || b < 0) && !same_type)) {
+                    ++j;
+                    continue;
+                }
+                if (b < a)
+                    std::swap(found[i], found[j]);
+                found.erase(found.begin() + static_cast<std::ptrdiff_t>(j));
+            }
+    }
+
+    /// Ends the branch where what was found says so.
+    void judge(bool was_admissible) {
+        const auto cut_after = [&](std::size_t i) { found.resize(i + 1); };
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            if (found[i].type == PointType::bound) {
+                cut_after(i);
+                return finish(BranchOutcome::bound, "");
+            }
+            if (is_among(found[i].type, settings_.stop_at)) {
+                cut_after(i);
+                return finish(BranchOutcome::stopped, std::string(name_of(found[i].type)));
+            }
+            const bool may_end = rank(found[i]) >= 0;
+            if (settings_.stop_when_unphysical && may_end && was_admissible && !point.solution.certificate.admissible) {
+                cut_after(i);
+                return finish(BranchOutcome::unphysical, point.solution.certificate.reason);
+            }
+        }
+        if (settings_.stop_when_unphysical && was_admissible && !point.solution.certificate.admissible)
+            finish(BranchOutcome::unphysical, point.solution.certificate.reason);
+    }
+
+    const Model* model_;
+    BranchSettings settings_;
+    Simulation simulation_;
+    Orbit candidate_;
+    std::unique_ptr<OrbitProblem> problem_;
+    std::unique_ptr<Continuation> continuation_;
+    std::vector<BranchTest> tests_;
+    double arclength_ = 0, growth_ = 1;
+    bool ended_ = true;
+};
+
+OrbitBranch::OrbitBranch(const Model& model, const Orbit& candidate, const BranchSettings& settings)
+    : follower_(std::make_unique<Follower>(model, candidate, settings)) {}
+OrbitBranch::~OrbitBranch() = default;
+OrbitBranch::OrbitBranch(OrbitBranch&&) noexcept = default;
+
+bool OrbitBranch::start() {
+    return follower_->start();
+}
+bool OrbitBranch::start_along(const std::vector<double>& direction, double distance) {
+    return follower_->start_along(direction, distance);
+}
+bool OrbitBranch::step() {
+    return follower_->step();
+}
+const BranchPoint& OrbitBranch::point() const {
+    return follower_->point;
+}
+const std::vector<SpecialPoint>& OrbitBranch::found() const {
+    return follower_->found;
+}
+BranchOutcome OrbitBranch::outcome() const {
+    return follower_->outcome;
+}
+const std::string& OrbitBranch::detail() const {
+    return follower_->detail;
+}
+
+Branch follow_branch(const Model& model, const Orbit& candidate, const BranchSettings& settings,
+                     const BranchVisitor& visit) {
+    OrbitBranch follower(model, candidate, settings);
+    Branch branch;
+    bool going = follower.start();
+    while (going) {
+        branch.points.push_back(follower.point());
+        branch.special.insert(branch.special.end(), follower.found().begin(), follower.found().end());
+        if (visit && !visit(follower.point(), follower.found())) {
+            branch.outcome = BranchOutcome::stopped;
+            return branch;
+        }
+        going = follower.step();
+    }
+    branch.outcome = follower.outcome();
+    branch.detail = follower.detail();
+    return branch;
+}
+
+} // namespace graze

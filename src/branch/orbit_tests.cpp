@@ -1,0 +1,81 @@
+#include "branch/orbit_tests.hpp"
+
+#include "orbit/certify.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// Product over pairs of multipliers of mu_i mu_j - 1, which vanishes where two of them are inverse to one another.
+double torus_test(const std::vector<std::complex<double>>& multipliers) {
+    if (multipliers.size() < 2)
+        return nothing;
+    std::complex<double> product = 1;
+    for (std::size_t i = 0; i < multipliers.size(); ++i)
+        for (std::size_t j = i + 1; j < multipliers.size(); ++j) {
+            const std::complex<double> both = multipliers[i] * multipliers[j];
+            product *= (both - 1.0) / (1 + std::abs(both));
+        }
+    return product.real();
+}
+
+void add_arc_tests(const Shooting& shooting, const Certificate& certificate, std::vector<BranchTest>& tests) {
+    const CompiledModel& compiled = shooting.simulation().compiled();
+    for (std::size_t s = 0; s < shooting.signature().size(); ++s) {
+        const auto& mode = compiled.mode(shooting.signature()[s].mode);
+        for (std::size_t w = 0; w < mode.watched.size(); ++w) {
+            BranchTest test{PointType::grazing, s, mode.watched[w], nothing, 0, false, 0};
+            for (const ArcMinimum& minimum : certificate.minima)
+                if (minimum.segment == s && minimum.event == test.event && !(minimum.value >= test.value)) {
+                    test.value = minimum.value;
+                    test.time = minimum.time;
+                }
+            tests.push_back(test);
+        }
+    }
+    for (const EndValue& end : certificate.end_values) {
+        const bool barrier = shooting.model().events[end.event].kind == EventKind::barrier;
+        tests.push_back(
+            {PointType::two_events, end.segment, end.event, barrier ? end.value : nothing, 0, false, end.rate});
+    }
+}
+
+} // namespace
+
+std::vector<BranchTest> branch_tests(const Shooting& shooting, const OrbitSolution& solution,
+                                     const std::vector<double>& tangent, double determinant,
+                                     const BranchSettings& settings) {
+    std::vector<BranchTest> tests;
+    const auto add = [&](PointType type, double value, std::size_t segment = 0, std::size_t event = 0) {
+        tests.push_back({type, segment, event, value, 0, false, 0});
+    };
+    const double parameter = shooting.parameters()[settings.parameter];
+    add(PointType::bound, settings.least ? parameter - *settings.least : nothing);
+    add(PointType::bound, settings.greatest ? *settings.greatest - parameter : nothing);
+    add(PointType::fold, tangent[shooting.place_of_parameter(0)]);
+    // The half of a symmetric orbit that changes into its image loses the symmetry instead of doubling its period.
+    add(shooting.symmetry() ? PointType::branch_point : PointType::flip, shooting.system().antiperiodic_determinant());
+    add(PointType::branch_point, determinant);
+    add(PointType::torus,
+        torus_test(solution.half_multipliers.empty() ? solution.multipliers : solution.half_multipliers));
+    const Certificate& certificate = solution.certificate;
+    for (std::size_t s = 0; s < shooting.signature().size(); ++s) {
+        const Segment& segment = shooting.signature()[s];
+        const bool event = segment.end == SegmentEnd::event;
+        const std::size_t index = event ? shooting.model().transitions[segment.index].event : 0;
+        tests.push_back({PointType::grazing, s, index, event ? certificate.approach_speeds[s] : nothing,
+                         solution.orbit.durations[s], true, 0});
+        add(PointType::vanishing, solution.orbit.durations[s], s, index);
+        const double margin = certificate.guard_margins[s];
+        add(PointType::guard, std::isfinite(margin) ? margin : nothing, s, index);
+    }
+    add_arc_tests(shooting, certificate, tests);
+    return tests;
+}
+
+} // namespace graze

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "graze/branch/orbit_branch.hpp"
+#include "orbit/shooting.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace graze {
+
+/// A function along a branch whose change of sign means that something happens.
+struct BranchTest {
+    PointType type = PointType::end;
+    std::size_t segment = 0, event = 0;
+    double value = 0;    ///< NaN where it has no meaning, as the least value of a gap that only grows
+    double time = 0;     ///< of an interior minimum
+    bool at_end = false; ///< of grazing: the segment's own event
+    double rate = 0;     ///< of two_events: of the other event's function
+};
+
+/// All of them at a point, always in the same order for one signature.
+/// @param tangent, determinant of the branch there
+std::vector<BranchTest> branch_tests(const Shooting& shooting, const OrbitSolution& solution,
+                                     const std::vector<double>& tangent, double determinant,
+                                     const BranchSettings& settings);
+
+} // namespace graze
