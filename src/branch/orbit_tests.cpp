@@ -30,7 +30,7 @@ void add_arc_tests(const Shooting& shooting, const Certificate& certificate, std
         const auto& mode = compiled.mode(shooting.signature()[s].mode);
         for (std::size_t w = 0; w < mode.watched.size(); ++w) {
             BranchTest test{PointType::grazing, s, mode.watched[w], nothing, 0, false, 0};
-            for (const ArcMinimum& minimum : certificate.minima)
+            for (const OrbitMinimum& minimum : certificate.minima)
                 if (minimum.segment == s && minimum.event == test.event && !(minimum.value >= test.value)) {
                     test.value = minimum.value;
                     test.time = minimum.time;

@@ -81,7 +81,7 @@ public:
         }
         return {};
     }
-    const std::vector<ArcMinimum>& minima() const { return minima_; }
+    const std::vector<OrbitMinimum>& minima() const { return minima_; }
     bool is_own(std::size_t w) const {
         const Segment& segment = shooting_->signature()[segment_];
         return segment.end == SegmentEnd::event && mode_->transitions[w] == segment.index;
@@ -113,7 +113,7 @@ private:
     std::vector<double> sizes_, falls_, starts_, coefficients_, derivative_;
     std::vector<bool> harmless_;
     std::vector<Root> found_;
-    std::vector<ArcMinimum> minima_;
+    std::vector<OrbitMinimum> minima_;
 };
 
 /// How far the alternative that leads to `next` is from not being taken: negative when it is not.

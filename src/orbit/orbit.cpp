@@ -18,6 +18,14 @@ double Orbit::period() const {
 
 namespace {
 
+/// The symmetry's map, of states followed by parameters.
+Function map_of(const Model& model, std::size_t symmetry) {
+    std::vector<Expression> inputs = model.state_symbols();
+    const auto parameters = model.parameter_symbols();
+    inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+    return {inputs, model.expand(model.symmetries[symmetry].map)};
+}
+
 /// The image of a segment that an event ends: in the image of its mode, the transition whose event function is the
 /// image of its own, which is judged by values at states of the orbit.
 std::size_t image_of_transition(const Model& model, const Function& symmetry, std::size_t mode, std::size_t transition,
@@ -64,21 +72,22 @@ std::size_t image_of_transition(const Model& model, const Function& symmetry, st
 
 } // namespace
 
+Segment image_of(const Model& model, std::size_t symmetry, const Segment& segment, const Orbit& orbit) {
+    Segment image = segment;
+    image.mode = model.symmetries[symmetry].modes[segment.mode];
+    if (segment.end == SegmentEnd::event)
+        image.index = image_of_transition(model, map_of(model, symmetry), image.mode, segment.index, orbit);
+    return image;
+}
+
 Orbit whole_orbit(const Model& model, const Orbit& orbit) {
     if (!orbit.symmetry)
         return orbit;
-    const Symmetry& symmetry = model.symmetries[*orbit.symmetry];
-    std::vector<Expression> inputs = model.state_symbols();
-    const auto parameters = model.parameter_symbols();
-    inputs.insert(inputs.end(), parameters.begin(), parameters.end());
-    const Function map(inputs, model.expand(symmetry.map));
+    const Function map = map_of(model, *orbit.symmetry);
     Orbit whole = orbit;
     whole.symmetry.reset();
     for (std::size_t k = 0; k < orbit.segments(); ++k) {
-        Segment segment = orbit.signature[k];
-        segment.mode = symmetry.modes[segment.mode];
-        if (segment.end == SegmentEnd::event)
-            segment.index = image_of_transition(model, map, segment.mode, segment.index, orbit);
+        const Segment segment = image_of(model, *orbit.symmetry, orbit.signature[k], orbit);
         std::vector<double> values = orbit.starts[k];
         values.insert(values.end(), orbit.parameters.begin(), orbit.parameters.end());
         // The image of a section is no section of the model: the motion just goes on.

@@ -407,6 +407,26 @@ bool Shooting::solve(const Eigen::MatrixXd& borders, const Eigen::VectorXd& righ
     return true;
 }
 
+bool Shooting::null_vector(const Eigen::RowVectorXd& row, Eigen::VectorXd& vector) {
+    // One step of inverse iteration: the solution for any right-hand side is almost along the null vector.
+    double turn = 0;
+    for (std::size_t k = 0; k < pieces_.size(); ++k)
+        for (double& value : system_.block(k).right) {
+            turn += 2.4;
+            value = std::sin(turn);
+        }
+    Eigen::MatrixXd borders(index(free_.size()), index(unknowns()));
+    borders.setZero();
+    borders.row(0) = row;
+    if (!system_.factor() || !solve(borders, Eigen::VectorXd::Zero(index(free_.size())), false, vector))
+        return false;
+    const double size = vector.cwiseQuotient(scales_).norm();
+    if (!(size > 0) || !std::isfinite(size))
+        return false;
+    vector /= size;
+    return true;
+}
+
 Eigen::RowVectorXd Shooting::row_at_end(std::size_t k, const Eigen::VectorXd& gradient) const {
     const auto n = index(n_), q = index(free_.size());
     const Piece& piece = pieces_[k];

@@ -55,6 +55,11 @@ public:
     bool solve(const Eigen::MatrixXd& borders, const Eigen::VectorXd& right, bool homogeneous, Eigen::VectorXd& step,
                double* determinant = nullptr) const;
     const CyclicSystem& system() const { return system_; }
+    /// A vector that the derivatives map to (nearly) zero and whose product with the row is zero: where the equations
+    /// are singular beyond their one branch, the direction of another. Needs `evaluate` before and anew after.
+    bool null_vector(const Eigen::RowVectorXd& row, Eigen::VectorXd& vector);
+    /// A function of states and parameters: value, then gradient with respect to states and free parameters.
+    Function with_gradient(const Expression& expression) const;
 
     /// What `evaluate` has found for a piece.
     struct Piece {
@@ -93,7 +98,6 @@ private:
     struct Symmetric {
         Function map, jacobian;
     };
-    Function with_gradient(const Expression& expression) const;
     void compile_ends();
     void split(const Orbit& orbit);
     bool evaluate_piece(std::size_t k, const Eigen::VectorXd& unknowns);

@@ -8,7 +8,7 @@ namespace graze {
 
 /// A least value of a watched event's function inside an arc, where the event would happen were it lower. For events
 /// that are sections, which may have either sign, also a greatest one: then `value` is its negative.
-struct ArcMinimum {
+struct OrbitMinimum {
     std::size_t segment = 0, event = 0;
     double time = 0; ///< since the segment's start
     double value = 0;
@@ -28,7 +28,7 @@ struct Certificate {
     std::vector<double> approach_speeds; ///< of each segment's event or section at its end: positive when it falls
     std::vector<double> departures;      ///< the same event's rate just after the jump
     std::vector<double> guard_margins;   ///< of each transition: how far its way on is from being another one
-    std::vector<ArcMinimum> minima;      ///< inside arcs
+    std::vector<OrbitMinimum> minima;    ///< inside arcs
     std::vector<EndValue> end_values;
 };
 

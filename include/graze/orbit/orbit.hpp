@@ -29,6 +29,10 @@ struct Orbit {
 /// Others are returned as they are.
 Orbit whole_orbit(const Model& model, const Orbit& orbit);
 
+/// The image of a segment under a symmetry: in the image of its mode, the transition whose event function is the image
+/// of its own, which is judged by values at states of the orbit. @throws InputError when there is none
+Segment image_of(const Model& model, std::size_t symmetry, const Segment& segment, const Orbit& orbit);
+
 /// @throws InputError unless numbers fit the model and are finite, and the signature is possible
 void validate_orbit(const Model& model, const Orbit& orbit);
 

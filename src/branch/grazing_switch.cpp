@@ -1,0 +1,315 @@
+#include "branch/grazing_switch.hpp"
+
+#include "branch/orbit_problem.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/transform.hpp"
+#include "graze/trajectory/trajectory.hpp"
+#include "orbit/arc_flow.hpp"
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace graze {
+
+namespace {
+
+/// Speeds of the new contact that are tried, as shares of the greatest along the orbit.
+constexpr double speeds[] = {1e-3, 1e-4, 1e-2, 1e-5};
+/// Share of the period at whose end the touch comes again: what happens there is the new contact itself.
+constexpr double before_next_touch = 1e-4;
+constexpr int most_iterations = 20;
+
+Eigen::Index index(std::size_t i) {
+    return static_cast<Eigen::Index>(i);
+}
+
+SimulationOptions integration(const OrbitOptions& options) {
+    SimulationOptions result;
+    result.tolerance = options.tolerance;
+    return result;
+}
+
+/// Rate of an event's function along the flow of a mode.
+Expression rate_of(const Model& model, std::size_t mode, std::size_t event) {
+    const auto states = model.state_symbols();
+    const Expression function = model.expand(model.events[event].function);
+    const auto rates = model.expand(model.modes[mode].rates);
+    Expression rate = model.graph->number(0);
+    for (std::size_t i = 0; i < states.size(); ++i)
+        rate = rate + differentiate(function, states[i]) * rates[i];
+    return rate;
+}
+
+/// The touch: its state, and the event's function and rate there.
+class Touch {
+public:
+    Touch(const Simulation& simulation, const SpecialPoint& point)
+        : simulation_(&simulation), orbit_(&point.solution.orbit), mode_(orbit_->signature[point.segment].mode),
+          event_(point.event), shooting_(simulation, *orbit_, {}) {
+        const Model& model = simulation.model();
+        function_ = shooting_.with_gradient(model.expand(model.events[event_].function));
+        rate_ = shooting_.with_gradient(rate_of(model, mode_, event_));
+        ArcFlow flow(simulation, {});
+        flow.set_parameters(orbit_->parameters);
+        state_ = orbit_->starts[point.segment];
+        const double time = std::min(point.time, orbit_->durations[point.segment]);
+        constexpr int parts = 64;
+        for (int part = 0; part < parts; ++part) {
+            flow.run(mode_, state_, time / parts);
+            greatest_value_ = std::max(greatest_value_, std::abs(function_(inputs(state_))[0]));
+            greatest_speed_ = std::max(greatest_speed_, std::abs(rate_(inputs(state_))[0]));
+        }
+        shooting_.evaluate(shooting_.unknowns_of(*orbit_));
+    }
+
+    std::size_t mode() const { return mode_; }
+    std::size_t event() const { return event_; }
+    double greatest_speed() const { return greatest_speed_; }
+    const std::vector<double>& state() const { return state_; }
+    double greatest_value() const { return greatest_value_; }
+
+    /// The nearest state, in units of the scales, at which function and rate have these values; cyclic, drifting and
+    /// unchanging states stay.
+    std::vector<double> displaced(double value, double rate) const {
+        const auto h = function_(inputs(state_)), r = rate_(inputs(state_));
+        const std::size_t n = state_.size();
+        Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, index(n));
+        for (const std::size_t i : shooting_.active()) {
+            if (simulation_->model().states[i].period)
+                continue;
+            const double scale = shooting_.scales()[index(i)];
+            rows(0, index(i)) = h[1 + i] * scale;
+            rows(1, index(i)) = r[1 + i] * scale;
+        }
+        const Eigen::Vector2d wanted(value - h[0], rate - r[0]);
+        const Eigen::VectorXd step = rows.completeOrthogonalDecomposition().solve(wanted);
+        std::vector<double> result = state_;
+        for (std::size_t i = 0; i < n; ++i)
+            result[i] += step[index(i)] * shooting_.scales()[index(i)];
+        return result;
+    }
+
+    std::vector<double> inputs(std::vector<double> state) const {
+        state.insert(state.end(), orbit_->parameters.begin(), orbit_->parameters.end());
+        return state;
+    }
+
+private:
+    const Simulation* simulation_;
+    const Orbit* orbit_;
+    std::size_t mode_, event_;
+    Shooting shooting_;
+    Function function_, rate_;
+    std::vector<double> state_;
+    double greatest_speed_ = 0, greatest_value_ = 0; ///< along the arc
+};
+
+/// The mode after a transition, by its guards. None where the motion ends.
+std::optional<std::size_t> mode_after(const CompiledModel& model, std::size_t transition,
+                                      std::span<const double> inputs) {
+    std::vector<double> values, work(model.workspace());
+    for (const auto& alternative : model.transition(transition).next) {
+        values.resize(alternative.conditions.outputs());
+        alternative.conditions.evaluate(inputs, values, work);
+        bool holds = true;
+        for (std::size_t i = 0; i < values.size(); ++i)
+            holds = holds && (alternative.strict[i] ? values[i] > 0 : values[i] >= 0);
+        if (holds)
+            return alternative.mode;
+    }
+    return std::nullopt;
+}
+
+double sum(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// Moves an orbit, with the parameter, to where the last segment's event is met at a given speed.
+/// @return direction of the branch there, towards higher speeds; empty when Newton's method fails
+std::vector<double> meet_at_speed(const Simulation& simulation, Orbit& orbit, const Expression& rate, double speed,
+                                  const BranchSettings& settings) {
+    Shooting shooting(simulation, orbit, {settings.parameter});
+    const Function rate_function = shooting.with_gradient(rate);
+    Eigen::VectorXd unknowns = shooting.unknowns_of(orbit);
+    const std::size_t last = shooting.pieces() - 1;
+    for (int i = 0; i < most_iterations; ++i) {
+        if (!shooting.evaluate(unknowns))
+            return {};
+        std::vector<double> inputs = shooting.piece(last).end;
+        inputs.insert(inputs.end(), shooting.parameters().begin(), shooting.parameters().end());
+        const std::vector<double> values = rate_function(inputs);
+        const Eigen::VectorXd gradient = Eigen::Map<const Eigen::VectorXd>(values.data() + 1, index(values.size() - 1));
+        const Eigen::RowVectorXd row = shooting.row_at_end(last, gradient);
+        Eigen::VectorXd step;
+        if (!shooting.solve(row, Eigen::VectorXd::Constant(1, -speed - values[0]), false, step))
+            return {};
+        unknowns += step;
+        const double size = step.cwiseQuotient(shooting.scales()).cwiseAbs().maxCoeff();
+        if (!(size < 1e3))
+            return {};
+        if (size < settings.orbit.accuracy) {
+            if (!shooting.evaluate(unknowns) || !shooting.solve(row, Eigen::VectorXd::Constant(1, -1), true, step))
+                return {};
+            orbit = shooting.orbit_of(unknowns);
+            return {step.begin(), step.end()};
+        }
+    }
+    return {};
+}
+
+} // namespace
+
+BranchStart with_one_more_contact(const Model& model, const SpecialPoint& point, const BranchSettings& settings) {
+    const Simulation simulation(model, {}, {}, integration(settings.orbit));
+    const CompiledModel& compiled = simulation.compiled();
+    const Orbit& grazing = point.solution.orbit;
+    const Touch touch(simulation, point);
+    const Transition* transition = model.find_transition(touch.mode(), touch.event());
+    const std::string& name = model.events[touch.event()].name;
+    if (!transition)
+        throw InputError(fmt::format("nothing happens at event '{}'", name), "no branch leaves there");
+    const auto transition_index = static_cast<std::size_t>(transition - model.transitions.data());
+    const double round = sum(grazing.durations);
+    std::string why = "Newton's method does not find it";
+    for (const double share : speeds) {
+        const double speed = share * touch.greatest_speed();
+        std::vector<double> state = touch.displaced(0, -speed), work(compiled.workspace());
+        if (!compiled.jump(transition->jump).identity)
+            compiled.jump(transition->jump).map.evaluate(touch.inputs(state), state, work);
+        const auto mode = mode_after(compiled, transition_index, touch.inputs(state));
+        if (!mode) {
+            why = "the motion ends there";
+            continue;
+        }
+        const FollowedMotion motion =
+            follow_motion(simulation, grazing.parameters, state, *mode, (1 - before_next_touch) * round);
+        if (!motion.problem.empty()) {
+            why = motion.problem;
+            continue;
+        }
+        Orbit orbit;
+        orbit.parameters = grazing.parameters;
+        orbit.symmetry = grazing.symmetry;
+        orbit.signature = motion.segments;
+        orbit.starts = motion.starts;
+        orbit.durations = motion.durations;
+        orbit.durations.push_back(round - sum(motion.durations));
+        Segment last{touch.mode(), SegmentEnd::event, transition_index};
+        if (orbit.symmetry)
+            last = image_of(model, *orbit.symmetry, last, grazing);
+        orbit.signature.push_back(last);
+        const Expression rate = rate_of(model, last.mode, model.transitions[last.index].event);
+        const std::vector<double> direction = meet_at_speed(simulation, orbit, rate, speed, settings);
+        if (direction.empty())
+            continue;
+        return {orbit, direction, 0, fmt::format("with one more contact at '{}'", name)};
+    }
+    throw InputError(fmt::format("no orbit with one more contact at '{}' was found: {}", name, why),
+                     "the motion after the contact may accumulate contacts, or not come back");
+}
+
+namespace {
+
+/// Records the first passage of a section.
+class FirstPassage : public Observer {
+public:
+    void passage(const Passage& passage) override {
+        if (state.empty()) {
+            state.assign(passage.state.begin(), passage.state.end());
+            mode = passage.mode;
+        }
+    }
+    bool stop() override { return !state.empty(); }
+    std::vector<double> state;
+    std::size_t mode = 0;
+};
+
+/// An orbit without contacts, closed at the first of the model's sections that it passes.
+std::optional<Orbit> closed_at_section(const Model& model, const Orbit& like, const std::vector<double>& state,
+                                       std::size_t mode, double round) {
+    for (std::size_t index = 0; index < model.sections.size(); ++index) {
+        const Probe probe = section_probe(model, model.sections[index].name);
+        const Simulation simulation(model, {probe});
+        FirstPassage passage;
+        Trajectory trajectory(simulation, like.parameters, passage);
+        trajectory.start(state, mode, 0, 1.01 * round);
+        JetSet jets(simulation, LaneKind::single);
+        run(trajectory, jets);
+        if (passage.state.empty() || passage.mode != mode)
+            continue;
+        return Orbit{{{mode, SegmentEnd::section, index}}, like.parameters, {passage.state}, {round}, like.symmetry};
+    }
+    return std::nullopt;
+}
+
+/// The contacts of a motion that begins between two of them, as an orbit that begins after the first.
+Orbit rotated(const Model& model, const Orbit& like, const FollowedMotion& motion, double round) {
+    Orbit orbit;
+    orbit.parameters = like.parameters;
+    orbit.symmetry = like.symmetry;
+    const std::size_t count = motion.segments.size();
+    double known = 0;
+    for (std::size_t k = 1; k < count; ++k) {
+        orbit.signature.push_back(motion.segments[k]);
+        orbit.starts.push_back(motion.starts[k]);
+        orbit.durations.push_back(motion.durations[k]);
+        known += motion.durations[k];
+    }
+    orbit.signature.push_back(like.symmetry ? image_of(model, *like.symmetry, motion.segments[0], like)
+                                            : motion.segments[0]);
+    orbit.starts.push_back(motion.starts[count]);
+    orbit.durations.push_back(round - known);
+    return orbit;
+}
+
+} // namespace
+
+BranchStart with_one_contact_fewer(const Model& model, const SpecialPoint& point, const BranchSettings& settings) {
+    constexpr double clearance = 1e-6; // share of the greatest gap by which the contact is missed
+    const Simulation simulation(model, {}, {}, integration(settings.orbit));
+    const Orbit& old = point.solution.orbit;
+    const Touch touch(simulation, point);
+    const std::string& name = model.events[touch.event()].name;
+    const double round = sum(old.durations);
+    const std::vector<double> state = touch.displaced(clearance * touch.greatest_value(), 0);
+    const FollowedMotion motion =
+        follow_motion(simulation, old.parameters, state, touch.mode(), (1 - before_next_touch) * round);
+    const auto fail = [&](const std::string& why) {
+        throw InputError(fmt::format("no orbit with one contact fewer at '{}' was found: {}", name, why),
+                         "the branch may end here");
+    };
+    if (!motion.problem.empty())
+        fail(motion.problem);
+    std::optional<Orbit> orbit = motion.segments.empty() ? closed_at_section(model, old, state, touch.mode(), round)
+                                                         : std::optional(rotated(model, old, motion, round));
+    if (!orbit)
+        fail("it passes none of the model's sections");
+    const OrbitSolution solution = solve_orbit(model, *orbit, settings.orbit);
+    if (solution.outcome != OrbitOutcome::converged)
+        fail(solution.detail);
+    // Of the two ways along the branch, the one on which the event is not reached.
+    BranchSettings trial = settings;
+    trial.continuation.first_step = 1e-3;
+    trial.stop_when_unphysical = false;
+    std::vector<double> direction;
+    for (const int sign : {1, -1}) {
+        const Simulation here(model, {}, {}, integration(settings.orbit));
+        OrbitProblem problem(here, solution.orbit, settings.parameter);
+        const Eigen::VectorXd unknowns = problem.shooting().unknowns_of(solution.orbit);
+        std::vector<double> row(problem.unknowns(), 0.0);
+        row[problem.parameter_place()] = sign;
+        direction.resize(problem.unknowns());
+        if (!problem.shooting().evaluate(unknowns) || !problem.solve(row, 1, true, direction, nullptr))
+            fail("the branch turns right there");
+        OrbitBranch branch(model, solution.orbit, trial);
+        if (branch.start_along(direction, 0) && branch.step() && branch.point().solution.certificate.admissible)
+            break;
+    }
+    return {solution.orbit, direction, 0, fmt::format("with one contact fewer at '{}'", name)};
+}
+
+} // namespace graze

@@ -1,0 +1,81 @@
+#include "graze/branch/switching.hpp"
+
+#include "branch/grazing_switch.hpp"
+#include "branch/orbit_problem.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace graze {
+
+namespace {
+
+/// First distance onto another branch, in units of the scales.
+constexpr double first_distance = 1e-2;
+
+SimulationOptions integration(const OrbitOptions& options) {
+    SimulationOptions result;
+    result.tolerance = options.tolerance;
+    return result;
+}
+
+Orbit twice(const Orbit& orbit) {
+    Orbit result = orbit;
+    result.signature.insert(result.signature.end(), orbit.signature.begin(), orbit.signature.end());
+    result.starts.insert(result.starts.end(), orbit.starts.begin(), orbit.starts.end());
+    result.durations.insert(result.durations.end(), orbit.durations.begin(), orbit.durations.end());
+    return result;
+}
+
+/// Both ways along the null vector of an orbit's equations that is orthogonal to a row.
+std::vector<BranchStart> both_ways(const Model& model, const Orbit& orbit, const BranchSettings& settings,
+                                   const std::vector<double>& along, const std::string& how, bool second) {
+    const Simulation simulation(model, {}, {}, integration(settings.orbit));
+    OrbitProblem problem(simulation, orbit, settings.parameter);
+    Shooting& shooting = problem.shooting();
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(problem.unknowns()));
+    if (along.size() == problem.unknowns()) {
+        for (std::size_t i = 0; i < along.size(); ++i)
+            row[static_cast<Eigen::Index>(i)] = along[i] / (problem.scales()[i] * problem.scales()[i]);
+    } else {
+        row[static_cast<Eigen::Index>(problem.parameter_place())] =
+            1; // orbits of the new kind appear at a turning point
+    }
+    Eigen::VectorXd direction;
+    if (!shooting.evaluate(shooting.unknowns_of(orbit)) || !shooting.null_vector(row, direction))
+        throw InputError("the direction of the other branch could not be found", "try another point");
+    const std::vector<double> vector(direction.begin(), direction.end());
+    std::vector<BranchStart> result{{orbit, vector, first_distance, how}};
+    if (second)
+        result.push_back({orbit, vector, -first_distance, how + ", the other way"});
+    return result;
+}
+
+} // namespace
+
+std::vector<BranchStart> branches_at(const Model& model, const SpecialPoint& point, const BranchSettings& settings) {
+    settings.validate(model);
+    const Orbit& orbit = point.solution.orbit;
+    switch (point.type) {
+    case PointType::flip:
+        return both_ways(model, twice(orbit), settings, {}, "doubled", false);
+    case PointType::branch_point:
+        // Of a half orbit either the half map has the multiplier -1, or the branch meets another one of half orbits.
+        if (orbit.symmetry &&
+            std::any_of(point.solution.half_multipliers.begin(), point.solution.half_multipliers.end(),
+                        [](auto one) { return std::abs(one + 1.0) < 1e-4; }))
+            return both_ways(model, whole_orbit(model, orbit), settings, {}, "without the symmetry", true);
+        return both_ways(model, orbit, settings, point.tangent, "other branch", true);
+    case PointType::grazing:
+        return {point.at_end ? with_one_contact_fewer(model, point, settings)
+                             : with_one_more_contact(model, point, settings)};
+    default:
+        throw InputError(fmt::format("no other branch leaves from a point of type {} ({})", short_name(point.type),
+                                     name_of(point.type)),
+                         "choose one of type PD, BP or GR, or vary another parameter from it");
+    }
+}
+
+} // namespace graze
