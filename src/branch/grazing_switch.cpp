@@ -3,8 +3,8 @@
 #include "branch/orbit_problem.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/transform.hpp"
-#include "graze/trajectory/trajectory.hpp"
 #include "orbit/arc_flow.hpp"
+#include "orbit/close_at_section.hpp"
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -214,38 +214,6 @@ BranchStart with_one_more_contact(const Model& model, const SpecialPoint& point,
 
 namespace {
 
-/// Records the first passage of a section.
-class FirstPassage : public Observer {
-public:
-    void passage(const Passage& passage) override {
-        if (state.empty()) {
-            state.assign(passage.state.begin(), passage.state.end());
-            mode = passage.mode;
-        }
-    }
-    bool stop() override { return !state.empty(); }
-    std::vector<double> state;
-    std::size_t mode = 0;
-};
-
-/// An orbit without contacts, closed at the first of the model's sections that it passes.
-std::optional<Orbit> closed_at_section(const Model& model, const Orbit& like, const std::vector<double>& state,
-                                       std::size_t mode, double round) {
-    for (std::size_t index = 0; index < model.sections.size(); ++index) {
-        const Probe probe = section_probe(model, model.sections[index].name);
-        const Simulation simulation(model, {probe});
-        FirstPassage passage;
-        Trajectory trajectory(simulation, like.parameters, passage);
-        trajectory.start(state, mode, 0, 1.01 * round);
-        JetSet jets(simulation, LaneKind::single);
-        run(trajectory, jets);
-        if (passage.state.empty() || passage.mode != mode)
-            continue;
-        return Orbit{{{mode, SegmentEnd::section, index}}, like.parameters, {passage.state}, {round}, like.symmetry};
-    }
-    return std::nullopt;
-}
-
 /// The contacts of a motion that begins between two of them, as an orbit that begins after the first.
 Orbit rotated(const Model& model, const Orbit& like, const FollowedMotion& motion, double round) {
     Orbit orbit;
@@ -284,8 +252,9 @@ BranchStart with_one_contact_fewer(const Model& model, const SpecialPoint& point
     };
     if (!motion.problem.empty())
         fail(motion.problem);
-    std::optional<Orbit> orbit = motion.segments.empty() ? closed_at_section(model, old, state, touch.mode(), round)
-                                                         : std::optional(rotated(model, old, motion, round));
+    std::optional<Orbit> orbit =
+        motion.segments.empty() ? close_at_section(model, old.parameters, state, touch.mode(), round, "", old.symmetry)
+                                : std::optional(rotated(model, old, motion, round));
     if (!orbit)
         fail("it passes none of the model's sections");
     const OrbitSolution solution = solve_orbit(model, *orbit, settings.orbit);

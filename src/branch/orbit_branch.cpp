@@ -30,17 +30,29 @@ bool is_among(PointType type, const std::vector<PointType>& types) {
     return std::find(types.begin(), types.end(), type) != types.end();
 }
 
+bool is_stable(const OrbitSolution& solution) {
+    const auto& multipliers = solution.multipliers;
+    return !multipliers.empty() &&
+           std::all_of(multipliers.begin(), multipliers.end(), [](auto one) { return std::abs(one) < 1; });
+}
+
 /// Of several things at one place, the one that tells most comes first.
 int rank(const SpecialPoint& point) {
     switch (point.type) {
-    case PointType::grazing:
-        return point.at_end ? 1 : 0;
+    case PointType::grazing: {
+        if (point.at_end)
+            return 1;
+        // A minimum that comes or goes through an end of its arc does so because a contact has lost its speed.
+        constexpr double at_edge = 1e-6;
+        const double duration = std::abs(point.solution.orbit.durations[point.segment]);
+        return point.time > at_edge * duration && point.time < (1 - at_edge) * duration ? 0 : 2;
+    }
     case PointType::vanishing:
-        return 2;
-    case PointType::two_events:
         return 3;
-    case PointType::guard:
+    case PointType::two_events:
         return 4;
+    case PointType::guard:
+        return 5;
     default:
         return -1;
     }
@@ -57,6 +69,15 @@ void BranchSettings::validate(const Model& model) const {
         throw InputError(fmt::format("the direction {} is neither 1 nor -1", direction), "give 1 for up, -1 for down");
     if (least && greatest && !(*least < *greatest))
         throw InputError("the branch's bounds leave no room", "give the smaller one first");
+    const auto held = static_cast<std::size_t>(
+        std::count_if(monitors.begin(), monitors.end(), [](const Monitor& monitor) { return monitor.fixed; }));
+    if (held != free.size())
+        throw InputError(fmt::format("{} monitors are fixed and {} further parameters are free", held, free.size()),
+                         "free one parameter for each monitor that is fixed");
+    for (const std::size_t one : free)
+        if (one >= model.parameter_symbols().size() || one == parameter ||
+            std::count(free.begin(), free.end(), one) > 1)
+            throw InputError("a free parameter is not one of the model's, or there twice", "name other ones");
 }
 
 std::string_view name_of(BranchOutcome outcome) {
@@ -71,6 +92,8 @@ std::string_view name_of(BranchOutcome outcome) {
         return "unphysical beyond";
     case BranchOutcome::closed:
         return "closed";
+    case BranchOutcome::returned:
+        return "returned";
     case BranchOutcome::no_convergence:
         return "no convergence";
     case BranchOutcome::undefined:
@@ -88,6 +111,15 @@ public:
           candidate_(candidate) {
         settings_.validate(model);
         validate_orbit(model, candidate);
+        if (is_outside(candidate.parameters[settings.parameter]))
+            throw InputError(fmt::format("the orbit's {} = {} lies outside the branch's bounds",
+                                         model.parameter_symbols()[settings.parameter].name(),
+                                         candidate.parameters[settings.parameter]),
+                             "choose bounds on either side of it");
+        if (!settings.monitors.empty())
+            monitors_ = std::make_unique<OrbitMonitors>(model, candidate.signature, settings.monitors,
+                                                        settings.orbit.tolerance);
+        hold(candidate);
         make_problem(candidate);
     }
 
@@ -138,8 +170,21 @@ public:
     std::string detail;
 
 private:
+    /// Monitors without a given value are held at that of the candidate, however the problem is made anew later.
+    void hold(const Orbit& candidate) {
+        if (settings_.free.empty())
+            return;
+        const std::vector<double> values = (*monitors_)(candidate);
+        for (std::size_t m = 0; m < values.size(); ++m)
+            if (settings_.monitors[m].fixed && !settings_.monitors[m].held)
+                settings_.monitors[m].held = values[m];
+        monitors_ = std::make_unique<OrbitMonitors>(*model_, candidate.signature, settings_.monitors,
+                                                    settings_.orbit.tolerance);
+    }
+
     void make_problem(const Orbit& orbit) {
-        problem_ = std::make_unique<OrbitProblem>(simulation_, orbit, settings_.parameter);
+        problem_ = std::make_unique<OrbitProblem>(simulation_, orbit, settings_.parameter, settings_.free,
+                                                  settings_.free.empty() ? nullptr : monitors_.get());
         continuation_ = std::make_unique<Continuation>(*problem_, settings_.continuation);
     }
 
@@ -159,7 +204,17 @@ private:
         }
         point = {};
         describe(continuation_->point(), point, tests_);
+        const double rise = continuation_->point().tangent[problem_->parameter_place()];
+        const bool leaves = (rise < 0 && settings_.least && point.parameter <= *settings_.least) ||
+                            (rise > 0 && settings_.greatest && point.parameter >= *settings_.greatest);
+        if (leaves || is_outside(point.parameter))
+            finish(BranchOutcome::bound, "");
         return true;
+    }
+
+    bool is_outside(double parameter) const {
+        return (settings_.least && parameter < *settings_.least) ||
+               (settings_.greatest && parameter > *settings_.greatest);
     }
 
     bool end(BranchOutcome how, std::string why) {
@@ -183,31 +238,50 @@ private:
         result.solution.orbit = shooting.orbit_of(unknowns);
         describe_orbit(shooting, unknowns, result.solution);
         result.parameter = at.u[problem_->parameter_place()];
+        result.tangent = at.tangent;
+        result.monitors = monitors_ ? (*monitors_)(result.solution.orbit) : std::vector<double>();
         result.arclength = arclength_ + at.arclength;
-        const auto& multipliers = result.solution.multipliers;
-        result.stable = !multipliers.empty() &&
-                        std::all_of(multipliers.begin(), multipliers.end(), [](auto one) { return std::abs(one) < 1; });
-        tests = branch_tests(shooting, result.solution, at.tangent, at.determinant, settings_);
+        result.stable = is_stable(result.solution);
+        tests = branch_tests(shooting, result.solution, at.tangent, at.determinant, result.monitors, settings_);
     }
 
-    /// Splits segments anew when derivatives have grown too much for their pieces.
-    void renew_pieces() {
+    /// Whether derivatives have grown too much for their pieces, or the last piece of a segment, which alone has a
+    /// duration that is free, has become too short for the others.
+    bool pieces_are_unfit() const {
         const Shooting& shooting = problem_->shooting();
-        bool grown = false;
-        for (std::size_t k = 0; k < shooting.pieces(); ++k)
-            grown = grown || shooting.piece(k).flow.leftCols(static_cast<Eigen::Index>(shooting.states())).norm() >
-                                 too_much_growth * growth_;
-        if (!grown)
+        for (std::size_t k = 0; k < shooting.pieces(); ++k) {
+            const Shooting::Piece& piece = shooting.piece(k);
+            if (piece.flow.leftCols(static_cast<Eigen::Index>(shooting.states())).norm() > too_much_growth * growth_)
+                return true;
+            if (piece.last && k > shooting.first_piece(piece.segment) &&
+                continuation_->point().u[shooting.duration_of(k)] < 0.5 * piece.fixed_duration)
+                return true;
+        }
+        return false;
+    }
+
+    /// Splits segments anew where that is due.
+    void renew_pieces() {
+        if (!pieces_are_unfit())
             return;
         const double length = continuation_->next_step();
-        const double rise = continuation_->point().tangent[problem_->parameter_place()];
-        const std::size_t pieces = shooting.pieces();
+        const std::vector<double> tangent = continuation_->point().tangent;
+        const std::unique_ptr<OrbitProblem> old = std::move(problem_);
         arclength_ = point.arclength;
         make_problem(point.solution.orbit);
-        if (problem_->shooting().pieces() <= pieces)
+        if (problem_->shooting().pieces() <= old->shooting().pieces())
             growth_ *= 10; // nothing was gained: ask again later
-        const std::vector<double> u = unknowns_of(point.solution.orbit);
-        continuation_->start(u, problem_->parameter_place(), rise < 0 ? -1 : 1);
+        // The direction in what both have in common: starts of segments and the parameter.
+        std::vector<double> row(problem_->unknowns(), 0.0);
+        const auto weigh = [&](std::size_t to, std::size_t from) {
+            row[to] = tangent[from] / (problem_->scales()[to] * problem_->scales()[to]);
+        };
+        for (std::size_t s = 0; s < problem_->shooting().signature().size(); ++s)
+            for (std::size_t i = 0; i < problem_->shooting().states(); ++i)
+                weigh(problem_->shooting().start_of(problem_->shooting().first_piece(s)) + i,
+                      old->shooting().start_of(old->shooting().first_piece(s)) + i);
+        weigh(problem_->parameter_place(), old->parameter_place());
+        continuation_->start_at(unknowns_of(point.solution.orbit), row);
         continuation_->set_next_step(length);
         describe(continuation_->point(), point, tests_);
     }
@@ -223,7 +297,7 @@ private:
             const bool vanished = tests_[i].type == PointType::grazing && std::isnan(b) && a < 0;
             if (!(a * b < 0) && !appeared && !vanished && !(b == 0 && a != 0))
                 continue;
-            if (std::optional<SpecialPoint> special = locate(i, std::isnan(a) ? 1 : a, std::isnan(b) ? 1 : b)) {
+            if (std::optional<SpecialPoint> special = locate(i, a, b)) {
                 special->bracket = std::minmax(parameter_before, point.parameter);
                 special->step = point.step;
                 found.push_back(std::move(*special));
@@ -232,28 +306,30 @@ private:
         std::stable_sort(found.begin(), found.end(),
                          [](const SpecialPoint& a, const SpecialPoint& b) { return a.arclength < b.arclength; });
         merge(length);
+        drop_folds_of_return(length);
         problem_->evaluate(continuation_->point().u);
     }
 
     /// The zero of a test between the last two points, by the secant method kept within a bracket (M. Dowell and
-    /// P. Jarratt's Illinois variant of regula falsi, 1971).
+    /// P. Jarratt's Illinois variant of regula falsi, 1971). A value without meaning, as where a minimum does not exist
+    /// yet, counts as positive but of unknown size.
     std::optional<SpecialPoint> locate(std::size_t test, double low_value, double high_value) {
         double low = 0, high = 1, fraction = 0;
-        const double first = std::abs(low_value), last = std::abs(high_value);
+        const double size = std::fmax(std::abs(low_value), std::abs(high_value));
         ContinuationPoint at;
         BranchPoint there;
         std::vector<BranchTest> tests;
         bool found_any = false;
         int side = 0;
         for (int i = 0; i < most_locating_steps && high - low > located_within; ++i) {
-            fraction = low - low_value * (high - low) / (high_value - low_value);
+            fraction = low - low_value * (high - low) / (high_value - low_value); // NaN if one of them is
             if (!(fraction > low && fraction < high) || i % 8 == 7)
                 fraction = 0.5 * (low + high);
             if (!continuation_->between(fraction, at))
                 break;
             describe(at, there, tests);
             found_any = true;
-            const double value = std::isnan(tests[test].value) ? 1 : tests[test].value;
+            const double value = tests[test].value;
             if (value == 0)
                 break;
             if ((value < 0) == (low_value < 0)) {
@@ -277,12 +353,13 @@ private:
         special.parameter = there.parameter;
         special.arclength = there.arclength;
         special.tangent = at.tangent;
+        special.monitors = there.monitors;
         special.segment = here.segment;
         special.event = here.event;
         special.time = here.time;
         special.at_end = here.at_end;
         // A zero, not a jump: the value there must be small against those at the ends.
-        special.located = std::abs(here.value) <= 1e-3 * std::max(first, last);
+        special.located = std::abs(here.value) <= 1e-3 * size;
         return keep(special, here) ? std::optional(special) : std::nullopt;
     }
 
@@ -318,6 +395,21 @@ private:
             special.detail = events[special.event].name;
             return true;
         }
+        case PointType::bound:
+        case PointType::crossing: {
+            // Round-off would leave the bound on the one side or the other.
+            for (const auto& bound : {settings_.least, settings_.greatest})
+                if (bound && !test.monitor && std::abs(special.parameter - *bound) < 1e-9 * length_of_step())
+                    special.parameter = special.solution.orbit.parameters[settings_.parameter] = *bound;
+            const std::string name = test.monitor ? settings_.monitors[*test.monitor].name
+                                                  : model_->parameter_symbols()[settings_.parameter].name();
+            const double value = test.monitor ? special.monitors[*test.monitor] : special.parameter;
+            special.detail = fmt::format("{} = {:.10g}", name,
+                                         special.type == PointType::crossing
+                                             ? settings_.monitors[*test.monitor].crossings[test.crossing]
+                                             : value);
+            return special.located;
+        }
         case PointType::vanishing:
             special.detail = fmt::format("segment {}", special.segment + 1);
             return true;
@@ -328,6 +420,35 @@ private:
         default:
             return true;
         }
+    }
+
+    /// By how much the parameter changes over the last step.
+    double length_of_step() const {
+        const std::size_t place = problem_->parameter_place();
+        return std::abs(continuation_->point().u[place] - continuation_->previous().u[place]);
+    }
+
+    /// Whether an orbit is that of a shorter period several times over, or one of its symmetry: where a branch of less
+    /// regular orbits comes back to the one that it left.
+    bool is_degenerate(const SpecialPoint& special) const {
+        if (special.type != PointType::branch_point || problem_->shooting().symmetry())
+            return false;
+        constexpr double same = 1e-3;
+        const Orbit& orbit = special.solution.orbit;
+        if (half_orbit(*model_, orbit, same))
+            return true;
+        const std::size_t half = orbit.segments() / 2;
+        if (orbit.segments() % 2 != 0)
+            return false;
+        for (std::size_t k = 0; k < half; ++k) {
+            if (orbit.signature[k] != orbit.signature[k + half])
+                return false;
+            for (const std::size_t i : problem_->shooting().active())
+                if (!model_->states[i].period &&
+                    std::abs(orbit.starts[k][i] - orbit.starts[k + half][i]) > same * problem_->scales()[i])
+                    return false;
+        }
+        return true;
     }
 
     /// Of several points at the same place that are consequences of one another, only the first in rank is kept.
@@ -348,13 +469,41 @@ private:
             }
     }
 
+    /// Where a branch comes back to the one that it left, the parameter turns: no fold of its own.
+    void drop_folds_of_return(double length) {
+        constexpr double near = 0.05; // share of the step: both are located where they are ill-conditioned
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            if (!is_degenerate(found[i]))
+                continue;
+            const double at = found[i].arclength;
+            std::erase_if(found, [&](const SpecialPoint& other) {
+                return other.type == PointType::fold && std::abs(other.arclength - at) < near * length;
+            });
+            break;
+        }
+    }
+
     /// Ends the branch where what was found says so.
     void judge(bool was_admissible) {
-        const auto cut_after = [&](std::size_t i) { found.resize(i + 1); };
+        // The branch ends in the special point itself, not beyond it.
+        const auto cut_after = [&](std::size_t i) {
+            found.resize(i + 1);
+            point.solution = found[i].solution;
+            point.parameter = found[i].parameter;
+            point.arclength = found[i].arclength;
+            point.tangent = found[i].tangent;
+            point.monitors = found[i].monitors;
+            point.stable = is_stable(point.solution);
+        };
         for (std::size_t i = 0; i < found.size(); ++i) {
             if (found[i].type == PointType::bound) {
                 cut_after(i);
                 return finish(BranchOutcome::bound, "");
+            }
+            if (is_degenerate(found[i])) {
+                found[i].detail = "back on the branch of more regular orbits";
+                cut_after(i);
+                return finish(BranchOutcome::returned, found[i].detail);
             }
             if (is_among(found[i].type, settings_.stop_at)) {
                 cut_after(i);
@@ -362,8 +511,8 @@ private:
             }
             const bool may_end = rank(found[i]) >= 0;
             if (settings_.stop_when_unphysical && may_end && was_admissible && !point.solution.certificate.admissible) {
-                cut_after(i);
-                return finish(BranchOutcome::unphysical, point.solution.certificate.reason);
+                finish(BranchOutcome::unphysical, point.solution.certificate.reason);
+                return cut_after(i);
             }
         }
         if (settings_.stop_when_unphysical && was_admissible && !point.solution.certificate.admissible)
@@ -374,6 +523,7 @@ private:
     BranchSettings settings_;
     Simulation simulation_;
     Orbit candidate_;
+    std::unique_ptr<OrbitMonitors> monitors_;
     std::unique_ptr<OrbitProblem> problem_;
     std::unique_ptr<Continuation> continuation_;
     std::vector<BranchTest> tests_;

@@ -1,20 +1,27 @@
 #pragma once
 
 #include "graze/branch/continuation.hpp"
+#include "graze/branch/monitor.hpp"
 #include "orbit/shooting.hpp"
 
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <vector>
 
 namespace graze {
 
-/// The equations of a periodic orbit with one free parameter, for continuation.
+/// The equations of a periodic orbit with a free parameter, for continuation; with monitors that are held, and as many
+/// further parameters.
 class OrbitProblem : public ContinuationProblem {
 public:
     OrbitProblem(const Simulation& simulation, const Orbit& orbit, std::size_t parameter)
         : shooting_(simulation, orbit, {parameter}) {}
+    /// @param monitors those that are held count; must outlive this; may be null
+    OrbitProblem(const Simulation& simulation, const Orbit& orbit, std::size_t parameter,
+                 const std::vector<std::size_t>& free, OrbitMonitors* monitors);
 
     Shooting& shooting() { return shooting_; }
     const Shooting& shooting() const { return shooting_; }
@@ -24,16 +31,9 @@ public:
     std::span<const double> scales() const override {
         return {shooting_.scales().data(), static_cast<std::size_t>(shooting_.scales().size())};
     }
-    bool evaluate(std::span<const double> u) override { return shooting_.evaluate(vector_of(u)); }
+    bool evaluate(std::span<const double> u) override;
     bool solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
-               double* determinant) override {
-        Eigen::VectorXd result;
-        const Eigen::VectorXd value = Eigen::VectorXd::Constant(1, right);
-        if (!shooting_.solve(vector_of(row).transpose(), value, homogeneous, result, determinant))
-            return false;
-        Eigen::Map<Eigen::VectorXd>(step.data(), result.size()) = result;
-        return true;
-    }
+               double* determinant) override;
     void accept(std::span<const double> u) override {
         // Scales need not be exact: what they cost is saved most of the time.
         constexpr std::size_t renewal = 5;
@@ -46,7 +46,20 @@ public:
     }
 
 private:
+    /// A monitor that is held, and the value at which it is.
+    struct Held {
+        std::size_t monitor;
+        double value;
+        std::optional<Function> at_end; ///< with its gradient, where that is known
+    };
+    bool evaluate_held(const Eigen::VectorXd& u);
+    Eigen::RowVectorXd row_by_differences(std::size_t monitor, const Eigen::VectorXd& u);
+
     Shooting shooting_;
+    OrbitMonitors* monitors_ = nullptr;
+    std::vector<Held> held_;
+    Eigen::MatrixXd rows_;      ///< gradients of the monitors that are held
+    Eigen::VectorXd residuals_; ///< how far they are off
     std::size_t accepted_ = 0;
 };
 

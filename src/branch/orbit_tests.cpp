@@ -29,7 +29,7 @@ void add_arc_tests(const Shooting& shooting, const Certificate& certificate, std
     for (std::size_t s = 0; s < shooting.signature().size(); ++s) {
         const auto& mode = compiled.mode(shooting.signature()[s].mode);
         for (std::size_t w = 0; w < mode.watched.size(); ++w) {
-            BranchTest test{PointType::grazing, s, mode.watched[w], nothing, 0, false, 0};
+            BranchTest test{PointType::grazing, s, mode.watched[w], nothing, 0, false, 0, std::nullopt, 0};
             for (const OrbitMinimum& minimum : certificate.minima)
                 if (minimum.segment == s && minimum.event == test.event && !(minimum.value >= test.value)) {
                     test.value = minimum.value;
@@ -40,8 +40,29 @@ void add_arc_tests(const Shooting& shooting, const Certificate& certificate, std
     }
     for (const EndValue& end : certificate.end_values) {
         const bool barrier = shooting.model().events[end.event].kind == EventKind::barrier;
-        tests.push_back(
-            {PointType::two_events, end.segment, end.event, barrier ? end.value : nothing, 0, false, end.rate});
+        tests.push_back({PointType::two_events, end.segment, end.event, barrier ? end.value : nothing, 0, false,
+                         end.rate, std::nullopt, 0});
+    }
+}
+
+void add_monitor_tests(const std::vector<double>& values, const BranchSettings& settings,
+                       std::vector<BranchTest>& tests) {
+    for (std::size_t m = 0; m < settings.monitors.size(); ++m) {
+        const Monitor& monitor = settings.monitors[m];
+        BranchTest test{PointType::bound, 0, 0, nothing, 0, false, 0, m, 0};
+        if (monitor.least) {
+            test.value = values[m] - *monitor.least;
+            tests.push_back(test);
+        }
+        if (monitor.greatest) {
+            test.value = *monitor.greatest - values[m];
+            tests.push_back(test);
+        }
+        test.type = PointType::crossing;
+        for (test.crossing = 0; test.crossing < monitor.crossings.size(); ++test.crossing) {
+            test.value = values[m] - monitor.crossings[test.crossing];
+            tests.push_back(test);
+        }
     }
 }
 
@@ -49,15 +70,17 @@ void add_arc_tests(const Shooting& shooting, const Certificate& certificate, std
 
 std::vector<BranchTest> branch_tests(const Shooting& shooting, const OrbitSolution& solution,
                                      const std::vector<double>& tangent, double determinant,
-                                     const BranchSettings& settings) {
+                                     const std::vector<double>& monitors, const BranchSettings& settings) {
     std::vector<BranchTest> tests;
     const auto add = [&](PointType type, double value, std::size_t segment = 0, std::size_t event = 0) {
-        tests.push_back({type, segment, event, value, 0, false, 0});
+        tests.push_back({type, segment, event, value, 0, false, 0, std::nullopt, 0});
     };
     const double parameter = shooting.parameters()[settings.parameter];
     add(PointType::bound, settings.least ? parameter - *settings.least : nothing);
     add(PointType::bound, settings.greatest ? *settings.greatest - parameter : nothing);
-    add(PointType::fold, tangent[shooting.place_of_parameter(0)]);
+    // Where monitors are held, the parameter may turn although no multiplier is 1.
+    add(PointType::fold,
+        settings.free.empty() ? tangent[shooting.place_of_parameter(0)] : shooting.system().periodic_determinant());
     // The half of a symmetric orbit that changes into its image loses the symmetry instead of doubling its period.
     add(shooting.symmetry() ? PointType::branch_point : PointType::flip, shooting.system().antiperiodic_determinant());
     add(PointType::branch_point, determinant);
@@ -69,12 +92,13 @@ std::vector<BranchTest> branch_tests(const Shooting& shooting, const OrbitSoluti
         const bool event = segment.end == SegmentEnd::event;
         const std::size_t index = event ? shooting.model().transitions[segment.index].event : 0;
         tests.push_back({PointType::grazing, s, index, event ? certificate.approach_speeds[s] : nothing,
-                         solution.orbit.durations[s], true, 0});
+                         solution.orbit.durations[s], true, 0, std::nullopt, 0});
         add(PointType::vanishing, solution.orbit.durations[s], s, index);
         const double margin = certificate.guard_margins[s];
         add(PointType::guard, std::isfinite(margin) ? margin : nothing, s, index);
     }
     add_arc_tests(shooting, certificate, tests);
+    add_monitor_tests(monitors, settings, tests);
     return tests;
 }
 

@@ -4,6 +4,7 @@
 #include "orbit/shooting.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace graze {
@@ -16,12 +17,16 @@ struct BranchTest {
     double time = 0;     ///< of an interior minimum
     bool at_end = false; ///< of grazing: the segment's own event
     double rate = 0;     ///< of two_events: of the other event's function
+    /// Of bound and crossing: which monitor, and which of its crossings. None for bounds of the parameter.
+    std::optional<std::size_t> monitor;
+    std::size_t crossing = 0;
 };
 
 /// All of them at a point, always in the same order for one signature.
 /// @param tangent, determinant of the branch there
+/// @param monitors their values there
 std::vector<BranchTest> branch_tests(const Shooting& shooting, const OrbitSolution& solution,
                                      const std::vector<double>& tangent, double determinant,
-                                     const BranchSettings& settings);
+                                     const std::vector<double>& monitors, const BranchSettings& settings);
 
 } // namespace graze

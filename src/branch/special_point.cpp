@@ -26,6 +26,8 @@ std::string_view short_name(PointType type) {
         return "UZ";
     case PointType::end:
         return "EP";
+    case PointType::regular:
+        return "RG";
     }
     return "";
 }
@@ -54,8 +56,17 @@ std::string_view name_of(PointType type) {
         return "crossing";
     case PointType::end:
         return "end";
+    case PointType::regular:
+        return "regular";
     }
     return "";
+}
+
+std::optional<PointType> point_type(std::string_view name) {
+    for (int i = 0; i <= static_cast<int>(PointType::regular); ++i)
+        if (name == short_name(static_cast<PointType>(i)))
+            return static_cast<PointType>(i);
+    return std::nullopt;
 }
 
 } // namespace graze

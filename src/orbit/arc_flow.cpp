@@ -9,6 +9,10 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_steps = 100000;
+/// Share of an arc below which a step means that the solution ceases to exist.
+constexpr double smallest_share = 1e-14;
+/// Share of an arc over which sizes are taken where the start alone does not show them.
+constexpr double first_share = 1e-10;
 
 } // namespace
 
@@ -41,9 +45,14 @@ void ArcFlow::set_parameters(std::span<const double> parameters) {
     }
 }
 
-/// Length of the next step, with the sign of what remains.
-double ArcFlow::step_of(const Jet& jet, double remaining) {
-    const double step = step_size_(jet.series().first(states_), previous_);
+/// Length of the next step, with the sign of what remains. @param watched events are looked at, whose functions must
+/// then be as accurate as the states
+double ArcFlow::step_of(const Jet& jet, double remaining, bool watched) {
+    const std::span<const Series> series = watched ? jet.series() : jet.series().first(states_);
+    double step = step_size_(series, previous_);
+    // A state that starts at almost zero, such as a phase of 1e-18, is no measure of its own changes.
+    if (previous_ == 0 && step < smallest_share * std::abs(remaining))
+        step = step_size_(series, first_share * std::abs(remaining));
     if (!(step < std::numeric_limits<double>::infinity())) // NaN stays
         return std::isnan(step) ? step : remaining;
     previous_ = step;
@@ -60,10 +69,10 @@ ArcFlow::Ending ArcFlow::run(std::size_t mode, std::span<double> state, double d
         if (count >= most_steps)
             return Ending::too_long;
         jet.compute(state);
-        const double step = step_of(jet, remaining);
+        const double step = step_of(jet, remaining, static_cast<bool>(visit));
         if (std::isnan(step))
             return Ending::undefined;
-        if (std::abs(step) < std::abs(duration) * 1e-14 && step != remaining)
+        if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining)
             return Ending::singular;
         if (visit)
             visit(jet, time, step);
@@ -113,10 +122,10 @@ ArcFlow::Ending ArcFlow::run(std::size_t mode, std::span<double> state, double d
             load(mode, state, first, here);
             jet.compute(seeds_);
             if (first == 0) {
-                step = step_of(jet, remaining);
+                step = step_of(jet, remaining, false);
                 if (std::isnan(step))
                     return Ending::undefined;
-                if (std::abs(step) < std::abs(duration) * 1e-14 && step != remaining)
+                if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining)
                     return Ending::singular;
                 std::fill(times_.begin(), times_.end(), step);
             }

@@ -36,7 +36,7 @@ public:
     std::size_t steps() const { return steps_; } ///< since it was made
 
 private:
-    double step_of(const Jet& jet, double remaining);
+    double step_of(const Jet& jet, double remaining, bool watched);
     void load(std::size_t mode, std::span<const double> state, std::size_t first, std::size_t count);
 
     const Simulation* simulation_;

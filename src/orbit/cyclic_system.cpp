@@ -95,16 +95,15 @@ double CyclicSystem::antiperiodic_determinant() const {
     return sign_ * (final_.leftCols(n) - final_.middleCols(n, n)).determinant();
 }
 
-bool CyclicSystem::solve(const Eigen::MatrixXd& borders, const Eigen::VectorXd& right, bool homogeneous,
-                         Eigen::VectorXd& solution, double* determinant) const {
+CyclicSystem::Condensed CyclicSystem::condense(const Eigen::MatrixXd& borders, const Eigen::VectorXd& right,
+                                               bool homogeneous) const {
     const Eigen::Index n = index(n_), q = index(q_);
-    Eigen::MatrixXd matrix(n + q, n + q);
-    Eigen::VectorXd values(n + q);
-    matrix.topLeftCorner(n, n) = final_.leftCols(n) + final_.middleCols(n, n);
-    matrix.topRightCorner(n, q) = final_.middleCols(2 * n, q);
-    values.head(n).setZero();
+    Condensed result{Eigen::MatrixXd(n + q, n + q), Eigen::VectorXd(n + q)};
+    result.matrix.topLeftCorner(n, n) = final_.leftCols(n) + final_.middleCols(n, n);
+    result.matrix.topRightCorner(n, q) = final_.middleCols(2 * n, q);
+    result.values.head(n).setZero();
     if (!homogeneous)
-        values.head(n) = final_.rightCols(1);
+        result.values.head(n) = final_.rightCols(1);
     // In the further equations each start is replaced in its turn by x_0, the next start and p.
     Eigen::MatrixXd rows = borders;
     Eigen::MatrixXd start = Eigen::MatrixXd::Zero(q, n); // coefficients of the copy of x_0
@@ -127,16 +126,16 @@ bool CyclicSystem::solve(const Eigen::MatrixXd& borders, const Eigen::VectorXd& 
         if (!homogeneous)
             constants -= change.rightCols(1);
     }
-    matrix.bottomLeftCorner(q, n) = start;
-    matrix.bottomRightCorner(q, q) = rows.rightCols(q);
-    values.tail(q) = constants;
-    const Eigen::FullPivLU<Eigen::MatrixXd> lu(matrix);
-    if (determinant)
-        *determinant = sign_ * lu.determinant();
-    if (!matrix.allFinite() || lu.rank() < n + q)
-        return false;
-    const Eigen::VectorXd first = lu.solve(values);
-    solution.resize(index(unknowns()));
+    result.matrix.bottomLeftCorner(q, n) = start;
+    result.matrix.bottomRightCorner(q, q) = rows.rightCols(q);
+    result.values.tail(q) = constants;
+    return result;
+}
+
+/// All unknowns, from the first start and the parameters.
+Eigen::VectorXd CyclicSystem::expand(const Eigen::VectorXd& first, bool homogeneous) const {
+    const Eigen::Index n = index(n_), q = index(q_);
+    Eigen::VectorXd solution(index(unknowns()));
     solution.tail(q) = first.tail(q);
     Eigen::VectorXd following = first.head(n); // x_{k+1}, going backwards
     for (std::size_t k = count_; k-- > 0;) {
@@ -148,7 +147,28 @@ bool CyclicSystem::solve(const Eigen::MatrixXd& borders, const Eigen::VectorXd& 
         solution.segment(index(k) * (n + 1), n + 1) = sum;
         following = sum.head(n);
     }
+    return solution;
+}
+
+bool CyclicSystem::solve(const Eigen::MatrixXd& borders, const Eigen::VectorXd& right, bool homogeneous,
+                         Eigen::VectorXd& solution, double* determinant) const {
+    const Condensed condensed = condense(borders, right, homogeneous);
+    const Eigen::FullPivLU<Eigen::MatrixXd> lu(condensed.matrix);
+    if (determinant)
+        *determinant = sign_ * lu.determinant();
+    if (!condensed.matrix.allFinite() || !lu.isInvertible())
+        return false;
+    solution = expand(lu.solve(condensed.values), homogeneous);
     return solution.allFinite();
+}
+
+bool CyclicSystem::null_vector(const Eigen::MatrixXd& borders, Eigen::VectorXd& vector) const {
+    const Condensed condensed = condense(borders, Eigen::VectorXd::Zero(index(q_)), true);
+    if (!condensed.matrix.allFinite())
+        return false;
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(condensed.matrix, Eigen::ComputeFullV);
+    vector = expand(svd.matrixV().rightCols(1), true);
+    return vector.allFinite();
 }
 
 } // namespace graze

@@ -48,8 +48,19 @@ public:
     /// @return false when the system is singular to working precision
     bool solve(const Eigen::MatrixXd& borders, const Eigen::VectorXd& right, bool homogeneous,
                Eigen::VectorXd& solution, double* determinant = nullptr) const;
+    /// The vector that the blocks and the further equations' left-hand sides take nearest to zero, of any length: where
+    /// they are singular, in the null space. @return false when a number is not finite
+    bool null_vector(const Eigen::MatrixXd& borders, Eigen::VectorXd& vector) const;
 
 private:
+    /// Equations of x_0 and p alone: matrix (x_0, p) = values.
+    struct Condensed {
+        Eigen::MatrixXd matrix;
+        Eigen::VectorXd values;
+    };
+    Condensed condense(const Eigen::MatrixXd& borders, const Eigen::VectorXd& right, bool homogeneous) const;
+    Eigen::VectorXd expand(const Eigen::VectorXd& first, bool homogeneous) const;
+
     /// What is left of a segment: triangle (x_k, T_k) + rest (x_0, x_{k+1}, p) = rest's last column.
     struct Eliminated {
         Eigen::MatrixXd triangle, rest;

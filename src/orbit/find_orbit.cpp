@@ -4,11 +4,13 @@
 #include "graze/trajectory/trajectory.hpp"
 #include "orbit/arc_flow.hpp"
 #include "orbit/certify.hpp"
+#include "orbit/close_at_section.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace graze {
 
@@ -59,6 +61,34 @@ double distance(std::span<const double> a, std::span<const double> b, std::span<
     return result;
 }
 
+bool is_smooth(const Orbit& orbit) {
+    return std::all_of(orbit.signature.begin(), orbit.signature.end(),
+                       [](const Segment& segment) { return segment.end == SegmentEnd::section; });
+}
+
+/// Ends an orbit without contacts after half its time, which is within its middle segment; the state there is appended
+/// to its starts. @return whether that makes sense
+bool cut_in_half(const Model& model, Orbit& orbit, const Symmetry& symmetry) {
+    const std::size_t mode = orbit.signature[0].mode, count = orbit.segments() / 2 + 1;
+    if (orbit.segments() % 2 == 0 || symmetry.modes[mode] != mode)
+        return false;
+    double left = 0.5 * std::accumulate(orbit.durations.begin(), orbit.durations.end(), 0.0);
+    orbit.signature.resize(count);
+    orbit.starts.resize(count);
+    orbit.durations.resize(count);
+    for (std::size_t k = 0; k + 1 < count; ++k)
+        left -= orbit.durations[k];
+    orbit.durations.back() = left;
+    const Simulation simulation(model);
+    ArcFlow flow(simulation, {});
+    flow.set_parameters(orbit.parameters);
+    std::vector<double> state = orbit.starts.back();
+    if (!(left > 0) || flow.run(mode, state, left) != ArcFlow::Ending::done)
+        return false;
+    orbit.starts.push_back(std::move(state));
+    return true;
+}
+
 } // namespace
 
 FollowedMotion follow_motion(const Simulation& simulation, std::span<const double> parameters,
@@ -96,16 +126,12 @@ std::optional<Orbit> half_orbit(const Model& model, const Orbit& orbit, double t
         Orbit half = orbit;
         half.symmetry = index;
         const std::size_t count = orbit.segments();
-        if (count == 1 && orbit.signature[0].end == SegmentEnd::section) {
-            const Simulation simulation(model);
-            ArcFlow flow(simulation, {});
-            flow.set_parameters(orbit.parameters);
-            std::vector<double> state = orbit.starts[0];
-            half.durations[0] = 0.5 * orbit.durations[0];
-            if (symmetry.modes[orbit.signature[0].mode] == orbit.signature[0].mode &&
-                flow.run(orbit.signature[0].mode, state, half.durations[0]) == ArcFlow::Ending::done &&
-                distance(image(state), orbit.starts[0], periods, model) < tolerance)
+        if (is_smooth(orbit)) {
+            if (cut_in_half(model, half, symmetry) &&
+                distance(image(half.starts.back()), orbit.starts[0], periods, model) < tolerance) {
+                half.starts.pop_back();
                 return half;
+            }
             continue;
         }
         if (count % 2 != 0)
@@ -146,23 +172,11 @@ OrbitSolution find_orbit(const Model& model, const AttractorOptions& settle, con
     Orbit orbit;
     orbit.parameters = model.parameter_values();
     if (motion.segments.empty()) {
-        orbit.signature = {{result.mode, SegmentEnd::section, *model.find_section(settle.section)}};
-        orbit.starts = {result.state};
-        orbit.durations = {result.duration};
-        // An orbit that passes the section several times is closed after the last of them.
-        if (result.period > 1) {
-            const double part = result.duration / static_cast<double>(result.period);
-            orbit.signature.assign(result.period, orbit.signature.front());
-            orbit.starts.clear();
-            orbit.durations.assign(result.period, part);
-            ArcFlow flow(factory->simulation(), {});
-            flow.set_parameters(orbit.parameters);
-            std::vector<double> state = result.state;
-            for (std::size_t k = 0; k < result.period; ++k) {
-                orbit.starts.push_back(state);
-                flow.run(result.mode, state, part);
-            }
-        }
+        const auto closed = close_at_section(model, orbit.parameters, result.state, result.mode, result.duration,
+                                             settle.section, std::nullopt);
+        if (!closed)
+            throw InputError("the orbit passes none of the model's sections", "declare one that it passes");
+        orbit = *closed;
     } else {
         // From the state on the section to the first contact is the end of the last segment.
         const std::size_t count = motion.segments.size();

@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "orbit/close_at_section.hpp"
 
 #include <fmt/format.h>
 
@@ -83,6 +84,12 @@ Segment image_of(const Model& model, std::size_t symmetry, const Segment& segmen
 Orbit whole_orbit(const Model& model, const Orbit& orbit) {
     if (!orbit.symmetry)
         return orbit;
+    const Segment& last = orbit.signature.back();
+    if (std::all_of(orbit.signature.begin(), orbit.signature.end(),
+                    [&](const Segment& segment) { return segment == last && segment.end == SegmentEnd::section; }))
+        if (auto whole = close_at_section(model, orbit.parameters, orbit.starts.front(), last.mode, orbit.period(),
+                                          model.sections[last.index].name, std::nullopt))
+            return *whole;
     const Function map = map_of(model, *orbit.symmetry);
     Orbit whole = orbit;
     whole.symmetry.reset();

@@ -32,6 +32,7 @@ Shooting::Shooting(const Simulation& simulation, const Orbit& orbit, std::vector
     period_rates_ = Eigen::MatrixXd::Zero(index(n_), index(free_.size()));
     split(orbit);
     system_.resize(pieces_.size());
+    largest_scales_ = Eigen::VectorXd::Zero(index(n_ + free_.size()));
     set_scales(unknowns_of(orbit));
 }
 
@@ -163,6 +164,8 @@ Orbit Shooting::orbit_of(const Eigen::VectorXd& unknowns) const {
 
 void Shooting::set_scales(const Eigen::VectorXd& unknowns) {
     constexpr double smallest_share = 1e-3;
+    // Units that shrank with what they measure would keep a branch from ever passing zero.
+    constexpr double smallest_scale = 1e-2;
     set_parameters(unknowns);
     const std::size_t count = pieces_.size() * (n_ + 1) + free_.size();
     scales_ = Eigen::VectorXd::Ones(index(count));
@@ -195,14 +198,17 @@ void Shooting::set_scales(const Eigen::VectorXd& unknowns) {
             scale = sizes[i] > 0 ? smallest_share * sizes[i] : 1;
         if (!std::isfinite(scale))
             scale = 1;
+        largest_scales_[index(i)] = std::max(largest_scales_[index(i)], scale);
+        scale = std::max(scale, smallest_scale * largest_scales_[index(i)]);
         for (std::size_t k = 0; k < pieces_.size(); ++k)
             scales_[index(start_of(k) + i)] = scale;
     }
     for (std::size_t k = 0; k < pieces_.size(); ++k)
         scales_[index(duration_of(k))] = time > 0 ? time : 1;
     for (std::size_t f = 0; f < free_.size(); ++f) {
-        const double value = std::abs(unknowns[index(place_of_parameter(f))]);
-        scales_[index(place_of_parameter(f))] = value > 0 ? value : 1;
+        double& largest = largest_scales_[index(n_ + f)];
+        largest = std::max(largest, std::abs(unknowns[index(place_of_parameter(f))]));
+        scales_[index(place_of_parameter(f))] = largest > 0 ? largest : 1;
     }
 }
 
@@ -407,23 +413,14 @@ bool Shooting::solve(const Eigen::MatrixXd& borders, const Eigen::VectorXd& righ
     return true;
 }
 
-bool Shooting::null_vector(const Eigen::RowVectorXd& row, Eigen::VectorXd& vector) {
-    // One step of inverse iteration: the solution for any right-hand side is almost along the null vector.
-    double turn = 0;
-    for (std::size_t k = 0; k < pieces_.size(); ++k)
-        for (double& value : system_.block(k).right) {
-            turn += 2.4;
-            value = std::sin(turn);
-        }
-    Eigen::MatrixXd borders(index(free_.size()), index(unknowns()));
-    borders.setZero();
-    borders.row(0) = row;
-    if (!system_.factor() || !solve(borders, Eigen::VectorXd::Zero(index(free_.size())), false, vector))
+bool Shooting::null_vector(const Eigen::RowVectorXd& row, Eigen::VectorXd& vector) const {
+    const Eigen::MatrixXd borders = row * scales_.asDiagonal();
+    if (!system_.null_vector(borders / borders.norm(), vector))
         return false;
-    const double size = vector.cwiseQuotient(scales_).norm();
-    if (!(size > 0) || !std::isfinite(size))
+    const double size = vector.norm();
+    if (!(size > 0))
         return false;
-    vector /= size;
+    vector = vector.cwiseProduct(scales_) / size;
     return true;
 }
 

@@ -42,7 +42,7 @@ public:
     Eigen::VectorXd unknowns_of(const Orbit& orbit);
     Orbit orbit_of(const Eigen::VectorXd& unknowns) const;
     /// Sizes of the unknowns, by which residuals and steps are measured: extents of the states along the orbit, the
-    /// period, the parameters.
+    /// period, the parameters. Those of the parameters never shrink, those of the states only so far.
     const Eigen::VectorXd& scales() const { return scales_; }
     void set_scales(const Eigen::VectorXd& unknowns);
 
@@ -56,8 +56,8 @@ public:
                double* determinant = nullptr) const;
     const CyclicSystem& system() const { return system_; }
     /// A vector that the derivatives map to (nearly) zero and whose product with the row is zero: where the equations
-    /// are singular beyond their one branch, the direction of another. Needs `evaluate` before and anew after.
-    bool null_vector(const Eigen::RowVectorXd& row, Eigen::VectorXd& vector);
+    /// are singular beyond their one branch, the direction of another. For one free parameter, after `evaluate`.
+    bool null_vector(const Eigen::RowVectorXd& row, Eigen::VectorXd& vector) const;
     /// A function of states and parameters: value, then gradient with respect to states and free parameters.
     Function with_gradient(const Expression& expression) const;
 
@@ -119,9 +119,9 @@ private:
     std::vector<Piece> pieces_;
     std::vector<std::size_t> last_pieces_;
     std::vector<double> parameters_, periods_, inputs_, work_, values_, reference_;
-    Eigen::MatrixXd period_rates_; ///< states x free
-    Eigen::VectorXd scales_;
-    std::vector<bool> neutral_; ///< states that every piece leaves exactly as they are
+    Eigen::MatrixXd period_rates_;            ///< states x free
+    Eigen::VectorXd scales_, largest_scales_; ///< the latter of states and free parameters, since the beginning
+    std::vector<bool> neutral_;               ///< states that every piece leaves exactly as they are
     std::vector<std::size_t> active_;
     double residual_ = 0;
     std::string problem_;

@@ -130,6 +130,10 @@ bool Statement::step() {
     throw_database_error(code, message, path_);
 }
 
+void Statement::reset() {
+    sqlite3_reset(statement_.get());
+}
+
 void Statement::run() {
     step();
     sqlite3_reset(statement_.get());

@@ -26,6 +26,8 @@ public:
     bool step();
     /// Runs a statement without rows, for it to be run again.
     void run();
+    /// Lets a statement whose rows have been read be run again.
+    void reset();
 
     int columns() const { return sqlite3_column_count(statement_.get()); }
     bool is_null(int column) const { return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL; }

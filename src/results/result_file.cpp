@@ -1,9 +1,8 @@
 #include "graze/results/result_file.hpp"
 
 #include "graze/symbolic/input_error.hpp"
-#include "results/database.hpp"
-#include "results/schema.hpp"
-#include "results/write_lock.hpp"
+#include "results/point_rows.hpp"
+#include "results/result_file_state.hpp"
 
 #include <fmt/format.h>
 
@@ -17,31 +16,11 @@ namespace graze {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-constexpr auto between_commits = std::chrono::milliseconds(50);
 /// Samples of a point follow one another from this many times its number on.
 constexpr std::int64_t samples_of_a_point = std::int64_t{1} << 24;
 
 std::string text_of(RunStatus status) {
     return status == RunStatus::complete ? "complete" : "unfinished";
-}
-
-Label label_named(const std::string& name) {
-    for (int i = 0; i <= static_cast<int>(Label::failed); ++i)
-        if (name == name_of(static_cast<Label>(i)))
-            return static_cast<Label>(i);
-    return Label::failed;
-}
-
-Ending ending_named(const std::string& name) {
-    for (int i = 0; i <= static_cast<int>(Ending::step_limit); ++i)
-        if (name == name_of(static_cast<Ending>(i)))
-            return static_cast<Ending>(i);
-    return Ending::running;
-}
-
-std::size_t index_of(const std::vector<std::string>& names, const std::string& name) {
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
 void check_name(const RunRecord& run) {
@@ -54,53 +33,6 @@ void check_name(const RunRecord& run) {
 }
 
 } // namespace
-
-struct ResultFile::State {
-    std::unique_ptr<WriteLock> lock; ///< outlives the connection
-    Database database;
-    bool in_transaction = false;
-    Clock::time_point begun{};
-    struct Writer {
-        RunRecord run;
-        RunTables tables;
-        Statement point, sample, multiplier;
-    };
-    std::unique_ptr<Writer> writer; ///< of the run that was written to last
-
-    void begin() {
-        if (in_transaction)
-            return;
-        database.execute("BEGIN IMMEDIATE");
-        in_transaction = true;
-        begun = Clock::now();
-    }
-    void commit() {
-        if (!in_transaction)
-            return;
-        database.execute("COMMIT");
-        in_transaction = false;
-    }
-    /// Runs several statements as one. @param change is given nothing
-    template <class Change>
-    void at_once(Change change) {
-        commit();
-        database.execute("BEGIN IMMEDIATE");
-        try {
-            change();
-            database.execute("COMMIT");
-        } catch (...) {
-            sqlite_rollback();
-            throw;
-        }
-    }
-    void sqlite_rollback() noexcept {
-        try {
-            database.execute("ROLLBACK");
-        } catch (...) { // the error that led here has ended the transaction already
-        }
-        in_transaction = false;
-    }
-};
 
 ResultFile::ResultFile(const std::string& path, Access access) {
     const bool writing = access == Access::write;
@@ -276,86 +208,8 @@ void ResultFile::begin_run(const RunRecord& run) {
     });
 }
 
-namespace {
-
-void write_point(Statement& statement, const RunRecord& run, const PointRecord& point) {
-    const PointResult& result = point.result;
-    const std::string direction = point.direction < run.directions.size() ? run.directions[point.direction] : "";
-    const std::string_view label = name_of(result.label), ending = name_of(result.outcome.ending);
-    statement.bind(1, point.number).bind(2, point.chain).bind(3, std::string_view(direction));
-    int at = 4;
-    for (const double coordinate : point.coordinates)
-        statement.bind(at++, coordinate);
-    statement.bind(at++, label);
-    const bool periodic = result.label == Label::periodic;
-    periodic ? statement.bind(at, result.period) : statement.bind_null(at);
-    periodic ? statement.bind(at + 1, result.duration) : statement.bind_null(at + 1);
-    periodic ? statement.bind(at + 2, std::string_view(result.signature)) : statement.bind_null(at + 2);
-    result.symmetric ? statement.bind(at + 3, std::int64_t{*result.symmetric}) : statement.bind_null(at + 3);
-    result.multipliers.empty() ? statement.bind_null(at + 4)
-                               : statement.bind(at + 4, std::abs(result.multipliers.front()));
-    result.lyapunov ? statement.bind(at + 5, *result.lyapunov) : statement.bind_null(at + 5);
-    result.lyapunov_error ? statement.bind(at + 6, *result.lyapunov_error) : statement.bind_null(at + 6);
-    periodic ? statement.bind(at + 7, result.residual) : statement.bind_null(at + 7);
-    statement.bind(at + 8, result.cycles).bind(at + 9, result.periods_run).bind(at + 10, result.time);
-    result.mode < run.modes.size() ? statement.bind(at + 11, std::string_view(run.modes[result.mode]))
-                                   : statement.bind_null(at + 11);
-    statement.bind(at + 12, ending).bind(at + 13, result.outcome.time);
-    statement.bind(at + 14, std::string_view(result.outcome.detail));
-    at += 15;
-    for (const double value : result.state)
-        statement.bind(at++, value);
-    statement.run();
-}
-
-PointRecord read_point(const Statement& row, const RunRecord& run) {
-    PointRecord point;
-    point.number = static_cast<std::size_t>(row.integer(0));
-    point.chain = static_cast<std::size_t>(row.integer(1));
-    point.direction = index_of(run.directions, row.text(2));
-    int at = 3;
-    for (std::size_t i = 0; i < run.coordinates.size(); ++i)
-        point.coordinates.push_back(row.number(at++));
-    PointResult& result = point.result;
-    result.label = label_named(row.text(at));
-    result.period = static_cast<std::size_t>(row.integer(at + 1));
-    result.duration = row.number(at + 2);
-    result.signature = row.text(at + 3);
-    if (!row.is_null(at + 4))
-        result.symmetric = row.integer(at + 4) != 0;
-    if (!row.is_null(at + 6))
-        result.lyapunov = row.number(at + 6);
-    if (!row.is_null(at + 7))
-        result.lyapunov_error = row.number(at + 7);
-    result.residual = row.number(at + 8);
-    result.cycles = static_cast<std::size_t>(row.integer(at + 9));
-    result.periods_run = static_cast<std::size_t>(row.integer(at + 10));
-    result.time = row.number(at + 11);
-    result.mode = index_of(run.modes, row.text(at + 12));
-    result.outcome.ending = ending_named(row.text(at + 13));
-    result.outcome.time = row.number(at + 14);
-    result.outcome.detail = row.text(at + 15);
-    at += fixed_point_columns;
-    for (std::size_t i = 0; i < run.states.size(); ++i)
-        result.state.push_back(row.is_null(at + static_cast<int>(i)) ? std::numeric_limits<double>::quiet_NaN()
-                                                                     : row.number(at + static_cast<int>(i)));
-    return point;
-}
-
-} // namespace
-
 void ResultFile::add_point(const std::string& name, const PointRecord& point) {
-    if (!state_->writer || state_->writer->run.name != name) {
-        const auto run = find_run(name);
-        if (!run)
-            throw InputError(fmt::format("there is no run '{}'", name), "begin it first");
-        const RunTables tables(*run);
-        const Database& database = state_->database;
-        state_->writer = std::make_unique<State::Writer>(State::Writer{
-            *run, tables, database.prepare(tables.insert_point()), database.prepare(tables.insert_sample()),
-            database.prepare("INSERT INTO multipliers VALUES(?,?,?,?,?)")});
-    }
-    auto& [run, tables, insert_point, insert_sample, insert_multiplier] = *state_->writer;
+    auto& [run, tables, insert_point, insert_sample, insert_multiplier, model] = state_->writer_of(*this, name);
     const PointResult& result = point.result;
     if (point.coordinates.size() != run.coordinates.size() || result.state.size() != run.states.size() ||
         (result.samples.size() > 0 && result.samples.width != run.values.size()))
@@ -381,8 +235,7 @@ void ResultFile::add_point(const std::string& name, const PointRecord& point) {
                 .bind(4, result.multipliers[m].real())
                 .bind(5, result.multipliers[m].imag())
                 .run();
-        if (Clock::now() - state_->begun > between_commits)
-            state_->commit();
+        state_->commit_when_due();
     } catch (...) {
         state_->sqlite_rollback();
         state_->writer.reset();
@@ -411,7 +264,7 @@ std::size_t ResultFile::point_count(const std::string& name) const {
 std::vector<PointRecord> ResultFile::last_points(const std::string& name, std::size_t chain_length) const {
     std::vector<PointRecord> points;
     const auto run = find_run(name);
-    if (!run || chain_length == 0)
+    if (!run || run->is_branch() || chain_length == 0)
         return points;
     const RunTables tables(*run);
     Statement rows = state_->database.prepare(
@@ -424,7 +277,7 @@ std::vector<PointRecord> ResultFile::last_points(const std::string& name, std::s
 
 std::optional<PointRecord> ResultFile::point(const std::string& name, std::size_t number) const {
     const auto run = find_run(name);
-    if (!run)
+    if (!run || run->is_branch())
         return std::nullopt;
     const RunTables tables(*run);
     Statement row = state_->database.prepare(tables.select_point() + " WHERE number = ?");
@@ -455,7 +308,7 @@ std::optional<PointRecord> ResultFile::point(const std::string& name, std::size_
 std::optional<PointRecord> ResultFile::nearest_point(const std::string& name, const std::string& coordinate,
                                                      double value, std::optional<std::size_t> direction) const {
     const auto run = find_run(name);
-    if (!run)
+    if (!run || run->is_branch())
         return std::nullopt;
     const RunTables tables(*run);
     for (std::size_t i = 0; i < run->coordinates.size(); ++i) {

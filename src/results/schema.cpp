@@ -38,6 +38,39 @@ std::string columns_of(const std::vector<std::string>& names) {
     return text;
 }
 
+constexpr const char* branch_columns =
+    "signature TEXT, symmetry TEXT, stable INTEGER, unstable INTEGER, admissible INTEGER, reason TEXT, outcome TEXT, "
+    "detail TEXT, residual REAL, error REAL, iterations INTEGER, arclength REAL, located INTEGER, bracket_low REAL, "
+    "bracket_high REAL, event TEXT, event_segment INTEGER, event_time REAL, at_end INTEGER, tangent TEXT";
+
+std::string in_quotes(const std::string& text) {
+    std::string result = "'";
+    for (const char c : text)
+        result += c == '\'' ? std::string("''") : std::string(1, c);
+    return result + "'";
+}
+
+/// Views of the orbits of all branches.
+std::string branch_views(const std::vector<RunRecord>& runs) {
+    std::string all;
+    for (const RunRecord& run : runs) {
+        if (!run.is_branch())
+            continue;
+        const RunTables tables(run);
+        all +=
+            fmt::format("{}SELECT {} AS run, number, part, step, type, label, {} AS parameter, {} AS value, period, "
+                        "signature, symmetry, stable, unstable, admissible, reason, outcome, detail, residual, "
+                        "error, arclength, located, bracket_low, bracket_high FROM {}",
+                        all.empty() ? "" : " UNION ALL ", in_quotes(run.name),
+                        run.coordinates.empty() ? "NULL" : in_quotes(run.coordinates.front().name),
+                        tables.coordinates.empty() ? "NULL" : quoted_name(tables.coordinates.front()), tables.points);
+    }
+    const std::string drop = "DROP VIEW IF EXISTS special_points; DROP VIEW IF EXISTS branch_points; ";
+    return all.empty() ? drop
+                       : drop + "CREATE VIEW branch_points AS " + all +
+                             "; CREATE VIEW special_points AS SELECT * FROM branch_points WHERE type <> 'RG';";
+}
+
 std::string placeholders(std::size_t count) {
     std::string text = "?";
     for (std::size_t i = 1; i < count; ++i)
@@ -63,18 +96,18 @@ CREATE TABLE multipliers(run TEXT, point INTEGER, position INTEGER, real REAL, i
 std::string views(const std::vector<RunRecord>& runs) {
     std::string all;
     for (const RunRecord& run : runs) {
+        if (run.is_branch())
+            continue;
         const RunTables tables(run);
-        std::string name;
-        for (const char c : run.name)
-            name += c == '\'' ? std::string("''") : std::string(1, c);
         const std::string coordinate = tables.coordinates.empty() ? "NULL" : quoted_name(tables.coordinates.front());
         all +=
-            fmt::format("{}SELECT '{}' AS run, number, chain, direction, {} AS coordinate, label, period, duration, "
+            fmt::format("{}SELECT {} AS run, number, chain, direction, {} AS coordinate, label, period, duration, "
                         "signature, symmetric, multiplier, lyapunov, lyapunov_error, residual, cycles, returns, time, "
                         "mode, ending, ending_time FROM {}",
-                        all.empty() ? "" : " UNION ALL ", name, coordinate, tables.points);
+                        all.empty() ? "" : " UNION ALL ", in_quotes(run.name), coordinate, tables.points);
     }
-    std::string text =
+    const std::string text =
+        branch_views(runs) +
         "DROP VIEW IF EXISTS label_changes; DROP VIEW IF EXISTS orbits; DROP VIEW IF EXISTS label_counts; "
         "DROP VIEW IF EXISTS all_points; ";
     if (all.empty())
@@ -98,32 +131,50 @@ CREATE VIEW label_changes AS SELECT run, chain, direction, coordinate_before, co
 }
 
 RunTables::RunTables(const RunRecord& run)
-    : points(quoted_name("points_" + run.name)), samples(quoted_name("samples_" + run.name)) {
-    std::set<std::string> taken{"number",         "chain",     "direction",   "label",      "period",
-                                "duration",       "signature", "symmetric",   "multiplier", "lyapunov",
-                                "lyapunov_error", "residual",  "cycles",      "returns",    "time",
-                                "mode",           "ending",    "ending_time", "detail"};
+    : points(quoted_name((run.is_branch() ? "branch_" : "points_") + run.name)),
+      samples(quoted_name((run.is_branch() ? "segments_" : "samples_") + run.name)), is_branch(run.is_branch()) {
+    std::set<std::string> taken{"number",   "chain",       "direction", "label",         "period",
+                                "duration", "signature",   "symmetric", "multiplier",    "lyapunov",
+                                "residual", "cycles",      "returns",   "time",          "mode",
+                                "ending",   "ending_time", "detail",    "lyapunov_error"};
+    if (is_branch)
+        taken = {"number",   "part",         "step",          "type",       "label",   "period",  "signature",
+                 "symmetry", "stable",       "unstable",      "admissible", "reason",  "outcome", "detail",
+                 "residual", "error",        "iterations",    "arclength",  "located", "event",   "bracket_low",
+                 "tangent",  "bracket_high", "event_segment", "event_time", "at_end"};
     for (const ResultColumn& column : run.coordinates)
         coordinates.push_back(distinct(column.name, taken));
-    for (const ResultColumn& column : run.states)
-        states.push_back(distinct("end_" + column.name, taken));
-    taken = {"point", "sampling", "time", "rowid"};
+    std::set<std::string> taken_by_samples{"point", "sampling", "time", "rowid"};
     for (const ResultColumn& column : run.values)
-        values.push_back(distinct(column.name, taken));
+        values.push_back(distinct(column.name, is_branch ? taken : taken_by_samples));
+    if (is_branch)
+        taken = {};
+    for (const ResultColumn& column : run.states)
+        states.push_back(distinct((is_branch ? "start_" : "end_") + column.name, taken));
 }
 
 std::string RunTables::create() const {
+    if (is_branch)
+        return fmt::format(
+            "CREATE TABLE {}(number INTEGER PRIMARY KEY, part TEXT, step INTEGER, type TEXT, label TEXT{}, period "
+            "REAL{}, "
+            "{}); CREATE TABLE {}(point INTEGER, segment INTEGER, mode TEXT, ending TEXT, duration REAL, "
+            "approach_speed REAL, departure REAL, guard_margin REAL{}, PRIMARY KEY(point, segment)) WITHOUT ROWID;",
+            points, columns_of(coordinates), columns_of(values), branch_columns, samples, columns_of(states));
     return fmt::format("CREATE TABLE {}(number INTEGER PRIMARY KEY, chain INTEGER, direction TEXT{}, {}{});"
                        "CREATE TABLE {}(point INTEGER, sampling TEXT, time REAL{});",
                        points, columns_of(coordinates), fixed_columns, columns_of(states), samples, columns_of(values));
 }
 
 std::string RunTables::insert_point() const {
-    return fmt::format("INSERT INTO {} VALUES({})", points,
-                       placeholders(3 + coordinates.size() + fixed_point_columns + states.size()));
+    const std::size_t columns = is_branch ? 6 + coordinates.size() + values.size() + fixed_branch_columns
+                                          : 3 + coordinates.size() + fixed_point_columns + states.size();
+    return fmt::format("INSERT INTO {} VALUES({})", points, placeholders(columns));
 }
 
 std::string RunTables::insert_sample() const {
+    if (is_branch)
+        return fmt::format("INSERT INTO {} VALUES({})", samples, placeholders(8 + states.size()));
     std::string names = "rowid, point, sampling, time";
     for (const std::string& value : values)
         names += ", " + quoted_name(value);

@@ -16,11 +16,13 @@ std::string common_tables();
 /// Views over all runs, to be made anew whenever runs change.
 std::string views(const std::vector<RunRecord>& runs);
 
-/// Columns of a run's tables, in their order.
+/// Columns of a run's tables, in their order. Of a branch, `points` are its orbits, `samples` their segments,
+/// coordinates the parameters, and values the monitors.
 struct RunTables {
     explicit RunTables(const RunRecord& run);
 
-    std::string points, samples;                          ///< quoted names of the tables
+    std::string points, samples; ///< quoted names of the tables
+    bool is_branch = false;
     std::vector<std::string> coordinates, states, values; ///< names of columns, unquoted
     std::string create() const;
     std::string insert_point() const;
@@ -30,5 +32,7 @@ struct RunTables {
 
 /// Columns between the coordinates and the final states.
 constexpr int fixed_point_columns = 16;
+/// Columns after the monitors of a branch.
+constexpr int fixed_branch_columns = 20;
 
 } // namespace graze

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <memory>
+#include <sstream>
 
 namespace graze {
 
@@ -148,6 +150,13 @@ private:
     std::string text_;
 };
 
+std::string text_of_file(const std::string& path) {
+    std::ifstream stream(path, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return stream ? text.str() : std::string();
+}
+
 std::vector<Settings> axes_of(const StudyRun& run) {
     std::vector<Settings> axes;
     for (const Variation& axis : run.axes) {
@@ -193,6 +202,59 @@ std::vector<Settings> bounds_of(const StudyRun& run) {
     return bounds;
 }
 
+std::vector<Settings> monitors_of(const BranchSettings& branch) {
+    std::vector<Settings> monitors;
+    for (const Monitor& monitor : branch.monitors) {
+        Settings item;
+        item.add("name", monitor.name).add("kind", static_cast<int>(monitor.kind)).add("segment", monitor.segment);
+        if (monitor.kind != Monitor::Kind::duration)
+            item.add("expression", to_string(monitor.expression));
+        item.add("fixed", monitor.fixed).add("crossings", monitor.crossings);
+        if (monitor.held)
+            item.add("held", *monitor.held);
+        if (monitor.least)
+            item.add("least", *monitor.least);
+        if (monitor.greatest)
+            item.add("greatest", *monitor.greatest);
+        monitors.push_back(item);
+    }
+    return monitors;
+}
+
+Settings branch_settings(const StudyRun& run) {
+    const BranchSettings& branch = run.branch.settings;
+    const auto symbols = run.model.parameter_symbols();
+    Settings settings;
+    settings.add("signature", run.branch.signature).add("table", text_of_file(run.branch.table));
+    std::vector<std::string> set, free, stop;
+    for (const std::size_t parameter : run.branch.set)
+        set.push_back(symbols[parameter].name());
+    for (const std::size_t parameter : branch.free)
+        free.push_back(symbols[parameter].name());
+    for (const PointType type : branch.stop_at)
+        stop.emplace_back(short_name(type));
+    settings.add("set", set).add("monitors", monitors_of(branch)).add("accuracy", branch.orbit.accuracy);
+    settings.add("orbit_tolerance", branch.orbit.tolerance);
+    if (run.kind == RunKind::orbit)
+        return settings;
+    settings.add("along", symbols[branch.parameter].name())
+        .add("direction", static_cast<int>(run.direction))
+        .add("steps", branch.steps)
+        .add("free", free)
+        .add("stop", stop)
+        .add("stop_when_unphysical", branch.stop_when_unphysical);
+    if (branch.least)
+        settings.add("least", *branch.least);
+    if (branch.greatest)
+        settings.add("greatest", *branch.greatest);
+    const ContinuationOptions& step = branch.continuation;
+    settings.add("first_step", step.first_step)
+        .add("smallest_step", step.smallest_step)
+        .add("largest_step", step.largest_step)
+        .add("largest_angle", step.largest_angle);
+    return settings;
+}
+
 } // namespace
 
 std::string settings_of(const StudyRun& run) {
@@ -204,6 +266,8 @@ std::string settings_of(const StudyRun& run) {
     const TransientOptions& transient = run.transient;
     if (run.kind == RunKind::sweep)
         settings.add("direction", static_cast<int>(run.direction)).add("carry", run.carry);
+    if (run.is_branch())
+        settings.add("branch", branch_settings(run));
     if (run.kind == RunKind::simulate)
         settings.add("section", transient.section)
             .add("skip_time", transient.skip_time)
@@ -232,7 +296,9 @@ std::string settings_of(const StudyRun& run) {
                                   .add("run", run.start->run)
                                   .add("coordinate", run.start->coordinate.value_or(""))
                                   .add("value", run.start->value)
-                                  .add("direction", run.start->direction.value_or("")));
+                                  .add("direction", run.start->direction.value_or(""))
+                                  .add("point", run.start->point)
+                                  .add("onto", run.start->onto));
     settings.add("tolerance", run.simulation.tolerance)
         .add("order", run.simulation.order)
         .add("largest_step", run.simulation.largest_step);

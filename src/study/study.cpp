@@ -18,6 +18,10 @@ std::string_view name_of(RunKind kind) {
         return "sweep";
     case RunKind::basin:
         return "basin";
+    case RunKind::orbit:
+        return "orbit";
+    case RunKind::follow:
+        return "continue";
     }
     return "simulate";
 }
@@ -75,7 +79,7 @@ StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
         const std::string& key = item.name;
         if (key == "kind") {
             const std::vector<std::string> kinds{"bifurcation", "basin",      "spectrum", "history",
-                                                 "portrait",    "regression", "scatter"};
+                                                 "portrait",    "regression", "scatter",  "branch"};
             picture.kind = kinds[reader.choice(item, kinds)];
         } else if (key == "title") {
             picture.title = reader.toml().string(item);

@@ -4,6 +4,7 @@
 #include "graze/study/study.hpp"
 #include "model/model_file_toml.hpp"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,14 @@ StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const Study
 StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry);
 /// The values of one entry of `vary`.
 Variation read_variation(const StudyReader& reader, const Model& model, const TomlEntry& entry, bool& random);
+
+/// What only runs of kind orbit and continue say.
+void read_branch(const StudyReader& reader, StudyRun& run, const TomlEntry& entry,
+                 const std::map<std::string, TomlEntry>& keys);
+/// Remembers which parameters a run itself sets.
+void note_set(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
+/// @throws InputError for a key that runs of this kind do not use
+void check_keys_of_kind(const StudyReader& reader, RunKind kind, const std::map<std::string, TomlEntry>& keys);
 
 /// "did you mean", or all there are.
 std::string study_name_remedy(const std::string& name, const std::vector<std::string>& known);

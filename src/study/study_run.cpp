@@ -162,12 +162,17 @@ void read_start(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
     StartFrom start;
     start.place = entry.place;
     for (const TomlEntry& item :
-         reader.toml().entries(reader.toml().table(entry), entry.path, {"run", "at", "direction"})) {
+         reader.toml().entries(reader.toml().table(entry), entry.path, {"run", "at", "direction", "point", "onto"})) {
         if (item.name == "run") {
             start.run = reader.toml().string(item);
         } else if (item.name == "direction") {
             reader.choice(item, {"up", "down"});
             start.direction = reader.toml().string(item);
+        } else if (item.name == "point") {
+            start.point = item.node->is_integer() ? std::to_string(reader.count(item)) : reader.toml().string(item);
+        } else if (item.name == "onto") {
+            reader.choice(item, {"same", "other", "twin"});
+            start.onto = reader.toml().string(item);
         } else {
             const auto at = reader.toml().entries(reader.toml().table(item), item.path);
             if (at.size() != 1)
@@ -261,6 +266,8 @@ void complete(StudyRun& run, const TomlEntry& entry) {
             }
     try {
         run.simulation.validate();
+        if (run.is_branch())
+            return;
         if (run.kind == RunKind::simulate)
             run.transient.validate(model);
         else
@@ -317,12 +324,24 @@ StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const Study
                                                   "skip",
                                                   "contacts",
                                                   "events",
-                                                  "greatest_speed"}))
+                                                  "greatest_speed",
+                                                  "signature",
+                                                  "table",
+                                                  "along",
+                                                  "steps",
+                                                  "stop",
+                                                  "unphysical",
+                                                  "step",
+                                                  "free",
+                                                  "monitors",
+                                                  "accuracy"}))
         keys.emplace(item.name, std::move(item));
     if (!keys.contains("kind"))
         throw InputError(entry.place, fmt::format("{} has no kind", entry.path),
-                         "give kind = \"simulate\", \"sweep\" or \"basin\"");
-    run.kind = static_cast<RunKind>(reader.choice(keys.at("kind"), {"simulate", "sweep", "basin"}));
+                         "give kind = \"simulate\", \"sweep\", \"basin\", \"orbit\" or \"continue\"");
+    run.kind =
+        static_cast<RunKind>(reader.choice(keys.at("kind"), {"simulate", "sweep", "basin", "orbit", "continue"}));
+    check_keys_of_kind(reader, run.kind, keys);
     if (keys.contains("text"))
         run.text = reader.toml().string(keys.at("text"));
     if (keys.contains("model"))
@@ -334,8 +353,10 @@ StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const Study
         throw InputError(entry.place, fmt::format("{} has no model", entry.path), "give model = \"NAME\" or a path");
     if (defaults.set)
         set_values(reader, run.model, *defaults.set, false);
-    if (keys.contains("set"))
+    if (keys.contains("set")) {
         set_values(reader, run.model, keys.at("set"), false);
+        note_set(reader, run, keys.at("set"));
+    }
     if (keys.contains("from"))
         set_values(reader, run.model, keys.at("from"), true);
     if (keys.contains("mode")) {
@@ -366,6 +387,8 @@ StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const Study
     else if (defaults.values)
         read_values(reader, run, *defaults.values);
     complete(run, entry);
+    if (run.is_branch())
+        read_branch(reader, run, entry, keys);
     return run;
 }
 

@@ -45,7 +45,7 @@ private:
     double* numbers_;
 };
 
-bool same_operands(const Step& one, const Step& other) {
+bool same_operands(const KernelStep& one, const KernelStep& other) {
     const KernelOperands& a = one.operands;
     const KernelOperands& b = other.operands;
     return a.result == b.result && a.left == b.left && a.right == b.right && a.third == b.third && a.terms == b.terms;
@@ -91,7 +91,7 @@ private:
         double* to;
     };
 
-    void add_segment(const std::vector<Step>& steps);
+    void add_segment(const std::vector<KernelStep>& steps);
     void find_constants(const Tape& tape, const KernelTable& table);
     void compute_constants();
     void set_states(std::span<const double> states);
@@ -115,7 +115,7 @@ private:
     std::vector<KernelLink> kernels_;
     std::vector<KernelOperands> operands_;
     std::vector<Segment> segments_; ///< by order, then those of values and of rates
-    std::vector<Step> constant_code_;
+    std::vector<KernelStep> constant_code_;
     std::vector<Copy> constant_copies_; ///< to rates and outputs that are constants
     std::vector<const double*> outputs_;
     std::vector<Series> series_; ///< states and outputs
@@ -155,7 +155,7 @@ TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
     compute_constants();
 }
 
-void TapeJet::add_segment(const std::vector<Step>& steps) {
+void TapeJet::add_segment(const std::vector<KernelStep>& steps) {
     if (!segments_.empty()) {
         const Segment& last = segments_.back();
         bool same = last.count == steps.size();
@@ -196,7 +196,7 @@ void TapeJet::find_constants(const Tape& tape, const KernelTable& table) {
 
 void TapeJet::compute_constants() {
     const KernelLink end{end_of_chain};
-    for (const Step& step : constant_code_)
+    for (const KernelStep& step : constant_code_)
         step.kernel(&step.operands, &end, 0);
     for (const Copy& copy : constant_copies_)
         std::copy_n(copy.from, layout_.number, copy.to);

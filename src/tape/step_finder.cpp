@@ -27,22 +27,22 @@ StepFinder::StepFinder(const Tape& tape, const KernelTable& table, const Layout&
     find_private_rates();
 }
 
-std::vector<Step> StepFinder::steps(int order) const {
-    std::vector<Step> steps;
+std::vector<KernelStep> StepFinder::steps(int order) const {
+    std::vector<KernelStep> steps;
     if (order > 0)
         add_states(order, steps);
     add_instructions(order, std::vector<bool>(tape_.registers, true), steps);
     return steps;
 }
 
-std::vector<Step> StepFinder::value_steps() const {
-    std::vector<Step> steps;
+std::vector<KernelStep> StepFinder::value_steps() const {
+    std::vector<KernelStep> steps;
     add_instructions(0, needed_registers(tape_, true), steps);
     return steps;
 }
 
-std::vector<Step> StepFinder::rate_steps() const {
-    std::vector<Step> steps;
+std::vector<KernelStep> StepFinder::rate_steps() const {
+    std::vector<KernelStep> steps;
     add_states(1, steps);
     return steps;
 }
@@ -68,7 +68,7 @@ void StepFinder::find_private_rates() {
     }
 }
 
-void StepFinder::add_states(int order, std::vector<Step>& steps) const {
+void StepFinder::add_states(int order, std::vector<KernelStep>& steps) const {
     for (std::uint32_t i = 0; i < tape_.states; ++i) {
         const Tape::Location& rate = tape_.rates[i];
         if (rate.constant || static_cast<std::uint32_t>(order) > tape_.degrees[i])
@@ -86,11 +86,11 @@ void StepFinder::add_states(int order, std::vector<Step>& steps) const {
     }
 }
 
-void StepFinder::add_instructions(int order, const std::vector<bool>& needed, std::vector<Step>& steps) const {
+void StepFinder::add_instructions(int order, const std::vector<bool>& needed, std::vector<KernelStep>& steps) const {
     std::uint32_t reciprocals = 0;
     for (std::size_t i = 0; i < tape_.code.size(); ++i) {
         const Instruction& instruction = tape_.code[i];
-        Step step{nullptr, operands_of(instruction, reciprocals)};
+        KernelStep step{nullptr, operands_of(instruction, reciprocals)};
         if (!needed[instruction.result] || combination_of_[instruction.result] != none ||
             static_cast<std::uint32_t>(order) > tape_.degrees[instruction.result])
             continue;

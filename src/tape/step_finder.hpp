@@ -18,7 +18,7 @@ struct Layout {
 };
 
 /// A kernel and what it is called with.
-struct Step {
+struct KernelStep {
     Kernel kernel;
     KernelOperands operands;
 };
@@ -29,10 +29,10 @@ public:
     StepFinder(const Tape& tape, const KernelTable& table, const Layout& layout, double* memory,
                const std::vector<TermOperands>& terms);
 
-    std::vector<Step> steps(int order) const;
+    std::vector<KernelStep> steps(int order) const;
     /// What is needed for the values of outputs and rates, and then to make coefficient 1 of states of the rates.
-    std::vector<Step> value_steps() const;
-    std::vector<Step> rate_steps() const;
+    std::vector<KernelStep> value_steps() const;
+    std::vector<KernelStep> rate_steps() const;
 
 private:
     static constexpr std::uint32_t none = 0xffffffff;
@@ -42,8 +42,8 @@ private:
 
     /// Linear combinations that are needed for the rate of one state only are computed with that state.
     void find_private_rates();
-    void add_states(int order, std::vector<Step>& steps) const;
-    void add_instructions(int order, const std::vector<bool>& needed, std::vector<Step>& steps) const;
+    void add_states(int order, std::vector<KernelStep>& steps) const;
+    void add_instructions(int order, const std::vector<bool>& needed, std::vector<KernelStep>& steps) const;
 
     /// Whether an instruction is a sine and the next the cosine of the same argument.
     bool starts_pair(std::size_t i) const;

@@ -70,12 +70,12 @@ std::string contents(const ResultFile& file) {
 TEST_F(RunnerTest, does_once_what_is_asked_for) {
     const Study study = parse_study(text, "s.toml");
     ResultFile file(path_, ResultFile::Access::write);
-    const auto first = run_study(study, file, {.jobs = 2, .only = {}, .interrupted = {}, .progress = {}});
+    const auto first = run_study(study, file, {.jobs = 2, .only = {}, .interrupted = {}, .progress = {}, .orbit = {}});
     ASSERT_EQ(first.size(), 2u);
     EXPECT_EQ(first[0].points, 22u);
     EXPECT_EQ(first[0].computed, 22u);
     EXPECT_EQ(first[1].computed, 9u);
-    const auto second = run_study(study, file, {.jobs = 2, .only = {}, .interrupted = {}, .progress = {}});
+    const auto second = run_study(study, file, {.jobs = 2, .only = {}, .interrupted = {}, .progress = {}, .orbit = {}});
     EXPECT_EQ(second[0].computed, 0u);
     EXPECT_EQ(second[1].computed, 0u);
     EXPECT_TRUE(second[1].complete);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/branch/continuation.hpp"
+#include "graze/branch/monitor.hpp"
 #include "graze/branch/special_point.hpp"
 #include "graze/orbit/solve.hpp"
 
@@ -20,6 +21,8 @@ struct BranchSettings {
     std::optional<double> least, greatest; ///< of the parameter, where the branch ends
     ContinuationOptions continuation;
     OrbitOptions orbit;
+    std::vector<Monitor> monitors;
+    std::vector<std::size_t> free;    ///< further parameters that vary, one for each monitor that is fixed
     std::vector<PointType> stop_at;   ///< types at which the branch ends
     bool stop_when_unphysical = true; ///< ends where orbits cease to be admissible
     /// @throws InputError naming what is out of range
@@ -32,6 +35,8 @@ struct BranchPoint {
     bool stable = false; ///< all multipliers within the unit circle
     std::size_t step = 0;
     std::size_t iterations = 0;
+    std::vector<double> tangent;  ///< of the branch, in the unknowns of the shooting problem
+    std::vector<double> monitors; ///< values of those asked for
 };
 
 enum class BranchOutcome {
@@ -40,6 +45,7 @@ enum class BranchOutcome {
     stopped,        ///< at a point of a type that was to stop it
     unphysical,     ///< beyond the last special point orbits are not admissible
     closed,         ///< it has come back to its first point
+    returned,       ///< it has come back to a branch of more regular orbits: of half the period, or symmetric
     no_convergence, ///< steps have become too small
     undefined,      ///< the model is not defined beyond
     no_start,       ///< no orbit was found to start from

@@ -3,6 +3,7 @@
 #include "graze/orbit/solve.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,11 +24,14 @@ enum class PointType {
     bound,        ///< BD: a bound that was given is reached
     crossing,     ///< UZ: a monitor takes a value that was asked for
     end,          ///< EP: the first or last point of a branch
+    regular,      ///< RG: nothing happens here
 };
 /// The two letters above.
 std::string_view short_name(PointType type);
 /// In words, such as "fold".
 std::string_view name_of(PointType type);
+/// The type with these two letters, if there is one.
+std::optional<PointType> point_type(std::string_view short_name);
 
 /// A point of a branch at which something happens, located between two computed ones.
 struct SpecialPoint {
@@ -40,6 +44,7 @@ struct SpecialPoint {
     double arclength = 0;
     std::size_t step = 0;        ///< of the branch: found between this one and the one before
     std::vector<double> tangent; ///< of the branch, in the unknowns of the shooting problem
+    std::vector<double> monitors;
     // Of grazing, two_events, vanishing and guard:
     std::size_t segment = 0, event = 0;
     double time = 0;     ///< since the segment's start

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/results/orbit_record.hpp"
 #include "graze/sweep/attractor.hpp"
 
 #include <cstddef>
@@ -21,18 +22,22 @@ enum class RunStatus { unfinished, complete };
 /// What is known of a run besides its points.
 struct RunRecord {
     std::string name; ///< letters, digits, '.', '_' and '-'
-    std::string kind; ///< simulate, sweep, basin
+    std::string kind; ///< simulate, sweep, basin, orbit, continue
     std::string model_name;
-    std::string model;                     ///< text of the model file, whole, as run
-    std::string settings;                  ///< JSON object
-    std::string fingerprint;               ///< changes when anything does that the numbers depend on
-    std::string version;                   ///< of graze
-    std::vector<ResultColumn> coordinates; ///< what varies from point to point: parameters, initial states
+    std::string model;       ///< text of the model file, whole, as run
+    std::string settings;    ///< JSON object
+    std::string fingerprint; ///< changes when anything does that the numbers depend on
+    std::string version;     ///< of graze
+    /// What varies from point to point: parameters, initial states. Of orbits all parameters, first the one that is
+    /// followed.
+    std::vector<ResultColumn> coordinates;
     std::vector<ResultColumn> states;
-    std::vector<ResultColumn> values; ///< of samples
+    std::vector<ResultColumn> values; ///< of samples; of orbits the monitors
     std::vector<std::string> samplings, modes, directions;
     std::size_t points = 0; ///< planned
     RunStatus status = RunStatus::unfinished;
+
+    bool is_branch() const { return kind == "orbit" || kind == "continue"; }
 };
 
 /// One point with what was found there.
@@ -65,6 +70,8 @@ public:
     void remove_run(const std::string& name);
     /// Adds a point to a run. Written for good within a second, or by `flush`.
     void add_point(const std::string& run, const PointRecord& point);
+    /// Adds an orbit to a run of kind orbit or continue.
+    void add_orbit(const std::string& run, const OrbitRecord& orbit);
     void flush();
     /// Marks a run as complete.
     void complete_run(const std::string& run);
@@ -78,6 +85,13 @@ public:
     /// The point of a run whose coordinate is nearest to a value, among those of one direction (or all).
     std::optional<PointRecord> nearest_point(const std::string& run, const std::string& coordinate, double value,
                                              std::optional<std::size_t> direction) const;
+
+    /// The orbits of a run of kind orbit or continue, in their order. @param special only those where something happens
+    std::vector<OrbitRecord> orbits(const std::string& run, bool special) const;
+    /// One of them, by its number.
+    std::optional<OrbitRecord> orbit(const std::string& run, std::size_t number) const;
+    /// One of them, by its label, such as "GR1".
+    std::optional<OrbitRecord> orbit(const std::string& run, const std::string& label) const;
 
     /// Rows of a query, for pictures, exports and tables: numbers, texts, or nothing.
     class Rows {
@@ -108,6 +122,8 @@ public:
 
 private:
     struct State;
+    std::vector<OrbitRecord> read_orbits(const std::string& run, const std::string& where, double number,
+                                         const std::string& label) const;
     std::unique_ptr<State> state_;
 };
 

@@ -18,6 +18,8 @@ struct RunnerOptions {
     std::function<bool()> interrupted; ///< called from any thread
     /// Points of all runs done so far, and in all; of the run in progress its name. Called from one thread at a time.
     std::function<void(const std::string& run, std::size_t done, std::size_t all)> progress;
+    /// Each orbit of a run of kind orbit or continue, as it is found.
+    std::function<void(const std::string& run, const OrbitRecord& orbit)> orbit;
 };
 
 /// What has become of one run.
@@ -39,7 +41,7 @@ std::size_t direction_of(const StudyRun& run, std::size_t point);
 std::string settings_of(const StudyRun& run);
 
 /// Does what a study asks for, and keeps it. Complete runs whose settings have not changed are left as they are,
-/// unfinished ones are gone on with, and others are done anew.
+/// unfinished ones are gone on with (branches, which take little time, begun again), and others are done anew.
 /// @return reports of the runs, in their order; the last may be unfinished when it was interrupted
 /// @throws InputError when the file cannot be written, or a run finds nothing to start from
 std::vector<RunReport> run_study(const Study& study, ResultFile& file, const RunnerOptions& options);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/branch/orbit_branch.hpp"
 #include "graze/model/model.hpp"
 #include "graze/sweep/attractor.hpp"
 #include "graze/sweep/sampling.hpp"
@@ -15,7 +16,7 @@
 
 namespace graze {
 
-enum class RunKind { simulate, sweep, basin };
+enum class RunKind { simulate, sweep, basin, orbit, follow }; ///< the last is called "continue" in studies
 std::string_view name_of(RunKind kind);
 
 /// Something that varies from point to point: a parameter or an initial state.
@@ -38,7 +39,18 @@ struct StartFrom {
     std::optional<std::string> coordinate; ///< the point nearest to `value`; none: its last point
     double value = 0;
     std::optional<std::string> direction; ///< "up" or "down"
+    std::string point;                    ///< of runs of orbits: a label such as "GR1", or a number
+    std::string onto;                     ///< "same", "other", "twin", or empty: chosen by type and parameter
     Place place;
+};
+
+/// What runs of kind orbit and continue ask for besides.
+struct BranchRequest {
+    std::string signature; ///< of the orbit; empty: whatever is found
+    Place signature_place;
+    std::string table;            ///< file of a motion to start from; empty: none
+    std::vector<std::size_t> set; ///< parameters that the run itself sets, rather than the orbit that it starts from
+    BranchSettings settings;
 };
 
 /// One named computation.
@@ -50,21 +62,24 @@ struct StudyRun {
     std::vector<Variation> axes; ///< the first is swept along, the others make chains. Lists vary as a grid
     std::size_t draws = 0;       ///< points drawn at random (times the grid of the lists); 0: none
     std::uint64_t seed = 1;
-    SweepDirection direction = SweepDirection::up;
-    bool carry = true; ///< sweeps: states are carried along
+    SweepDirection direction = SweepDirection::up; ///< also of branches, at first
+    bool carry = true;                             ///< sweeps: states are carried along
     std::optional<StartFrom> start;
     AttractorOptions attractor; ///< of sweeps and basins
     TransientOptions transient; ///< of simulations
+    BranchRequest branch;       ///< of orbits and their branches
     SimulationOptions simulation;
     std::vector<Sampling> samplings;
     std::vector<std::string> value_names, value_units;
     std::vector<Expression> values; ///< in states and parameters
+
+    bool is_branch() const { return kind == RunKind::orbit || kind == RunKind::follow; }
 };
 
 /// One picture or table made from runs. What is not said is chosen by `kind` and the run.
 struct StudyPicture {
     std::string name, kind,
-        title; ///< kind: bifurcation, basin, spectrum, history, portrait, regression, scatter, table
+        title; ///< kind: bifurcation, branch, basin, spectrum, history, portrait, regression, scatter, table
     std::vector<std::string> runs;
     std::string x;                                                  ///< coordinate or value
     std::vector<std::string> y;                                     ///< values, one panel each
@@ -72,6 +87,7 @@ struct StudyPicture {
     std::vector<std::string> directions;                            ///< of sweeps; empty: all
     std::optional<std::pair<double, double>> x_range, y_range, fit; ///< fit: range of x of a regression
     std::vector<std::pair<std::string, double>> at; ///< points nearest to these, of histories, portraits, spectra
+    std::vector<std::string> points; ///< of histories and portraits of branches: labels, or numbers, of orbits
     bool logarithmic_x = false, logarithmic_y = false;
     bool successive = false; ///< regression: each value against the one before it in the same point
     std::string group;       ///< coordinate by which a regression is split

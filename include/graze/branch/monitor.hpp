@@ -1,0 +1,59 @@
+#pragma once
+
+#include "graze/orbit/orbit.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace graze {
+
+/// A number of an orbit that is watched along a branch, or held.
+struct Monitor {
+    enum class Kind {
+        value,    ///< of the expression at the end of a segment, before the jump
+        start,    ///< of the expression at the start of a segment
+        duration, ///< of a segment, or the period
+        maximum,  ///< of the expression
+        minimum,
+        mean, ///< of the expression over time
+        norm, ///< root of its mean square
+    };
+    std::string name, unit;
+    Kind kind = Kind::duration;
+    Expression expression; ///< in states and independent parameters; not of durations
+    /// Which segment: its number (from 1), or the name of what ends it, as "J1", with "#2" for the second of that name.
+    /// Empty: the whole orbit; of values at ends and starts the first segment.
+    std::string segment;
+
+    bool fixed = false;                    ///< held along the branch, which frees another parameter
+    std::optional<double> held;            ///< at this value; none: the one of the candidate
+    std::vector<double> crossings;         ///< values to be reported when they are taken
+    std::optional<double> least, greatest; ///< bounds at which a branch ends
+};
+
+/// Evaluates monitors of orbits of one signature. Extrema and means are those of the Taylor polynomials of the motion:
+/// as accurate as the orbit itself.
+class OrbitMonitors {
+public:
+    /// @param model must outlive this
+    /// @throws InputError for a segment that the signature does not have
+    OrbitMonitors(const Model& model, const Signature& signature, std::vector<Monitor> monitors,
+                  double tolerance = 1e-13);
+    ~OrbitMonitors();
+    OrbitMonitors(OrbitMonitors&&) noexcept;
+
+    const std::vector<Monitor>& monitors() const;
+    /// Index of a monitor's segment; none: the whole orbit.
+    std::optional<std::size_t> segment(std::size_t monitor) const;
+    /// One value for each, NaN where it is not defined.
+    std::vector<double> operator()(const Orbit& orbit);
+
+private:
+    class Evaluator;
+    std::unique_ptr<Evaluator> evaluator_;
+};
+
+} // namespace graze

@@ -1,0 +1,229 @@
+#include "graze/branch/monitor.hpp"
+
+#include "graze/flow/roots.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "orbit/arc_flow.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+bool is_along_arcs(Monitor::Kind kind) {
+    return kind == Monitor::Kind::maximum || kind == Monitor::Kind::minimum || kind == Monitor::Kind::mean ||
+           kind == Monitor::Kind::norm;
+}
+
+/// Of a number "2", a name "J1" or the second of a name "J1#2" the index of the segment.
+std::size_t segment_named(const Model& model, const Signature& signature, const Monitor& monitor) {
+    const std::string& text = monitor.segment;
+    const auto number = [](std::string_view digits) -> std::optional<std::size_t> {
+        std::size_t value = 0;
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        return error == std::errc() && end == digits.data() + digits.size() ? std::optional(value) : std::nullopt;
+    };
+    const auto fail = [&]() -> std::size_t {
+        throw InputError(fmt::format("monitor '{}': the orbit has no segment '{}'", monitor.name, text),
+                         fmt::format("its signature is {}; give a number from 1 to {}, or a name in it",
+                                     to_string(model, signature), signature.size()));
+    };
+    if (const auto place = number(text))
+        return *place >= 1 && *place <= signature.size() ? *place - 1 : fail();
+    const std::size_t mark = text.find('#');
+    std::size_t wanted = 1;
+    if (mark != std::string::npos)
+        wanted = number(std::string_view(text).substr(mark + 1)).value_or(0);
+    for (std::size_t s = 0; s < signature.size(); ++s)
+        if (end_name(model, signature[s]) == text.substr(0, mark) && wanted > 0 && --wanted == 0)
+            return s;
+    return fail();
+}
+
+} // namespace
+
+class OrbitMonitors::Evaluator {
+public:
+    Evaluator(const Model& model, const Signature& signature, std::vector<Monitor> monitors, double tolerance)
+        : monitors_(std::move(monitors)), model_(&model), simulation_(model, {}, observed(), options(tolerance)),
+          flow_(simulation_, {}), roots_(simulation_.order()) {
+        std::vector<Expression> inputs = model.state_symbols();
+        for (const Expression& symbol : model.parameter_symbols())
+            inputs.push_back(symbol);
+        for (const Monitor& monitor : monitors_) {
+            const bool at_point = monitor.kind == Monitor::Kind::value || monitor.kind == Monitor::Kind::start;
+            segments_.push_back(monitor.segment.empty() ? std::optional<std::size_t>()
+                                                        : segment_named(model, signature, monitor));
+            if (at_point && !segments_.back())
+                segments_.back() = 0;
+            functions_.emplace_back(inputs, std::vector<Expression>{at_point ? monitor.expression : model.number(0)});
+        }
+    }
+
+    const std::vector<Monitor>& monitors() const { return monitors_; }
+    std::optional<std::size_t> segment(std::size_t monitor) const { return segments_[monitor]; }
+
+    std::vector<double> values(const Orbit& orbit) {
+        totals_.assign(monitors_.size(), {});
+        values_.assign(monitors_.size(), std::numeric_limits<double>::quiet_NaN());
+        flow_.set_parameters(orbit.parameters);
+        for (std::size_t s = 0; s < orbit.segments(); ++s)
+            follow(orbit, s, [&](std::size_t m) { return segments_[m] ? *segments_[m] == s : !orbit.symmetry; });
+        const auto is_whole = [&](std::size_t m) { return !segments_[m]; };
+        if (orbit.symmetry && any_whole()) {
+            const Orbit whole = whole_orbit(*model_, orbit);
+            for (std::size_t s = 0; s < whole.segments(); ++s)
+                follow(whole, s, is_whole);
+        }
+        for (std::size_t m = 0; m < monitors_.size(); ++m)
+            values_[m] = value_of(m, orbit);
+        return values_;
+    }
+
+private:
+    /// What is gathered step by step.
+    struct Total {
+        double least = std::numeric_limits<double>::infinity();
+        double greatest = -std::numeric_limits<double>::infinity();
+        double integral = 0, time = 0;
+    };
+
+    static SimulationOptions options(double tolerance) {
+        SimulationOptions result;
+        result.tolerance = tolerance;
+        return result;
+    }
+    /// Series wanted along arcs, one for each monitor that has any.
+    std::vector<Expression> observed() {
+        std::vector<Expression> result;
+        for (const Monitor& monitor : monitors_)
+            if (is_along_arcs(monitor.kind)) {
+                series_.push_back(result.size());
+                result.push_back(monitor.kind == Monitor::Kind::norm ? monitor.expression * monitor.expression
+                                                                     : monitor.expression);
+            } else {
+                series_.push_back(0);
+            }
+        return result;
+    }
+    bool any_whole() const {
+        for (std::size_t m = 0; m < monitors_.size(); ++m)
+            if (!segments_[m] && is_along_arcs(monitors_[m].kind))
+                return true;
+        return false;
+    }
+
+    /// Follows a segment for those monitors that want it.
+    template <class Wanted>
+    void follow(const Orbit& orbit, std::size_t s, const Wanted& wanted) {
+        bool arcs = false, end = false;
+        for (std::size_t m = 0; m < monitors_.size(); ++m) {
+            if (!wanted(m))
+                continue;
+            arcs = arcs || is_along_arcs(monitors_[m].kind);
+            end = end || monitors_[m].kind == Monitor::Kind::value;
+            if (monitors_[m].kind == Monitor::Kind::start)
+                values_[m] = at(m, orbit.starts[s], orbit);
+        }
+        if (!arcs && !end)
+            return;
+        const std::size_t mode = orbit.signature[s].mode;
+        const std::size_t events = simulation_.compiled().mode(mode).watched.size();
+        std::vector<double> state = orbit.starts[s];
+        flow_.run(mode, state, orbit.durations[s], [&](const Jet& jet, double, double length) {
+            for (std::size_t m = 0; m < monitors_.size(); ++m)
+                if (is_along_arcs(monitors_[m].kind) && wanted(m))
+                    gather(m, jet.output(events + series_[m]), length);
+        });
+        for (std::size_t m = 0; m < monitors_.size(); ++m)
+            if (monitors_[m].kind == Monitor::Kind::value && wanted(m))
+                values_[m] = at(m, state, orbit);
+    }
+
+    double at(std::size_t m, std::vector<double> state, const Orbit& orbit) const {
+        state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
+        return functions_[m](state)[0];
+    }
+
+    void gather(std::size_t m, const double* series, double length) {
+        Total& total = totals_[m];
+        const auto count = static_cast<std::size_t>(simulation_.order()) + 1;
+        coefficients_.assign(series, series + count);
+        const Monitor::Kind kind = monitors_[m].kind;
+        if (kind == Monitor::Kind::mean || kind == Monitor::Kind::norm) {
+            double sum = 0;
+            for (std::size_t k = count; k-- > 0;)
+                sum = sum * length + coefficients_[k] / static_cast<double>(k + 1);
+            total.integral += sum * length;
+            total.time += length;
+            return;
+        }
+        const auto note = [&](double value) {
+            total.least = std::min(total.least, value);
+            total.greatest = std::max(total.greatest, value);
+        };
+        note(coefficients_[0]);
+        note(evaluate_polynomial(coefficients_, length));
+        if (length < 0)
+            return; // of a segment that has no meaning, the ends are enough
+        derivative_.clear();
+        for (std::size_t k = 1; k < count; ++k)
+            derivative_.push_back(static_cast<double>(k) * coefficients_[k]);
+        roots_.crossings(derivative_, length, RootStart::as_is, found_);
+        for (const Root& root : found_)
+            note(evaluate_polynomial(coefficients_, root.at));
+    }
+
+    double value_of(std::size_t m, const Orbit& orbit) const {
+        const Total& total = totals_[m];
+        switch (monitors_[m].kind) {
+        case Monitor::Kind::duration:
+            return segments_[m] ? orbit.durations[*segments_[m]] : orbit.period();
+        case Monitor::Kind::maximum:
+            return std::isfinite(total.greatest) ? total.greatest : values_[m];
+        case Monitor::Kind::minimum:
+            return std::isfinite(total.least) ? total.least : values_[m];
+        case Monitor::Kind::mean:
+            return total.integral / total.time;
+        case Monitor::Kind::norm:
+            return std::sqrt(total.integral / total.time);
+        default:
+            return values_[m];
+        }
+    }
+
+    std::vector<Monitor> monitors_;
+    std::vector<std::size_t> series_; ///< among the observed, of those along arcs
+    const Model* model_;
+    Simulation simulation_;
+    ArcFlow flow_;
+    RootFinder roots_;
+    std::vector<std::optional<std::size_t>> segments_;
+    std::vector<Function> functions_;
+    std::vector<Total> totals_;
+    std::vector<double> values_, coefficients_, derivative_;
+    std::vector<Root> found_;
+};
+
+OrbitMonitors::OrbitMonitors(const Model& model, const Signature& signature, std::vector<Monitor> monitors,
+                             double tolerance)
+    : evaluator_(std::make_unique<Evaluator>(model, signature, std::move(monitors), tolerance)) {}
+OrbitMonitors::~OrbitMonitors() = default;
+OrbitMonitors::OrbitMonitors(OrbitMonitors&&) noexcept = default;
+
+const std::vector<Monitor>& OrbitMonitors::monitors() const {
+    return evaluator_->monitors();
+}
+std::optional<std::size_t> OrbitMonitors::segment(std::size_t monitor) const {
+    return evaluator_->segment(monitor);
+}
+std::vector<double> OrbitMonitors::operator()(const Orbit& orbit) {
+    return evaluator_->values(orbit);
+}
+
+} // namespace graze

@@ -1,0 +1,259 @@
+#include "graze/model/model_file.hpp"
+#include "results/point_rows.hpp"
+#include "results/result_file_state.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace graze {
+
+std::size_t unstable_directions(const OrbitSolution& solution) {
+    return static_cast<std::size_t>(std::count_if(solution.multipliers.begin(), solution.multipliers.end(),
+                                                  [](auto one) { return std::abs(one) > 1; }));
+}
+
+namespace {
+
+OrbitOutcome outcome_named(const std::string& name) {
+    for (int i = 0; i <= static_cast<int>(OrbitOutcome::undefined); ++i)
+        if (name == name_of(static_cast<OrbitOutcome>(i)))
+            return static_cast<OrbitOutcome>(i);
+    return OrbitOutcome::not_converged;
+}
+
+/// Where the parameters of a run's columns are among the model's.
+std::vector<std::size_t> parameter_places(const Model& model, const RunRecord& run) {
+    const auto symbols = model.parameter_symbols();
+    std::vector<std::size_t> places;
+    for (const ResultColumn& column : run.coordinates)
+        places.push_back(static_cast<std::size_t>(
+            std::find_if(symbols.begin(), symbols.end(), [&](const auto& one) { return one.name() == column.name; }) -
+            symbols.begin()));
+    return places;
+}
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); ///< what is not finite is NULL in the file
+
+/// Binds a row's columns one after the other.
+class Columns {
+public:
+    explicit Columns(Statement& row) : row_(&row) {}
+    template <class Value>
+    Columns& add(Value value) {
+        row_->bind(at_++, value);
+        return *this;
+    }
+    /// Nothing, if it is empty. The text must live until the row has been written.
+    Columns& add_text(const std::string& text) {
+        text.empty() ? row_->bind_null(at_) : row_->bind(at_, std::string_view(text));
+        ++at_;
+        return *this;
+    }
+
+private:
+    Statement* row_;
+    int at_ = 1;
+};
+
+bool is_of_event(PointType type) {
+    return type == PointType::grazing || type == PointType::two_events || type == PointType::vanishing ||
+           type == PointType::guard;
+}
+
+void write_row(Statement& row, const Model& model, const RunRecord& run, const OrbitRecord& record) {
+    const SpecialPoint& point = record.point;
+    const OrbitSolution& solution = point.solution;
+    const Orbit& orbit = solution.orbit;
+    const std::string_view type = short_name(point.type), outcome = name_of(solution.outcome);
+    const std::string signature = to_string(model, orbit.signature);
+    const std::string symmetry = orbit.symmetry ? model.symmetries[*orbit.symmetry].name : "";
+    const std::string tangent = fmt::format("[{}]", fmt::join(point.tangent, ","));
+    Columns columns(row);
+    columns.add(record.number).add(std::string_view(record.part)).add(point.step).add(type).add_text(record.label);
+    for (const std::size_t place : parameter_places(model, run))
+        columns.add(orbit.parameters[place]);
+    columns.add(orbit.period());
+    for (std::size_t m = 0; m < run.values.size(); ++m)
+        columns.add(m < point.monitors.size() ? point.monitors[m] : nothing);
+    columns.add(std::string_view(signature)).add_text(symmetry);
+    columns.add(std::int64_t{record.stable}).add(unstable_directions(solution));
+    columns.add(std::int64_t{solution.certificate.admissible}).add_text(solution.certificate.reason).add(outcome);
+    columns.add_text(point.detail).add(solution.residual).add(solution.error.value_or(nothing));
+    columns.add(solution.iterations).add(point.arclength).add(std::int64_t{point.located});
+    columns.add(point.bracket.first).add(point.bracket.second);
+    if (is_of_event(point.type))
+        columns.add(std::string_view(model.events[point.event].name))
+            .add(point.segment + 1)
+            .add(point.time)
+            .add(std::int64_t{point.at_end});
+    else
+        columns.add(nothing).add(nothing).add(nothing).add(nothing);
+    columns.add(std::string_view(tangent));
+    row.run();
+}
+
+void write_segments(Statement& row, const Model& model, const OrbitRecord& record) {
+    const OrbitSolution& solution = record.point.solution;
+    const Certificate& certificate = solution.certificate;
+    const auto value = [](const std::vector<double>& values, std::size_t s) {
+        return s < values.size() ? values[s] : nothing;
+    };
+    for (std::size_t s = 0; s < solution.orbit.segments(); ++s) {
+        const Segment& segment = solution.orbit.signature[s];
+        row.bind(1, record.number).bind(2, s + 1).bind(3, std::string_view(model.modes[segment.mode].name));
+        row.bind(4, std::string_view(end_name(model, segment))).bind(5, solution.orbit.durations[s]);
+        row.bind(6, value(certificate.approach_speeds, s)).bind(7, value(certificate.departures, s));
+        row.bind(8, value(certificate.guard_margins, s)); // NULL where there is no other way
+        for (std::size_t i = 0; i < solution.orbit.starts[s].size(); ++i)
+            row.bind(9 + static_cast<int>(i), solution.orbit.starts[s][i]);
+        row.run();
+    }
+}
+
+std::vector<double> numbers_of(const std::string& json) {
+    std::istringstream text(json.substr(std::min<std::size_t>(1, json.size())));
+    std::vector<double> values;
+    double value = 0;
+    for (char separator = ','; separator == ',' && text >> value; text >> separator)
+        values.push_back(value);
+    return values;
+}
+
+/// A row without segments and multipliers.
+OrbitRecord read_row(const Statement& row, const Model& model, const RunRecord& run) {
+    OrbitRecord record;
+    SpecialPoint& point = record.point;
+    OrbitSolution& solution = point.solution;
+    Orbit& orbit = solution.orbit;
+    const auto index = [&](int column) { return static_cast<std::size_t>(row.integer(column)); };
+    record.number = index(0);
+    record.part = row.text(1);
+    point.step = index(2);
+    point.type = point_type(row.text(3)).value_or(PointType::regular);
+    record.label = row.text(4);
+    orbit.parameters = model.parameter_values();
+    int at = 5;
+    for (const std::size_t place : parameter_places(model, run))
+        orbit.parameters[place] = row.number(at++);
+    point.parameter = run.coordinates.empty() ? 0 : row.number(5);
+    ++at; // the period follows from the segments
+    for (std::size_t m = 0; m < run.values.size(); ++m, ++at)
+        point.monitors.push_back(row.is_null(at) ? std::numeric_limits<double>::quiet_NaN() : row.number(at));
+    orbit.signature = parse_signature(model, row.text(at++));
+    if (const std::string name = row.text(at++); !name.empty())
+        for (std::size_t i = 0; i < model.symmetries.size(); ++i)
+            if (model.symmetries[i].name == name)
+                orbit.symmetry = i;
+    record.stable = row.integer(at++) != 0;
+    ++at; // so does the number of unstable directions from the multipliers
+    solution.certificate.admissible = row.integer(at++) != 0;
+    solution.certificate.reason = row.text(at++);
+    solution.outcome = outcome_named(row.text(at++));
+    point.detail = row.text(at++);
+    solution.residual = row.number(at++);
+    if (!row.is_null(at))
+        solution.error = row.number(at);
+    ++at;
+    solution.iterations = index(at++);
+    point.arclength = row.number(at++);
+    point.located = row.integer(at++) != 0;
+    point.bracket = {row.number(at), row.number(at + 1)};
+    at += 2;
+    if (const auto event = model.find_event(row.text(at)); event && !row.is_null(at)) {
+        point.event = *event;
+        point.segment = index(at + 1) - 1;
+        point.time = row.number(at + 2);
+        point.at_end = row.integer(at + 3) != 0;
+    }
+    point.tangent = numbers_of(row.text(at + 4));
+    return record;
+}
+
+} // namespace
+
+void ResultFile::add_orbit(const std::string& name, const OrbitRecord& record) {
+    auto& [run, tables, insert_point, insert_segment, insert_multiplier, model] = state_->writer_of(*this, name);
+    if (!run.is_branch())
+        throw InputError(fmt::format("run '{}' is of kind {}", name, run.kind), "orbits belong to orbit and continue");
+    if (!model)
+        model = parse_model(run.model, run.name + ".toml");
+    state_->begin();
+    try {
+        write_row(insert_point, *model, run, record);
+        write_segments(insert_segment, *model, record);
+        const auto& multipliers = record.point.solution.multipliers;
+        for (std::size_t m = 0; m < multipliers.size(); ++m)
+            insert_multiplier.bind(1, std::string_view(name))
+                .bind(2, record.number)
+                .bind(3, m)
+                .bind(4, multipliers[m].real())
+                .bind(5, multipliers[m].imag())
+                .run();
+        state_->commit_when_due();
+    } catch (...) {
+        state_->sqlite_rollback();
+        state_->writer.reset();
+        throw;
+    }
+}
+
+std::vector<OrbitRecord> ResultFile::read_orbits(const std::string& name, const std::string& where, double number,
+                                                 const std::string& label) const {
+    std::vector<OrbitRecord> records;
+    const auto run = find_run(name);
+    if (!run || !run->is_branch())
+        return records;
+    const RunTables tables(*run);
+    const Model model = parse_model(run->model, run->name + ".toml");
+    Statement row = state_->database.prepare(
+        fmt::format("{} WHERE (?1 >= -1 OR ?2 = '') AND {} ORDER BY number", tables.select_point(), where));
+    row.bind(1, number).bind(2, std::string_view(label));
+    Statement segments =
+        state_->database.prepare(fmt::format("SELECT * FROM {} WHERE point = ? ORDER BY segment", tables.samples));
+    Statement multipliers = state_->database.prepare(
+        "SELECT real, imaginary FROM multipliers WHERE run = ? AND point = ? ORDER BY position");
+    while (row.step()) {
+        OrbitRecord record = read_row(row, model, *run);
+        OrbitSolution& solution = record.point.solution;
+        Certificate& certificate = solution.certificate;
+        segments.bind(1, record.number);
+        while (segments.step()) {
+            solution.orbit.durations.push_back(segments.number(4));
+            certificate.approach_speeds.push_back(segments.number(5));
+            certificate.departures.push_back(segments.number(6));
+            certificate.guard_margins.push_back(segments.is_null(7) ? std::numeric_limits<double>::infinity()
+                                                                    : segments.number(7));
+            std::vector<double>& start = solution.orbit.starts.emplace_back();
+            for (std::size_t i = 0; i < run->states.size(); ++i)
+                start.push_back(segments.number(8 + static_cast<int>(i)));
+        }
+        segments.reset();
+        multipliers.bind(1, std::string_view(name)).bind(2, record.number);
+        while (multipliers.step())
+            solution.multipliers.emplace_back(multipliers.number(0), multipliers.number(1));
+        multipliers.reset();
+        records.push_back(std::move(record));
+    }
+    return records;
+}
+
+std::vector<OrbitRecord> ResultFile::orbits(const std::string& run, bool special) const {
+    return read_orbits(run, special ? "type <> 'RG'" : "1", -1, "");
+}
+
+std::optional<OrbitRecord> ResultFile::orbit(const std::string& run, std::size_t number) const {
+    auto found = read_orbits(run, "number = ?1", static_cast<double>(number), "");
+    return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
+}
+
+std::optional<OrbitRecord> ResultFile::orbit(const std::string& run, const std::string& label) const {
+    auto found = read_orbits(run, "label = ?2", -1, label);
+    return found.empty() ? std::nullopt : std::optional(std::move(found.front()));
+}
+
+} // namespace graze

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "graze/results/result_file.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "results/database.hpp"
+#include "results/schema.hpp"
+#include "results/write_lock.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+namespace graze {
+
+/// The connection, and the transaction in which points are written.
+struct ResultFile::State {
+    using Clock = std::chrono::steady_clock;
+    static constexpr auto between_commits = std::chrono::milliseconds(50);
+
+    std::unique_ptr<WriteLock> lock; ///< outlives the connection
+    Database database;
+    bool in_transaction = false;
+    Clock::time_point begun{};
+    struct Writer {
+        RunRecord run;
+        RunTables tables;
+        Statement point, sample, multiplier; ///< sample: of a branch, its orbits' segments
+        std::optional<Model> model;          ///< of a branch, once an orbit has been written
+    };
+    std::unique_ptr<Writer> writer; ///< of the run that was written to last
+
+    void begin() {
+        if (in_transaction)
+            return;
+        database.execute("BEGIN IMMEDIATE");
+        in_transaction = true;
+        begun = Clock::now();
+    }
+    /// The writer of a run. @throws InputError when there is no such run
+    Writer& writer_of(const ResultFile& file, const std::string& name) {
+        if (!writer || writer->run.name != name) {
+            const auto run = file.find_run(name);
+            if (!run)
+                throw InputError(fmt::format("there is no run '{}'", name), "begin it first");
+            const RunTables tables(*run);
+            writer = std::make_unique<Writer>(
+                Writer{*run, tables, database.prepare(tables.insert_point()), database.prepare(tables.insert_sample()),
+                       database.prepare("INSERT INTO multipliers VALUES(?,?,?,?,?)"), std::nullopt});
+        }
+        return *writer;
+    }
+    void commit_when_due() {
+        if (Clock::now() - begun > between_commits)
+            commit();
+    }
+    void commit() {
+        if (!in_transaction)
+            return;
+        database.execute("COMMIT");
+        in_transaction = false;
+    }
+    /// Runs several statements as one. @param change is given nothing
+    template <class Change>
+    void at_once(Change change) {
+        commit();
+        database.execute("BEGIN IMMEDIATE");
+        try {
+            change();
+            database.execute("COMMIT");
+        } catch (...) {
+            sqlite_rollback();
+            throw;
+        }
+    }
+    void sqlite_rollback() noexcept {
+        try {
+            database.execute("ROLLBACK");
+        } catch (...) { // the error that led here has ended the transaction already
+        }
+        in_transaction = false;
+    }
+};
+
+} // namespace graze

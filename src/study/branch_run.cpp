@@ -1,0 +1,368 @@
+#include "study/branch_run.hpp"
+
+#include "graze/branch/switching.hpp"
+#include "graze/orbit/orbit_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace graze {
+
+namespace {
+
+/// A branch, or half of one, that a run follows.
+struct Part {
+    std::string name;
+    Orbit orbit;
+    std::optional<BranchStart> onto; ///< along this rather than along the branch through the orbit
+    int direction = 1;
+};
+
+/// Messages of numerical functions, with the place of the run.
+template <class Work>
+auto at_place(const Place& place, const StudyRun& run, const Work& work) {
+    try {
+        return work();
+    } catch (const InputError& error) {
+        if (!error.place().file.empty())
+            throw;
+        throw InputError(place, fmt::format("run '{}': {}", run.name, error.problem()), error.remedy());
+    }
+}
+
+/// A candidate with the signature that is asked for: the first motion from the initial state that has it.
+Orbit guess_with_signature(const StudyRun& run) {
+    const Signature wanted = parse_signature(run.model, run.branch.signature, run.branch.signature_place);
+    const Simulation simulation(run.model, {}, {}, run.simulation);
+    constexpr double first_time = 1e-6, longest_time = 1e9;
+    for (double time = first_time; time < longest_time; time *= 4) {
+        const FollowedMotion motion = follow_motion(simulation, run.model.parameter_values(), run.model.initial_state(),
+                                                    run.model.initial_mode, time);
+        for (std::size_t first = 0; first + wanted.size() <= motion.segments.size(); ++first)
+            if (std::equal(wanted.begin(), wanted.end(),
+                           motion.segments.begin() + static_cast<std::ptrdiff_t>(first))) {
+                const auto from = static_cast<std::ptrdiff_t>(first),
+                           to = from + static_cast<std::ptrdiff_t>(wanted.size());
+                return {wanted,
+                        run.model.parameter_values(),
+                        {motion.starts.begin() + from, motion.starts.begin() + to},
+                        {motion.durations.begin() + from, motion.durations.begin() + to},
+                        std::nullopt};
+            }
+        constexpr std::size_t enough = 1000;
+        if (!motion.problem.empty() || motion.segments.size() > enough + wanted.size())
+            break;
+    }
+    throw InputError(
+        run.branch.signature_place,
+        fmt::format("the motion from the initial state does not have the signature '{}'", run.branch.signature),
+        "begin elsewhere by `from` and `mode`, or give a table of the motion");
+}
+
+/// What simulation settles on, from the model's initial state.
+OrbitSolution settled(const StudyRun& run, const Model& model) {
+    return at_place(run.place, run,
+                    [&] { return find_orbit(model, run.attractor, run.branch.settings.orbit, run.simulation); });
+}
+
+OrbitSolution solved(const StudyRun& run, const Orbit& candidate) {
+    return at_place(run.place, run, [&] { return solve_orbit(run.model, candidate, run.branch.settings.orbit); });
+}
+
+/// The model with the parameters and the state of a point of a sweep.
+Model model_at(const StudyRun& run, const StudyRun& parent, const PointRecord& point) {
+    Model model = run.model;
+    const auto symbols = model.parameter_symbols();
+    for (std::size_t c = 0; c < parent.axes.size(); ++c)
+        if (!parent.axes[c].is_state &&
+            std::find(run.branch.set.begin(), run.branch.set.end(), parent.axes[c].index) == run.branch.set.end())
+            model.set_parameter(symbols[parent.axes[c].index].name(), point.coordinates[c]);
+    for (std::size_t i = 0; i < model.states.size(); ++i)
+        model.set_initial(model.states[i].name, point.result.state[i]);
+    model.set_initial_mode(model.modes[point.result.mode].name);
+    return model;
+}
+
+const StudyRun& run_named(const Study& study, const std::string& name) {
+    return *std::find_if(study.runs.begin(), study.runs.end(), [&](const StudyRun& run) { return run.name == name; });
+}
+
+/// An orbit of an earlier run, at the parameters that this run sets.
+Orbit taken_over(const StudyRun& run, Orbit orbit) {
+    const std::vector<double> values = run.model.parameter_values();
+    for (const std::size_t parameter : run.branch.set)
+        orbit.parameters[parameter] = values[parameter];
+    return orbit;
+}
+
+bool leads_on(PointType type) {
+    return type == PointType::flip || type == PointType::branch_point || type == PointType::grazing;
+}
+
+std::vector<Part> both_directions(const StudyRun& run, const Orbit& orbit) {
+    std::vector<Part> parts;
+    for (const std::string& name : direction_names(run))
+        parts.push_back({name, orbit, std::nullopt, name == "down" ? -1 : 1});
+    return parts;
+}
+
+Orbit twin_of(const StudyRun& run, const Orbit& orbit) {
+    if (run.model.symmetries.empty())
+        throw InputError(run.start->place, fmt::format("model '{}' declares no symmetry", run.model.name),
+                         "declare one in the model");
+    // The second half of an orbit whose first is this one is its image.
+    Orbit half = orbit;
+    half.symmetry = orbit.symmetry.value_or(0);
+    const Orbit whole = whole_orbit(run.model, half);
+    const std::size_t count = orbit.segments();
+    if (whole.segments() != 2 * count)
+        throw InputError(run.start->place, "the image of an orbit that ends at a section cannot be taken",
+                         "begin from another initial state");
+    Orbit twin = orbit;
+    const auto from = static_cast<std::ptrdiff_t>(count);
+    twin.signature.assign(whole.signature.begin() + from, whole.signature.end());
+    twin.starts.assign(whole.starts.begin() + from, whole.starts.end());
+    return twin;
+}
+
+std::vector<Part> parts_from_orbit(const StudyRun& run, const StudyRun& parent, const OrbitRecord& record) {
+    const StartFrom& start = *run.start;
+    const SpecialPoint& point = record.point;
+    const bool same_parameter =
+        parent.kind == RunKind::follow && parent.branch.settings.parameter == run.branch.settings.parameter;
+    std::string onto = start.onto;
+    if (onto.empty())
+        onto = leads_on(point.type) && same_parameter ? "other" : "same";
+    if (onto == "twin")
+        return both_directions(run, at_place(start.place, run, [&] { return twin_of(run, point.solution.orbit); }));
+    if (onto == "same")
+        return both_directions(run, taken_over(run, point.solution.orbit));
+    if (!same_parameter && point.type == PointType::branch_point)
+        throw InputError(start.place, "another branch is left for only along the parameter of the first",
+                         "follow the same parameter first");
+    const auto starts = at_place(start.place, run, [&] { return branches_at(run.model, point, run.branch.settings); });
+    std::vector<Part> parts;
+    for (const BranchStart& one : starts)
+        parts.push_back({one.how, one.orbit, one, 1});
+    return parts;
+}
+
+std::vector<Part> parts_of(const Study& study, const StudyRun& run, const ResultFile& file) {
+    const BranchRequest& branch = run.branch;
+    if (run.start) {
+        const StudyRun& parent = run_named(study, run.start->run);
+        if (parent.is_branch())
+            return parts_from_orbit(run, parent, orbit_to_start_from(*run.start, parent, file));
+        const PointRecord point = point_to_start_from(run, study, file);
+        return both_directions(run, settled(run, model_at(run, parent, point)).orbit);
+    }
+    if (!branch.table.empty())
+        return both_directions(run, read_orbit_table(run.model, branch.table, branch.signature));
+    if (!branch.signature.empty())
+        return both_directions(run, guess_with_signature(run));
+    return both_directions(run, settled(run, run.model).orbit);
+}
+
+/// Writes points one by one, the last of a part only when it is known to be the last.
+class PointWriter {
+public:
+    PointWriter(const StudyRun& run, ResultFile& file, const RunnerOptions& options, RunReport& report)
+        : run_(&run), file_(&file), options_(&options), report_(&report) {}
+
+    void add(const std::string& part, const SpecialPoint& point, bool stable) {
+        flush();
+        waiting_ = OrbitRecord{0, part, "", stable, point};
+    }
+    /// What is said of the last point, which becomes an end unless it is special already.
+    void end(const std::string& why) {
+        if (!waiting_)
+            return;
+        SpecialPoint& point = waiting_->point;
+        if (point.type == PointType::regular)
+            point.type = PointType::end;
+        if (!why.empty())
+            point.detail += point.detail.empty() ? why : "; " + why;
+        flush();
+    }
+    void flush() {
+        if (!waiting_)
+            return;
+        OrbitRecord& record = *waiting_;
+        record.number = report_->points++;
+        if (record.point.type != PointType::regular) {
+            const std::string type(short_name(record.point.type));
+            record.label = fmt::format("{}{}", type, ++counts_[type]);
+        }
+        file_->add_orbit(run_->name, record);
+        ++report_->computed;
+        if (options_->orbit)
+            options_->orbit(run_->name, record);
+        waiting_.reset();
+    }
+
+private:
+    const StudyRun* run_;
+    ResultFile* file_;
+    const RunnerOptions* options_;
+    RunReport* report_;
+    std::map<std::string, std::size_t> counts_;
+    std::optional<OrbitRecord> waiting_;
+};
+
+bool is_stable(const OrbitSolution& solution) {
+    return !solution.multipliers.empty() && unstable_directions(solution) == 0;
+}
+
+SpecialPoint regular_point(const BranchPoint& point) {
+    SpecialPoint result;
+    result.type = point.step == 0 ? PointType::end : PointType::regular;
+    result.detail = point.step == 0 ? "start" : "";
+    result.solution = point.solution;
+    result.solution.iterations = point.iterations;
+    result.parameter = point.parameter;
+    result.bracket = {point.parameter, point.parameter};
+    result.arclength = point.arclength;
+    result.step = point.step;
+    result.tangent = point.tangent;
+    result.monitors = point.monitors;
+    return result;
+}
+
+/// An orbit from which no branch could be begun, for the file to say so.
+SpecialPoint failed_start(const Part& part, const StudyRun& run, const std::string& why) {
+    SpecialPoint point;
+    point.type = PointType::end;
+    point.located = false;
+    point.detail = "no start: " + why;
+    point.solution.orbit = part.orbit;
+    point.solution.certificate.admissible = false;
+    point.solution.certificate.reason = "no orbit was found";
+    point.parameter = part.orbit.parameters[run.branch.settings.parameter];
+    point.bracket = {point.parameter, point.parameter};
+    return point;
+}
+
+bool follow_part(const StudyRun& run, const Part& part, PointWriter& writer, const RunnerOptions& options) {
+    BranchSettings settings = run.branch.settings;
+    settings.direction = part.direction;
+    OrbitBranch branch = at_place(run.place, run, [&] { return OrbitBranch(run.model, part.orbit, settings); });
+    bool going = part.onto ? branch.start_along(part.onto->direction, part.onto->distance) : branch.start();
+    if (!going) {
+        writer.add(part.name, failed_start(part, run, branch.detail()), false);
+        writer.end("");
+        return true;
+    }
+    bool last_is_special = false;
+    while (going) {
+        for (const SpecialPoint& special : branch.found())
+            writer.add(part.name, special, is_stable(special.solution));
+        const BranchOutcome outcome = branch.outcome();
+        const bool ended = outcome == BranchOutcome::bound || outcome == BranchOutcome::stopped ||
+                           outcome == BranchOutcome::unphysical || outcome == BranchOutcome::returned;
+        last_is_special = ended && !branch.found().empty();
+        // What lies beyond an end that has been located does not belong to the branch.
+        if (!last_is_special)
+            writer.add(part.name, regular_point(branch.point()), branch.point().stable);
+        if (options.interrupted && options.interrupted())
+            return false;
+        going = branch.step();
+    }
+    const bool told = branch.outcome() != BranchOutcome::unphysical;
+    std::string why = told && last_is_special ? "" : std::string(name_of(branch.outcome()));
+    if (!why.empty() && !branch.detail().empty())
+        why += ": " + branch.detail();
+    writer.end(why);
+    return true;
+}
+
+bool compute_orbit(const Study& study, const StudyRun& run, const ResultFile& file, PointWriter& writer) {
+    const std::vector<Part> parts = parts_of(study, run, file);
+    const Part& part = parts.front();
+    SpecialPoint point;
+    point.type = PointType::end;
+    point.solution = solved(run, part.orbit);
+    point.detail = point.solution.detail;
+    const Orbit& orbit = point.solution.orbit;
+    if (point.solution.outcome == OrbitOutcome::converged && !run.branch.settings.monitors.empty())
+        point.monitors = at_place(run.place, run, [&] {
+            return OrbitMonitors(run.model, orbit.signature, run.branch.settings.monitors,
+                                 run.branch.settings.orbit.tolerance)(orbit);
+        });
+    if (point.solution.outcome != OrbitOutcome::converged) {
+        point.located = false;
+        point.solution.certificate.admissible = false;
+        point.solution.certificate.reason = "no orbit was found";
+    }
+    point.parameter = orbit.parameters.empty() ? 0 : orbit.parameters[run.branch.settings.parameter];
+    point.bracket = {point.parameter, point.parameter};
+    writer.add("", point, is_stable(point.solution));
+    writer.end("");
+    return true;
+}
+
+} // namespace
+
+OrbitRecord orbit_to_start_from(const StartFrom& start, const StudyRun& parent, const ResultFile& file) {
+    std::optional<OrbitRecord> record;
+    if (start.coordinate) {
+        const auto symbols = parent.model.parameter_symbols();
+        const auto found = std::find_if(symbols.begin(), symbols.end(),
+                                        [&](const auto& symbol) { return symbol.name() == *start.coordinate; });
+        if (found == symbols.end())
+            throw InputError(start.place, fmt::format("run '{}' has no parameter '{}'", start.run, *start.coordinate),
+                             "name one of the model's");
+        const auto place = static_cast<std::size_t>(found - symbols.begin());
+        double least = std::numeric_limits<double>::infinity();
+        for (OrbitRecord& one : file.orbits(start.run, false)) {
+            const double distance = std::abs(one.point.solution.orbit.parameters[place] - start.value);
+            if ((start.direction && one.part != *start.direction) || !(distance < least))
+                continue;
+            least = distance;
+            record = std::move(one);
+        }
+        if (record) { // a first guess at exactly that value
+            record->point.solution.orbit.parameters[place] = start.value;
+            record->point.type = PointType::regular;
+        }
+    } else if (start.point.empty()) {
+        if (parent.kind == RunKind::follow)
+            throw InputError(start.place, fmt::format("run '{}' has many points", start.run),
+                             "name one: point = \"GR1\", or at = { PARAMETER = VALUE }");
+        record = file.orbit(start.run, std::size_t{0});
+    } else {
+        std::size_t number = 0;
+        const char* last = start.point.data() + start.point.size();
+        const auto [end, error] = std::from_chars(start.point.data(), last, number);
+        record =
+            error == std::errc() && end == last ? file.orbit(start.run, number) : file.orbit(start.run, start.point);
+    }
+    if (!record) {
+        std::string known;
+        for (const OrbitRecord& one : file.orbits(start.run, true))
+            known += (known.empty() ? "" : ", ") + one.label;
+        throw InputError(start.place, fmt::format("run '{}' has no point '{}'", start.run, start.point),
+                         known.empty() ? "it has none at all" : "it has " + known);
+    }
+    if (record->point.solution.outcome != OrbitOutcome::converged)
+        throw InputError(start.place, fmt::format("run '{}' found no orbit there", start.run), "choose another point");
+    return *record;
+}
+
+bool run_branch(const Study& study, const StudyRun& run, ResultFile& file, const RunnerOptions& options,
+                RunReport& report) {
+    PointWriter writer(run, file, options, report);
+    report.points = 0;
+    if (run.kind == RunKind::orbit)
+        return compute_orbit(study, run, file, writer);
+    for (const Part& part : parts_of(study, run, file))
+        if (!follow_part(run, part, writer, options))
+            return false;
+    return true;
+}
+
+} // namespace graze

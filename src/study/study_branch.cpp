@@ -1,0 +1,218 @@
+#include "graze/model/named_value.hpp"
+#include "study/study_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+namespace graze {
+
+namespace {
+
+const std::set<std::string> of_branches{"signature",  "table", "along", "steps",    "stop",
+                                        "unphysical", "step",  "free",  "monitors", "accuracy"};
+const std::set<std::string> not_of_branches{"vary",           "draws",   "seed",   "carry",          "sample",
+                                            "values",         "time",    "skip",   "keep",           "contacts",
+                                            "greatest_speed", "periods", "events", "lyapunov_cycles"};
+
+std::size_t parameter_named(const StudyReader& reader, const Model& model, const TomlEntry& entry,
+                            const std::string& name) {
+    const auto symbols = model.parameter_symbols();
+    std::vector<std::string> known;
+    for (const auto& symbol : symbols)
+        known.push_back(symbol.name());
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end())
+        reader.fail(entry,
+                    model.find_parameter(name) ? fmt::format("parameter '{}' follows from others", name)
+                                               : fmt::format("the model has no parameter '{}'", name),
+                    study_name_remedy(name, known));
+    return static_cast<std::size_t>(found - known.begin());
+}
+
+void read_along(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    BranchSettings& settings = run.branch.settings;
+    if (entry.node->is_string()) {
+        settings.parameter = parameter_named(reader, run.model, entry, reader.toml().string(entry));
+        return;
+    }
+    const auto items = reader.toml().entries(reader.toml().table(entry), entry.path);
+    if (items.size() != 1)
+        reader.fail(entry, fmt::format("{} names {} parameters", entry.path, items.size()),
+                    "name the one that is followed: along = { V = [0, 1] }; `free` names further ones");
+    settings.parameter = parameter_named(reader, run.model, items[0], items[0].name);
+    const auto [least, greatest] = reader.range(run.model, items[0]);
+    settings.least = least;
+    settings.greatest = greatest;
+}
+
+void read_step(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    ContinuationOptions& options = run.branch.settings.continuation;
+    for (const TomlEntry& item :
+         reader.toml().entries(reader.toml().table(entry), entry.path, {"first", "smallest", "largest", "angle"}))
+        (item.name == "first"      ? options.first_step
+         : item.name == "smallest" ? options.smallest_step
+         : item.name == "largest"  ? options.largest_step
+                                   : options.largest_angle) = reader.positive(run.model, item);
+}
+
+void read_stop(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    std::vector<std::string> known;
+    for (int i = 0; i < static_cast<int>(PointType::bound); ++i)
+        known.emplace_back(short_name(static_cast<PointType>(i)));
+    known.emplace_back(short_name(PointType::crossing));
+    for (const std::string& name : reader.strings(entry)) {
+        const auto type = point_type(name);
+        if (!type || std::find(known.begin(), known.end(), name) == known.end())
+            reader.fail(entry, fmt::format("there is no type of point '{}'", name), study_name_remedy(name, known));
+        run.branch.settings.stop_at.push_back(*type);
+    }
+}
+
+/// What is measured: `kind = "expression"`, or `duration = "segment"`.
+void read_monitor_kind(const StudyReader& reader, const Model& model, const TomlEntry& item, Monitor& monitor) {
+    const std::vector<std::string> kinds{"value", "start", "duration", "maximum", "minimum", "mean", "norm"};
+    monitor.kind = static_cast<Monitor::Kind>(std::find(kinds.begin(), kinds.end(), item.name) - kinds.begin());
+    if (monitor.kind == Monitor::Kind::duration) {
+        const std::string segment =
+            item.node->is_integer() ? std::to_string(reader.count(item, 1)) : reader.toml().string(item);
+        monitor.segment = segment == "period" ? "" : segment;
+        monitor.unit = model.time_unit;
+        return;
+    }
+    const NamedValue value = named_value(model, reader.toml().string(item), reader.inside(item));
+    monitor.expression = value.value;
+    monitor.unit = value.unit;
+}
+
+Monitor read_monitor(const StudyReader& reader, const Model& model, const TomlEntry& entry) {
+    Monitor monitor;
+    monitor.name = entry.name;
+    monitor.unit = model.time_unit;
+    if (entry.node->is_string()) {
+        reader.choice(entry, {"period"});
+        return monitor;
+    }
+    std::size_t kinds = 0;
+    for (const TomlEntry& item : reader.toml().entries(
+             reader.toml().table(entry), entry.path,
+             {"value", "start", "duration", "maximum", "minimum", "mean", "norm", "at", "fixed", "report", "bounds"})) {
+        if (item.name == "at") {
+            monitor.segment =
+                item.node->is_integer() ? std::to_string(reader.count(item, 1)) : reader.toml().string(item);
+        } else if (item.name == "fixed") {
+            monitor.fixed = !item.node->is_boolean() || reader.toml().boolean(item);
+            if (!item.node->is_boolean())
+                monitor.held = reader.number(model, item);
+        } else if (item.name == "report") {
+            const auto values = item.node->is_array() ? reader.toml().elements(item) : std::vector<TomlEntry>{item};
+            for (const TomlEntry& value : values)
+                monitor.crossings.push_back(reader.number(model, value));
+        } else if (item.name == "bounds") {
+            const auto [least, greatest] = reader.range(model, item);
+            monitor.least = least;
+            monitor.greatest = greatest;
+        } else {
+            ++kinds;
+            read_monitor_kind(reader, model, item, monitor);
+        }
+    }
+    if (kinds != 1)
+        reader.fail(entry, fmt::format("{} is measured in {} ways", entry.path, kinds),
+                    "give one of value, start, duration, maximum, minimum, mean or norm");
+    return monitor;
+}
+
+/// The period, and how far each state goes.
+std::vector<Monitor> usual_monitors(const Model& model) {
+    std::vector<Monitor> monitors;
+    monitors.push_back({"period", model.time_unit, Monitor::Kind::duration, {}, "", false, {}, {}, {}, {}});
+    for (const State& state : model.states)
+        if (!state.period && !state.drifting)
+            monitors.push_back({"max_" + state.name,
+                                state.unit,
+                                Monitor::Kind::maximum,
+                                model.symbol(state.name),
+                                "",
+                                false,
+                                {},
+                                {},
+                                {},
+                                {}});
+    return monitors;
+}
+
+} // namespace
+
+void check_keys_of_kind(const StudyReader& reader, RunKind kind, const std::map<std::string, TomlEntry>& keys) {
+    const bool branch = kind == RunKind::orbit || kind == RunKind::follow;
+    for (const auto& [name, entry] : keys) {
+        const bool wrong = branch ? not_of_branches.contains(name) : of_branches.contains(name);
+        const bool only_followed = kind == RunKind::orbit && (name == "along" || name == "steps" || name == "stop" ||
+                                                              name == "step" || name == "free" || name == "direction");
+        if (wrong || only_followed)
+            reader.fail(entry, fmt::format("runs of kind \"{}\" have no `{}`", name_of(kind), name),
+                        "leave it out, or choose another kind");
+    }
+}
+
+void note_set(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    const auto symbols = run.model.parameter_symbols();
+    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path))
+        for (std::size_t i = 0; i < symbols.size(); ++i)
+            if (symbols[i].name() == item.name)
+                run.branch.set.push_back(i);
+}
+
+void read_branch(const StudyReader& reader, StudyRun& run, const TomlEntry& entry,
+                 const std::map<std::string, TomlEntry>& keys) {
+    BranchRequest& branch = run.branch;
+    BranchSettings& settings = branch.settings;
+    const auto with = [&](const char* key, auto use) {
+        if (const auto found = keys.find(key); found != keys.end())
+            use(found->second);
+    };
+    with("signature", [&](const TomlEntry& e) {
+        branch.signature = reader.toml().string(e);
+        branch.signature_place = reader.inside(e);
+        parse_signature(run.model, branch.signature, branch.signature_place);
+    });
+    with("table", [&](const TomlEntry& e) {
+        const std::filesystem::path path = reader.toml().string(e);
+        branch.table = (path.is_relative() ? std::filesystem::path(reader.file()).parent_path() / path : path).string();
+    });
+    with("along", [&](const TomlEntry& e) { read_along(reader, run, e); });
+    with("steps", [&](const TomlEntry& e) { settings.steps = reader.count(e, 1); });
+    with("stop", [&](const TomlEntry& e) { read_stop(reader, run, e); });
+    with("step", [&](const TomlEntry& e) { read_step(reader, run, e); });
+    with("unphysical", [&](const TomlEntry& e) { settings.stop_when_unphysical = !reader.toml().boolean(e); });
+    with("accuracy", [&](const TomlEntry& e) { settings.orbit.accuracy = reader.positive(run.model, e); });
+    with("tolerance", [&](const TomlEntry& e) { settings.orbit.tolerance = reader.positive(run.model, e); });
+    with("free", [&](const TomlEntry& e) {
+        for (const std::string& name : reader.strings(e))
+            settings.free.push_back(parameter_named(reader, run.model, e, name));
+    });
+    settings.monitors = usual_monitors(run.model);
+    with("monitors", [&](const TomlEntry& e) {
+        settings.monitors.clear();
+        for (const TomlEntry& item : reader.toml().entries(reader.toml().table(e), e.path))
+            settings.monitors.push_back(read_monitor(reader, run.model, item));
+    });
+    if (run.kind == RunKind::follow && !keys.contains("along"))
+        throw InputError(entry.place, fmt::format("{} does not say what is followed", entry.path),
+                         "give along = { PARAMETER = [LEAST, GREATEST] }");
+    if (run.start && !branch.table.empty())
+        reader.fail(keys.at("table"), fmt::format("{} starts from a table and from a run", entry.path),
+                    "leave one of them out");
+    try {
+        settings.validate(run.model);
+        if (!run.start && branch.table.empty() && branch.signature.empty())
+            run.attractor.validate(run.model);
+    } catch (const InputError& error) {
+        throw InputError(entry.place, fmt::format("{}: {}", entry.path, error.problem()), error.remedy());
+    }
+}
+
+} // namespace graze
