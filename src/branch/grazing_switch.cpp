@@ -1,9 +1,11 @@
 #include "branch/grazing_switch.hpp"
 
+#include "branch/inserted_contact.hpp"
 #include "branch/orbit_problem.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "orbit/arc_flow.hpp"
+#include "orbit/certify.hpp"
 #include "orbit/close_at_section.hpp"
 
 #include <Eigen/Dense>
@@ -161,6 +163,41 @@ std::vector<double> meet_at_speed(const Simulation& simulation, Orbit& orbit, co
     return {};
 }
 
+/// What the model does for one round after the contact, up to the next one.
+std::optional<Orbit> followed_after_contact(const Simulation& simulation, const SpecialPoint& point,
+                                            const std::vector<double>& after, std::size_t mode, const Segment& last,
+                                            std::string& why) {
+    const Orbit& grazing = point.solution.orbit;
+    const double round = sum(grazing.durations);
+    const FollowedMotion motion =
+        follow_motion(simulation, grazing.parameters, after, mode, (1 - before_next_touch) * round);
+    if (!motion.problem.empty()) {
+        why = motion.problem;
+        return std::nullopt;
+    }
+    Orbit orbit;
+    orbit.parameters = grazing.parameters;
+    orbit.symmetry = grazing.symmetry;
+    orbit.signature = motion.segments;
+    orbit.starts = motion.starts;
+    orbit.durations = motion.durations;
+    orbit.durations.push_back(round - sum(motion.durations));
+    orbit.signature.push_back(last);
+    return orbit;
+}
+
+bool is_admissible(const Simulation& simulation, const Orbit& orbit, std::string& why) {
+    Shooting shooting(simulation, orbit, {});
+    const Eigen::VectorXd unknowns = shooting.unknowns_of(orbit);
+    if (!shooting.evaluate(unknowns))
+        return false;
+    const Certificate certificate = certify(shooting, unknowns);
+    const bool forward = std::all_of(orbit.durations.begin(), orbit.durations.end(), [](double t) { return t > 0; });
+    if (!certificate.admissible)
+        why = certificate.reason;
+    return forward && certificate.admissible;
+}
+
 } // namespace
 
 BranchStart with_one_more_contact(const Model& model, const SpecialPoint& point, const BranchSettings& settings) {
@@ -173,7 +210,10 @@ BranchStart with_one_more_contact(const Model& model, const SpecialPoint& point,
     if (!transition)
         throw InputError(fmt::format("nothing happens at event '{}'", name), "no branch leaves there");
     const auto transition_index = static_cast<std::size_t>(transition - model.transitions.data());
-    const double round = sum(grazing.durations);
+    Segment last{touch.mode(), SegmentEnd::event, transition_index};
+    if (grazing.symmetry)
+        last = image_of(model, *grazing.symmetry, last, grazing);
+    const Expression rate = rate_of(model, last.mode, model.transitions[last.index].event);
     std::string why = "Newton's method does not find it";
     for (const double share : speeds) {
         const double speed = share * touch.greatest_speed();
@@ -185,28 +225,15 @@ BranchStart with_one_more_contact(const Model& model, const SpecialPoint& point,
             why = "the motion ends there";
             continue;
         }
-        const FollowedMotion motion =
-            follow_motion(simulation, grazing.parameters, state, *mode, (1 - before_next_touch) * round);
-        if (!motion.problem.empty()) {
-            why = motion.problem;
-            continue;
+        for (const bool inserted : {true, false}) {
+            auto orbit = inserted ? with_contact_inserted(simulation, point, state, *mode, last)
+                                  : followed_after_contact(simulation, point, state, *mode, last, why);
+            if (!orbit)
+                continue;
+            const std::vector<double> direction = meet_at_speed(simulation, *orbit, rate, speed, settings);
+            if (!direction.empty() && is_admissible(simulation, *orbit, why))
+                return {*orbit, direction, 0, fmt::format("with one more contact at '{}'", name)};
         }
-        Orbit orbit;
-        orbit.parameters = grazing.parameters;
-        orbit.symmetry = grazing.symmetry;
-        orbit.signature = motion.segments;
-        orbit.starts = motion.starts;
-        orbit.durations = motion.durations;
-        orbit.durations.push_back(round - sum(motion.durations));
-        Segment last{touch.mode(), SegmentEnd::event, transition_index};
-        if (orbit.symmetry)
-            last = image_of(model, *orbit.symmetry, last, grazing);
-        orbit.signature.push_back(last);
-        const Expression rate = rate_of(model, last.mode, model.transitions[last.index].event);
-        const std::vector<double> direction = meet_at_speed(simulation, orbit, rate, speed, settings);
-        if (direction.empty())
-            continue;
-        return {orbit, direction, 0, fmt::format("with one more contact at '{}'", name)};
     }
     throw InputError(fmt::format("no orbit with one more contact at '{}' was found: {}", name, why),
                      "the motion after the contact may accumulate contacts, or not come back");

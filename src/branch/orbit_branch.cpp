@@ -2,6 +2,7 @@
 
 #include "branch/orbit_problem.hpp"
 #include "branch/orbit_tests.hpp"
+#include "graze/branch/switching.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "orbit/newton.hpp"
 
@@ -157,7 +158,7 @@ public:
         describe(continuation_->point(), point, tests_);
         ++point.step;
         point.iterations = continuation_->point().iterations;
-        locate_all(before, parameter_before);
+        locate_all(before, parameter_before, was_admissible);
         judge(was_admissible);
         if (continuation_->outcome() == ContinuationOutcome::closed && !ended_)
             finish(BranchOutcome::closed, "");
@@ -286,7 +287,7 @@ private:
         describe(continuation_->point(), point, tests_);
     }
 
-    void locate_all(const std::vector<BranchTest>& before, double parameter_before) {
+    void locate_all(const std::vector<BranchTest>& before, double parameter_before, bool was_admissible) {
         if (before.size() != tests_.size())
             return;
         const double from = continuation_->previous().arclength;
@@ -300,6 +301,7 @@ private:
             if (std::optional<SpecialPoint> special = locate(i, a, b)) {
                 special->bracket = std::minmax(parameter_before, point.parameter);
                 special->step = point.step;
+                accept_limit(*special, was_admissible);
                 found.push_back(std::move(*special));
             }
         }
@@ -308,6 +310,16 @@ private:
         merge(length);
         drop_folds_of_return(length);
         problem_->evaluate(continuation_->point().u);
+    }
+
+    /// At the end of what is admissible round-off would decide: the limit of admissible orbits is one.
+    void accept_limit(SpecialPoint& special, bool was_admissible) const {
+        Certificate& certificate = special.solution.certificate;
+        if (rank(special) < 0 || certificate.admissible)
+            return;
+        certificate.admissible = was_admissible || point.solution.certificate.admissible;
+        if (certificate.admissible)
+            certificate.reason.clear();
     }
 
     /// The zero of a test between the last two points, by the secant method kept within a bracket (M. Dowell and
@@ -483,6 +495,35 @@ private:
         }
     }
 
+    /// Follows the orbits that have another signature beyond a point. @return false when there are none
+    bool go_on_reordered(SpecialPoint& special) {
+        constexpr std::size_t most = 100;
+        if (++reorderings_ > most)
+            return false;
+        try {
+            const BranchStart start = branches_at(*model_, special, settings_).front();
+            if (monitors_)
+                monitors_ = std::make_unique<OrbitMonitors>(*model_, start.orbit.signature, settings_.monitors,
+                                                            settings_.orbit.tolerance);
+            const double length = continuation_->next_step();
+            arclength_ = special.arclength;
+            make_problem(start.orbit);
+            const std::vector<double> u = unknowns_of(start.orbit);
+            std::vector<double> row = start.direction;
+            for (std::size_t i = 0; i < row.size(); ++i)
+                row[i] /= problem_->scales()[i] * problem_->scales()[i];
+            if (!continuation_->start_at(u, row))
+                throw InputError("the continuation does not start there", "");
+            continuation_->set_next_step(length);
+        } catch (const InputError& error) { // nothing beyond: the branch ends
+            special.detail += fmt::format("; {}", error.problem());
+            return false;
+        }
+        special.detail += fmt::format("; goes on as {}", to_string(*model_, problem_->shooting().signature()));
+        describe(continuation_->point(), point, tests_);
+        return true;
+    }
+
     /// Ends the branch where what was found says so.
     void judge(bool was_admissible) {
         // The branch ends in the special point itself, not beyond it.
@@ -511,8 +552,12 @@ private:
             }
             const bool may_end = rank(found[i]) >= 0;
             if (settings_.stop_when_unphysical && may_end && was_admissible && !point.solution.certificate.admissible) {
-                finish(BranchOutcome::unphysical, point.solution.certificate.reason);
-                return cut_after(i);
+                const std::string reason = point.solution.certificate.reason;
+                cut_after(i);
+                const bool reordering = settings_.reorder && found[i].type != PointType::grazing;
+                if (!reordering || !go_on_reordered(found[i]))
+                    finish(BranchOutcome::unphysical, reason);
+                return;
             }
         }
         if (settings_.stop_when_unphysical && was_admissible && !point.solution.certificate.admissible)
@@ -528,6 +573,7 @@ private:
     std::unique_ptr<Continuation> continuation_;
     std::vector<BranchTest> tests_;
     double arclength_ = 0, growth_ = 1;
+    std::size_t reorderings_ = 0;
     bool ended_ = true;
 };
 

@@ -2,6 +2,7 @@
 
 #include "branch/grazing_switch.hpp"
 #include "branch/orbit_problem.hpp"
+#include "branch/reordering.hpp"
 #include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
@@ -71,10 +72,14 @@ std::vector<BranchStart> branches_at(const Model& model, const SpecialPoint& poi
     case PointType::grazing:
         return {point.at_end ? with_one_contact_fewer(model, point, settings)
                              : with_one_more_contact(model, point, settings)};
+    case PointType::vanishing:
+    case PointType::two_events:
+    case PointType::guard:
+        return {with_events_reordered(model, point, settings)};
     default:
         throw InputError(fmt::format("no other branch leaves from a point of type {} ({})", short_name(point.type),
                                      name_of(point.type)),
-                         "choose one of type PD, BP or GR, or vary another parameter from it");
+                         "choose one of type PD, BP, GR, DZ, EE or GU, or vary another parameter from it");
     }
 }
 

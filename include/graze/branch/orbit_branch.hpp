@@ -25,6 +25,9 @@ struct BranchSettings {
     std::vector<std::size_t> free;    ///< further parameters that vary, one for each monitor that is fixed
     std::vector<PointType> stop_at;   ///< types at which the branch ends
     bool stop_when_unphysical = true; ///< ends where orbits cease to be admissible
+    /// Goes on with another signature where events change their order, a segment vanishes or a guard chooses another
+    /// mode, as the model's motion does. What is grazed ends a branch in any case.
+    bool reorder = true;
     /// @throws InputError naming what is out of range
     void validate(const Model& model) const;
 };

@@ -1,0 +1,95 @@
+#include "branch/inserted_contact.hpp"
+
+#include "graze/orbit/solve.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace graze {
+
+namespace {
+
+struct Entry {
+    Segment segment;
+    std::vector<double> start;
+    double duration;
+};
+
+/// Segments of an orbit, and after them their images or themselves again.
+std::vector<Entry> two_rounds(const Model& model, const Orbit& orbit) {
+    std::vector<Entry> entries;
+    for (std::size_t k = 0; k < orbit.segments(); ++k)
+        entries.push_back({orbit.signature[k], orbit.starts[k], orbit.durations[k]});
+    std::vector<Expression> inputs = model.state_symbols();
+    const auto parameters = model.parameter_symbols();
+    inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+    Function map;
+    if (orbit.symmetry)
+        map = Function(inputs, model.expand(model.symmetries[*orbit.symmetry].map));
+    for (std::size_t k = 0; k < orbit.segments(); ++k) {
+        Entry entry = entries[k];
+        if (orbit.symmetry) {
+            entry.segment = image_of(model, *orbit.symmetry, entry.segment, orbit);
+            entry.start.insert(entry.start.end(), orbit.parameters.begin(), orbit.parameters.end());
+            entry.start = map(entry.start);
+        }
+        entries.push_back(std::move(entry));
+    }
+    return entries;
+}
+
+/// Puts segments that end at sections together with the ones after them.
+Orbit joined(const Orbit& like, const std::vector<Entry>& entries) {
+    Orbit orbit;
+    orbit.parameters = like.parameters;
+    orbit.symmetry = like.symmetry;
+    bool goes_on = false;
+    for (const Entry& entry : entries) {
+        if (!goes_on) {
+            orbit.signature.push_back(entry.segment);
+            orbit.starts.push_back(entry.start);
+            orbit.durations.push_back(entry.duration);
+        } else {
+            orbit.signature.back() = entry.segment;
+            orbit.durations.back() += entry.duration;
+        }
+        goes_on = entry.segment.end == SegmentEnd::section;
+    }
+    return orbit;
+}
+
+} // namespace
+
+std::optional<Orbit> with_contact_inserted(const Simulation& simulation, const SpecialPoint& point,
+                                           const std::vector<double>& after, std::size_t mode, const Segment& last) {
+    const Orbit& grazing = point.solution.orbit;
+    const std::vector<Entry> rounds = two_rounds(simulation.model(), grazing);
+    const std::size_t touching = point.segment, count = grazing.segments();
+    double left = grazing.durations[touching] - point.time;
+    std::vector<Entry> entries;
+    std::vector<double> start = after;
+    if (mode != grazing.signature[touching].mode) {
+        const double round = std::accumulate(grazing.durations.begin(), grazing.durations.end(), 0.0);
+        const FollowedMotion motion = follow_motion(simulation, grazing.parameters, after, mode, round);
+        std::size_t back = 1;
+        while (back < motion.segments.size() && motion.segments[back].mode != grazing.signature[touching].mode)
+            ++back;
+        if (back >= motion.segments.size())
+            return std::nullopt;
+        for (std::size_t k = 0; k < back; ++k) {
+            entries.push_back({motion.segments[k], motion.starts[k], motion.durations[k]});
+            left -= motion.durations[k];
+        }
+        start = motion.starts[back];
+    }
+    if (left < 0)
+        return std::nullopt;
+    entries.push_back({rounds[touching].segment, start, left});
+    for (std::size_t k = touching + 1; k <= touching + count; ++k)
+        entries.push_back(rounds[k]);
+    entries.back().segment = last;
+    entries.back().duration = point.time;
+    return joined(grazing, entries);
+}
+
+} // namespace graze
