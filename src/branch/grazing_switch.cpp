@@ -261,6 +261,28 @@ Orbit rotated(const Model& model, const Orbit& like, const FollowedMotion& motio
     return orbit;
 }
 
+/// Cuts a motion off where it comes back to the contact that it is to be without, which it may meet early: by a time
+/// that grows with the root of the clearance.
+void leave_out_return(const Model& model, FollowedMotion& motion, const Orbit& old, std::size_t segment,
+                      double round) {
+    constexpr double earliest = 0.02; // share of a round
+    const double early = std::min(earliest * round, 0.5 * old.durations[segment]);
+    Segment contact = old.signature[segment];
+    if (old.symmetry)
+        contact = image_of(model, *old.symmetry, contact, old);
+    double time = 0;
+    for (std::size_t k = 0; k < motion.segments.size(); ++k) {
+        time += motion.durations[k];
+        if (motion.segments[k].end == SegmentEnd::event && motion.segments[k].index == contact.index &&
+            time > round - early) {
+            motion.segments.resize(k);
+            motion.durations.resize(k);
+            motion.starts.resize(k + 1);
+            return;
+        }
+    }
+}
+
 } // namespace
 
 BranchStart with_one_contact_fewer(const Model& model, const SpecialPoint& point, const BranchSettings& settings) {
@@ -271,8 +293,9 @@ BranchStart with_one_contact_fewer(const Model& model, const SpecialPoint& point
     const std::string& name = model.events[touch.event()].name;
     const double round = sum(old.durations);
     const std::vector<double> state = touch.displaced(clearance * touch.greatest_value(), 0);
-    const FollowedMotion motion =
+    FollowedMotion motion =
         follow_motion(simulation, old.parameters, state, touch.mode(), (1 - before_next_touch) * round);
+    leave_out_return(model, motion, old, point.segment, round);
     const auto fail = [&](const std::string& why) {
         throw InputError(fmt::format("no orbit with one contact fewer at '{}' was found: {}", name, why),
                          "the branch may end here");

@@ -4,6 +4,7 @@
 #include "branch/orbit_problem.hpp"
 #include "branch/reordering.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "orbit/certify.hpp"
 
 #include <fmt/format.h>
 
@@ -15,6 +16,8 @@ namespace {
 
 /// First distance onto another branch, in units of the scales.
 constexpr double first_distance = 1e-2;
+/// How close to -1 a multiplier of a located point is.
+constexpr double near_flip = 1e-4;
 
 SimulationOptions integration(const OrbitOptions& options) {
     SimulationOptions result;
@@ -54,6 +57,18 @@ std::vector<BranchStart> both_ways(const Model& model, const Orbit& orbit, const
     return result;
 }
 
+/// Whether the map over half an orbit has the multiplier -1, rather than the branch meeting another of such orbits.
+bool loses_symmetry(const Model& model, const Orbit& half, const BranchSettings& settings) {
+    const Simulation simulation(model, {}, {}, integration(settings.orbit));
+    Shooting shooting(simulation, half, {});
+    const Eigen::VectorXd unknowns = shooting.unknowns_of(half);
+    if (!shooting.evaluate(unknowns))
+        return false;
+    const auto multipliers = floquet_multipliers(shooting, unknowns);
+    return std::any_of(multipliers.begin(), multipliers.end(),
+                       [](auto one) { return std::abs(one + 1.0) < near_flip; });
+}
+
 } // namespace
 
 std::vector<BranchStart> branches_at(const Model& model, const SpecialPoint& point, const BranchSettings& settings) {
@@ -63,10 +78,7 @@ std::vector<BranchStart> branches_at(const Model& model, const SpecialPoint& poi
     case PointType::flip:
         return both_ways(model, twice(orbit), settings, {}, "doubled", false);
     case PointType::branch_point:
-        // Of a half orbit either the half map has the multiplier -1, or the branch meets another one of half orbits.
-        if (orbit.symmetry &&
-            std::any_of(point.solution.half_multipliers.begin(), point.solution.half_multipliers.end(),
-                        [](auto one) { return std::abs(one + 1.0) < 1e-4; }))
+        if (orbit.symmetry && loses_symmetry(model, orbit, settings))
             return both_ways(model, whole_orbit(model, orbit), settings, {}, "without the symmetry", true);
         return both_ways(model, orbit, settings, point.tangent, "other branch", true);
     case PointType::grazing:

@@ -3,6 +3,7 @@
 #include "tape/kernel_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -29,14 +30,16 @@ double StepSize::operator()(std::span<const Series> states, double previous) con
         return step_for(states, previous);
     // Without a previous step the sizes of states that start at zero are unknown: begin with a step over which
     // the state changes by about its own size, and let it settle.
-    double reference = std::numeric_limits<double>::infinity();
-    for (const Series& c : states)
+    double least = std::numeric_limits<double>::infinity(); // logarithm to base 2 of that step
+    std::array<double, highest_order + 1> logarithms;
+    for (const Series& c : states) {
+        for (std::size_t k = 0; k <= order_; ++k)
+            logarithms[k] = c[k] != 0 ? std::log2(std::abs(c[k])) : std::numeric_limits<double>::infinity();
         for (std::size_t k = 1; k <= order_; ++k)
-            for (std::size_t j = 0; j < k; ++j)
-                if (c[k] != 0 && c[j] != 0)
-                    reference = std::min(reference, std::pow(std::abs(c[j] / c[k]), 1.0 / static_cast<double>(k - j)));
-    if (!std::isfinite(reference))
-        reference = 1;
+            for (std::size_t j = 0; j < k && logarithms[k] < std::numeric_limits<double>::infinity(); ++j)
+                least = std::min(least, (logarithms[j] - logarithms[k]) / static_cast<double>(k - j));
+    }
+    double reference = std::isfinite(least) ? std::exp2(least) : 1;
     for (int sweep = 0; sweep < 3; ++sweep) {
         const double step = step_for(states, reference);
         if (!std::isfinite(step))

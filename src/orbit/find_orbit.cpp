@@ -89,6 +89,27 @@ bool cut_in_half(const Model& model, Orbit& orbit, const Symmetry& symmetry) {
     return true;
 }
 
+/// One period of a motion that has been followed for more than two and a half. It begins after the contact which the
+/// longest time without contacts follows, so that round-off does not decide whether the last contact belongs to it.
+void cut_out(const FollowedMotion& motion, double duration, Orbit& orbit) {
+    std::vector<double> times;
+    double time = 0;
+    for (const double each : motion.durations)
+        times.push_back(time += each);
+    std::size_t first = 0;
+    double gap = -1;
+    for (std::size_t k = 0; k + 1 < times.size() && (k == 0 || times[k] < times[0] + duration); ++k)
+        if (times[k + 1] - times[k] > gap) {
+            gap = times[k + 1] - times[k];
+            first = k;
+        }
+    for (std::size_t k = first + 1; k < times.size() && times[k] < times[first] + duration + 0.5 * gap; ++k) {
+        orbit.signature.push_back(motion.segments[k]);
+        orbit.starts.push_back(motion.starts[k]);
+        orbit.durations.push_back(motion.durations[k]);
+    }
+}
+
 } // namespace
 
 FollowedMotion follow_motion(const Simulation& simulation, std::span<const double> parameters,
@@ -164,8 +185,8 @@ OrbitSolution find_orbit(const Model& model, const AttractorOptions& settle, con
     if (result.label != Label::periodic)
         throw InputError(fmt::format("the motion does not settle on a periodic orbit: it is {}", name_of(result.label)),
                          "start elsewhere, allow more cycles or longer periods, or give the orbit's states");
-    FollowedMotion motion =
-        follow_motion(factory->simulation(), model.parameter_values(), result.state, result.mode, result.duration);
+    FollowedMotion motion = follow_motion(factory->simulation(), model.parameter_values(), result.state, result.mode,
+                                          2.6 * result.duration);
     if (!motion.problem.empty())
         throw InputError("the orbit has no signature: " + motion.problem,
                          "choose parameters at which contacts do not accumulate");
@@ -178,18 +199,7 @@ OrbitSolution find_orbit(const Model& model, const AttractorOptions& settle, con
             throw InputError("the orbit passes none of the model's sections", "declare one that it passes");
         orbit = *closed;
     } else {
-        // From the state on the section to the first contact is the end of the last segment.
-        const std::size_t count = motion.segments.size();
-        double known = 0;
-        for (std::size_t k = 1; k < count; ++k) {
-            orbit.signature.push_back(motion.segments[k]);
-            orbit.starts.push_back(motion.starts[k]);
-            orbit.durations.push_back(motion.durations[k]);
-            known += motion.durations[k];
-        }
-        orbit.signature.push_back(motion.segments[0]);
-        orbit.starts.push_back(motion.starts[count]);
-        orbit.durations.push_back(result.duration - known);
+        cut_out(motion, result.duration, orbit);
     }
     if (const auto half = half_orbit(model, orbit))
         orbit = *half;

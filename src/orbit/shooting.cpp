@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace graze {
 
@@ -144,7 +145,26 @@ Eigen::VectorXd Shooting::unknowns_of(const Orbit& orbit) {
     }
     for (std::size_t f = 0; f < free_.size(); ++f)
         unknowns[index(place_of_parameter(f))] = orbit.parameters[free_[f]];
+    clear_remnants(unknowns);
     return unknowns;
+}
+
+/// States that are next to nothing against the others everywhere are on their way to zero, where a symmetry holds them.
+/// Left alone they would shrink until they underflow.
+void Shooting::clear_remnants(Eigen::VectorXd& unknowns) const {
+    constexpr double remnant = 1e-25;
+    std::vector<double> sizes(n_, 0.0);
+    double largest = 0;
+    for (std::size_t i = 0; i < n_; ++i) {
+        for (std::size_t k = 0; k < pieces_.size(); ++k)
+            sizes[i] = std::max(sizes[i], std::abs(unknowns[index(start_of(k) + i)]));
+        if (periods_[i] == 0 && !model().states[i].drifting)
+            largest = std::max(largest, sizes[i]);
+    }
+    for (std::size_t i = 0; i < n_; ++i)
+        if (periods_[i] == 0 && sizes[i] < remnant * largest)
+            for (std::size_t k = 0; k < pieces_.size(); ++k)
+                unknowns[index(start_of(k) + i)] = 0;
 }
 
 Orbit Shooting::orbit_of(const Eigen::VectorXd& unknowns) const {
@@ -163,9 +183,7 @@ Orbit Shooting::orbit_of(const Eigen::VectorXd& unknowns) const {
 }
 
 void Shooting::set_scales(const Eigen::VectorXd& unknowns) {
-    constexpr double smallest_share = 1e-3;
-    // Units that shrank with what they measure would keep a branch from ever passing zero.
-    constexpr double smallest_scale = 1e-2;
+    evaluated_.resize(0); // the equations are measured anew
     set_parameters(unknowns);
     const std::size_t count = pieces_.size() * (n_ + 1) + free_.size();
     scales_ = Eigen::VectorXd::Ones(index(count));
@@ -192,23 +210,45 @@ void Shooting::set_scales(const Eigen::VectorXd& unknowns) {
             note();
         }
     }
-    for (std::size_t i = 0; i < n_; ++i) {
-        double scale = periods_[i] > 0 ? periods_[i] : greatest[i] - least[i];
-        if (!(scale > smallest_share * sizes[i]))
-            scale = sizes[i] > 0 ? smallest_share * sizes[i] : 1;
-        if (!std::isfinite(scale))
-            scale = 1;
-        largest_scales_[index(i)] = std::max(largest_scales_[index(i)], scale);
-        scale = std::max(scale, smallest_scale * largest_scales_[index(i)]);
-        for (std::size_t k = 0; k < pieces_.size(); ++k)
-            scales_[index(start_of(k) + i)] = scale;
-    }
+    choose_scales(least, greatest, sizes);
     for (std::size_t k = 0; k < pieces_.size(); ++k)
         scales_[index(duration_of(k))] = time > 0 ? time : 1;
     for (std::size_t f = 0; f < free_.size(); ++f) {
         double& largest = largest_scales_[index(n_ + f)];
         largest = std::max(largest, std::abs(unknowns[index(place_of_parameter(f))]));
         scales_[index(place_of_parameter(f))] = largest > 0 ? largest : 1;
+    }
+}
+
+/// Scales of the states from their extents and sizes along the orbit.
+void Shooting::choose_scales(const std::vector<double>& least, const std::vector<double>& greatest,
+                             const std::vector<double>& sizes) {
+    constexpr double smallest_share = 1e-3;
+    // Units that shrank with what they measure would keep a branch from ever passing zero.
+    constexpr double smallest_scale = 1e-2;
+    // What is smaller than the others by this is zero, by a symmetry, but for what has not decayed yet.
+    constexpr double negligible = 1e-25;
+    std::vector<double> scales(n_);
+    double largest = 0, smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < n_; ++i) {
+        double& scale = scales[i];
+        scale = periods_[i] > 0 ? periods_[i] : greatest[i] - least[i];
+        if (!(scale > smallest_share * sizes[i]))
+            scale = smallest_share * sizes[i];
+        if (!std::isfinite(scale))
+            scale = 1;
+        largest = std::max(largest, scale);
+    }
+    for (std::size_t i = 0; i < n_; ++i)
+        if (scales[i] > negligible * largest && periods_[i] == 0)
+            smallest = std::min(smallest, scales[i]);
+    for (std::size_t i = 0; i < n_; ++i) {
+        if (!(scales[i] > negligible * largest))
+            scales[i] = std::isfinite(smallest) ? smallest : 1;
+        double& kept = largest_scales_[index(i)];
+        kept = std::max(kept, scales[i]);
+        for (std::size_t k = 0; k < pieces_.size(); ++k)
+            scales_[index(start_of(k) + i)] = std::max(scales[i], smallest_scale * kept);
     }
 }
 
@@ -225,6 +265,10 @@ void Shooting::set_parameters(const Eigen::VectorXd& unknowns) {
 }
 
 bool Shooting::evaluate(const Eigen::VectorXd& unknowns) {
+    // What follows Newton's method asks again for the point at which it has just arrived.
+    if (evaluated_.size() == unknowns.size() && evaluated_ == unknowns)
+        return true;
+    evaluated_.resize(0);
     problem_.clear();
     if (!unknowns.allFinite()) {
         problem_ = "an unknown is not finite";
@@ -243,6 +287,7 @@ bool Shooting::evaluate(const Eigen::VectorXd& unknowns) {
         problem_ = "an equation is not finite";
         return false;
     }
+    evaluated_ = unknowns;
     return true;
 }
 

@@ -105,6 +105,9 @@ private:
     void assemble(const Eigen::VectorXd& unknowns);
     void pin(const Eigen::VectorXd& unknowns);
     void set_parameters(const Eigen::VectorXd& unknowns);
+    void clear_remnants(Eigen::VectorXd& unknowns) const;
+    void choose_scales(const std::vector<double>& least, const std::vector<double>& greatest,
+                       const std::vector<double>& sizes);
 
     const Simulation* simulation_;
     Signature signature_;
@@ -123,6 +126,7 @@ private:
     Eigen::VectorXd scales_, largest_scales_; ///< the latter of states and free parameters, since the beginning
     std::vector<bool> neutral_;               ///< states that every piece leaves exactly as they are
     std::vector<std::size_t> active_;
+    Eigen::VectorXd evaluated_; ///< where the equations have been evaluated last; empty: nowhere
     double residual_ = 0;
     std::string problem_;
 };
