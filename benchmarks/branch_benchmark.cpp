@@ -1,0 +1,151 @@
+// Branches of periodic orbits. The orbit {J1, J8} of the microactuator is followed in V from 0.82 for 200 points, with
+// multipliers, all test functions and certificates; the peer only integrates, with Boost.odeint, what the Newton steps
+// of that branch need when derivatives are taken by differences. Then orbits of more and more segments.
+
+#include "duel.hpp"
+
+#include "graze/branch/orbit_branch.hpp"
+#include "graze/model/catalogue.hpp"
+
+#include <benchmark/benchmark.h>
+#include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
+#include <boost/numeric/odeint/stepper/generation.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace {
+
+using namespace graze;
+
+Model microactuator(double voltage) {
+    Model model = load_model("impact-microactuator");
+    model.set_parameter("omega", 0.9189);
+    model.set_parameter("V", voltage);
+    return model;
+}
+
+BranchSettings settings(double largest_step) {
+    BranchSettings result;
+    result.greatest = 1.5;
+    result.steps = 200;
+    result.continuation.largest_step = largest_step;
+    return result;
+}
+
+/// The stable orbit {J1, J8} at V = 0.865, followed down to 0.82.
+const Orbit& orbit_to_start_from() {
+    static const Orbit orbit = [] {
+        AttractorOptions settle;
+        settle.section = "phase0";
+        settle.cycles = 4000;
+        const Orbit stable = find_orbit(microactuator(0.865), settle).orbit;
+        BranchSettings down = settings(0.1);
+        down.direction = -1;
+        down.least = 0.82;
+        const Branch branch = follow_branch(microactuator(0.865), stable, down);
+        return branch.special.back().solution.orbit;
+    }();
+    return orbit;
+}
+
+/// The smooth motions of the two segments, by hand.
+class OdeintFlows {
+public:
+    using State = std::array<double, 5>;
+
+    void flow(bool stick, State state, double voltage, double time) {
+        namespace odeint = boost::numeric::odeint;
+        const auto rates = [stick, voltage](const State& x, State& rate, double) {
+            const double sine = std::sin(x[4]), gap = 1 - x[2];
+            const double force = voltage * voltage * sine * sine / (gap * gap) - 0.04 * x[3] - x[2];
+            const double frame = stick ? 0 : -(force + 0.27 * 58.86) / 5;
+            rate = {stick ? 0 : x[1], frame, x[3], force - frame, 0.9189};
+        };
+        odeint::integrate_adaptive(odeint::make_controlled(1e-12, 1e-12, odeint::runge_kutta_dopri5<State>()), rates,
+                                   state, 0.0, time, 0.1 * time);
+        sum += state[0];
+    }
+
+    /// What one evaluation of the equations and their derivatives by differences takes.
+    void evaluate(const Orbit& orbit) {
+        const double voltage = orbit.parameters[0];
+        for (std::size_t s = 0; s < orbit.segments(); ++s) {
+            State start;
+            std::copy(orbit.starts[s].begin(), orbit.starts[s].end(), start.begin());
+            const bool stick = orbit.signature[s].mode == 0;
+            flow(stick, start, voltage, orbit.durations[s]);
+            for (std::size_t i = 0; i < start.size(); ++i) {
+                State moved = start;
+                moved[i] += 1e-7;
+                flow(stick, moved, voltage, orbit.durations[s]);
+            }
+            flow(stick, start, voltage + 1e-7, orbit.durations[s]);
+        }
+    }
+
+    double sum = 0;
+};
+
+void BranchOfTheMicroactuator(benchmark::State& state) {
+    const Model model = microactuator(0.82);
+    const Orbit& orbit = orbit_to_start_from();
+    const Branch known = follow_branch(model, orbit, settings(0.008));
+    if (known.points.size() != 201 || model.parameter_symbols()[0].name() != "V" || model.modes[0].name != "stick")
+        throw std::logic_error("the branch is not what is to be measured");
+    Duel duel;
+    OdeintFlows peer;
+    for (auto _ : state)
+        state.SetIterationTime(
+            duel.round([&] { benchmark::DoNotOptimize(follow_branch(model, orbit, settings(0.008)).points.size()); },
+                       [&] {
+                           for (const BranchPoint& point : known.points) // the tangent takes one more evaluation
+                               for (std::size_t i = 0; i <= point.iterations; ++i)
+                                   peer.evaluate(point.solution.orbit);
+                           benchmark::DoNotOptimize(peer.sum);
+                       }));
+    state.counters["seconds"] = duel.own();
+    state.counters["odeint_flows_ratio"] = duel.peer() / duel.own();
+    state.counters["special"] = static_cast<double>(known.special.size());
+}
+BENCHMARK(BranchOfTheMicroactuator)->UseManualTime()->Unit(benchmark::kMillisecond)->MinTime(1);
+
+/// A one-impact orbit of the linear oscillator, repeated.
+Orbit repeated(const Orbit& one, std::size_t times) {
+    Orbit orbit = one;
+    for (std::size_t i = 1; i < times; ++i) {
+        orbit.signature.insert(orbit.signature.end(), one.signature.begin(), one.signature.end());
+        orbit.starts.insert(orbit.starts.end(), one.starts.begin(), one.starts.end());
+        orbit.durations.insert(orbit.durations.end(), one.durations.begin(), one.durations.end());
+    }
+    return orbit;
+}
+
+void OrbitOfManySegments(benchmark::State& state) {
+    const Model model = microactuator(0.82);
+    const std::size_t segments = static_cast<std::size_t>(state.range(0));
+    const Orbit orbit = repeated(orbit_to_start_from(), segments / 2), two = orbit_to_start_from();
+    BranchSettings few = settings(0.008);
+    few.steps = 5;
+    Duel duel;
+    for (auto _ : state)
+        state.SetIterationTime(
+            duel.round([&] { benchmark::DoNotOptimize(follow_branch(model, orbit, few).points.size()); },
+                       [&] { benchmark::DoNotOptimize(follow_branch(model, two, few).points.size()); }));
+    state.counters["time_for_each_segment_against_two"] = duel.own() / duel.peer() * 2 / static_cast<double>(segments);
+    state.SetComplexityN(state.range(0));
+}
+BENCHMARK(OrbitOfManySegments)
+    ->RangeMultiplier(10)
+    ->Arg(2)
+    ->Arg(8)
+    ->Arg(20)
+    ->Arg(60)
+    ->Arg(200)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity();
+
+} // namespace
