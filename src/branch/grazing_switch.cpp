@@ -263,8 +263,7 @@ Orbit rotated(const Model& model, const Orbit& like, const FollowedMotion& motio
 
 /// Cuts a motion off where it comes back to the contact that it is to be without, which it may meet early: by a time
 /// that grows with the root of the clearance.
-void leave_out_return(const Model& model, FollowedMotion& motion, const Orbit& old, std::size_t segment,
-                      double round) {
+void leave_out_return(const Model& model, FollowedMotion& motion, const Orbit& old, std::size_t segment, double round) {
     constexpr double earliest = 0.02; // share of a round
     const double early = std::min(earliest * round, 0.5 * old.durations[segment]);
     Segment contact = old.signature[segment];

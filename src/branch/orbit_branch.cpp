@@ -31,12 +31,6 @@ bool is_among(PointType type, const std::vector<PointType>& types) {
     return std::find(types.begin(), types.end(), type) != types.end();
 }
 
-bool is_stable(const OrbitSolution& solution) {
-    const auto& multipliers = solution.multipliers;
-    return !multipliers.empty() &&
-           std::all_of(multipliers.begin(), multipliers.end(), [](auto one) { return std::abs(one) < 1; });
-}
-
 /// Of several things at one place, the one that tells most comes first.
 int rank(const SpecialPoint& point) {
     switch (point.type) {

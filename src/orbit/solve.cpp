@@ -51,6 +51,24 @@ std::string_view name_of(OrbitOutcome outcome) {
     return "";
 }
 
+namespace {
+
+/// Multipliers of located flips and folds are 1 in size up to this.
+constexpr double on_circle = 1e-8;
+
+} // namespace
+
+bool is_stable(const OrbitSolution& solution) {
+    const auto& multipliers = solution.multipliers;
+    return !multipliers.empty() &&
+           std::all_of(multipliers.begin(), multipliers.end(), [](auto one) { return std::abs(one) < 1 - on_circle; });
+}
+
+std::size_t unstable_directions(const OrbitSolution& solution) {
+    return static_cast<std::size_t>(std::count_if(solution.multipliers.begin(), solution.multipliers.end(),
+                                                  [](auto one) { return std::abs(one) > 1 + on_circle; }));
+}
+
 OrbitOutcome solve_shooting(Shooting& shooting, Eigen::VectorXd& unknowns, const OrbitOptions& options,
                             std::size_t& iterations, std::string& detail) {
     const Eigen::MatrixXd no_borders(0, static_cast<Eigen::Index>(shooting.unknowns()));

@@ -12,11 +12,6 @@
 
 namespace graze {
 
-std::size_t unstable_directions(const OrbitSolution& solution) {
-    return static_cast<std::size_t>(std::count_if(solution.multipliers.begin(), solution.multipliers.end(),
-                                                  [](auto one) { return std::abs(one) > 1; }));
-}
-
 namespace {
 
 OrbitOutcome outcome_named(const std::string& name) {

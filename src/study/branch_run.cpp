@@ -146,6 +146,8 @@ std::vector<Part> parts_from_orbit(const StudyRun& run, const StudyRun& parent, 
         throw InputError(start.place, "another branch is left for only along the parameter of the first",
                          "follow the same parameter first");
     const auto starts = at_place(start.place, run, [&] { return branches_at(run.model, point, run.branch.settings); });
+    if (!run.branch.set.empty()) // at other parameters there is no direction yet
+        return both_directions(run, taken_over(run, starts.front().orbit));
     std::vector<Part> parts;
     for (const BranchStart& one : starts)
         parts.push_back({one.how, one.orbit, one, 1});
@@ -213,10 +215,6 @@ private:
     std::map<std::string, std::size_t> counts_;
     std::optional<OrbitRecord> waiting_;
 };
-
-bool is_stable(const OrbitSolution& solution) {
-    return !solution.multipliers.empty() && unstable_directions(solution) == 0;
-}
 
 SpecialPoint regular_point(const BranchPoint& point) {
     SpecialPoint result;

@@ -75,7 +75,7 @@ StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
     for (const TomlEntry& item :
          reader.toml().entries(reader.toml().table(entry), entry.path,
                                {"kind", "title", "run", "runs", "x", "y", "samples", "directions", "x_range", "y_range",
-                                "fit", "at", "logarithmic", "format", "successive", "group"})) {
+                                "fit", "at", "points", "logarithmic", "format", "successive", "group"})) {
         const std::string& key = item.name;
         if (key == "kind") {
             const std::vector<std::string> kinds{"bifurcation", "basin",      "spectrum", "history",
@@ -105,6 +105,8 @@ StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
             for (const TomlEntry& point : points)
                 for (const TomlEntry& at : reader.toml().entries(reader.toml().table(point), point.path))
                     picture.at.emplace_back(at.name, reader.number(none, at));
+        } else if (key == "points") {
+            picture.points = reader.strings(item);
         } else if (key == "logarithmic") {
             for (const std::string& axis : reader.strings(item)) {
                 picture.logarithmic_x = picture.logarithmic_x || axis == "x";

@@ -45,6 +45,12 @@ struct OrbitSolution {
     Certificate certificate;
 };
 
+/// Whether all multipliers lie within the unit circle, by more than round-off at a bifurcation could decide. Not known,
+/// and false, without multipliers.
+bool is_stable(const OrbitSolution& solution);
+/// How many lie outside, by as much.
+std::size_t unstable_directions(const OrbitSolution& solution);
+
 /// A periodic orbit near a candidate, by Newton's method on multiple shooting with exact derivatives, damped where it
 /// would overshoot.
 /// @throws InputError when the candidate does not fit the model or the options are out of range

@@ -17,7 +17,4 @@ struct OrbitRecord {
     SpecialPoint point; ///< its type says whether it is special; its solution has the orbit
 };
 
-/// Absolute multipliers above 1.
-std::size_t unstable_directions(const OrbitSolution& solution);
-
 } // namespace graze
