@@ -14,6 +14,8 @@ namespace {
 constexpr double growth = 2, shrinkage = 0.5;
 /// Corrections that move a point further than this share of the step may lead onto another branch.
 constexpr double largest_correction = 0.5;
+/// How far, in units of its distance, the first point on another branch may be corrected: branches may cross obliquely.
+constexpr double farthest = 1e3;
 /// Convergence that takes more iterations than this makes steps smaller.
 constexpr std::size_t good_iterations = 3;
 /// How near a branch must come to its first point, in units of the scales, to be closed.
@@ -176,7 +178,7 @@ bool Continuation::start_along(std::span<const double> u, std::span<const double
     std::vector<double> row;
     weigh(direction, row);
     outcome_ = ContinuationOutcome::no_convergence;
-    if (!correct(point.u, row, std::abs(distance), point.iterations))
+    if (!correct(point.u, row, farthest * std::abs(distance), point.iterations))
         return false;
     outcome_ = ContinuationOutcome::singular;
     if (distance < 0)

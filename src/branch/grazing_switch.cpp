@@ -241,26 +241,6 @@ BranchStart with_one_more_contact(const Model& model, const SpecialPoint& point,
 
 namespace {
 
-/// The contacts of a motion that begins between two of them, as an orbit that begins after the first.
-Orbit rotated(const Model& model, const Orbit& like, const FollowedMotion& motion, double round) {
-    Orbit orbit;
-    orbit.parameters = like.parameters;
-    orbit.symmetry = like.symmetry;
-    const std::size_t count = motion.segments.size();
-    double known = 0;
-    for (std::size_t k = 1; k < count; ++k) {
-        orbit.signature.push_back(motion.segments[k]);
-        orbit.starts.push_back(motion.starts[k]);
-        orbit.durations.push_back(motion.durations[k]);
-        known += motion.durations[k];
-    }
-    orbit.signature.push_back(like.symmetry ? image_of(model, *like.symmetry, motion.segments[0], like)
-                                            : motion.segments[0]);
-    orbit.starts.push_back(motion.starts[count]);
-    orbit.durations.push_back(round - known);
-    return orbit;
-}
-
 /// Cuts a motion off where it comes back to the contact that it is to be without, which it may meet early: by a time
 /// that grows with the root of the clearance.
 void leave_out_return(const Model& model, FollowedMotion& motion, const Orbit& old, std::size_t segment, double round) {
@@ -303,7 +283,7 @@ BranchStart with_one_contact_fewer(const Model& model, const SpecialPoint& point
         fail(motion.problem);
     std::optional<Orbit> orbit =
         motion.segments.empty() ? close_at_section(model, old.parameters, state, touch.mode(), round, "", old.symmetry)
-                                : std::optional(rotated(model, old, motion, round));
+                                : std::optional(begun_after_first_contact(model, old, motion, round));
     if (!orbit)
         fail("it passes none of the model's sections");
     const OrbitSolution solution = solve_orbit(model, *orbit, settings.orbit);

@@ -92,4 +92,23 @@ std::optional<Orbit> with_contact_inserted(const Simulation& simulation, const S
     return joined(grazing, entries);
 }
 
+Orbit begun_after_first_contact(const Model& model, const Orbit& like, const FollowedMotion& motion, double round) {
+    Orbit orbit;
+    orbit.parameters = like.parameters;
+    orbit.symmetry = like.symmetry;
+    const std::size_t count = motion.segments.size();
+    double known = 0;
+    for (std::size_t k = 1; k < count; ++k) {
+        orbit.signature.push_back(motion.segments[k]);
+        orbit.starts.push_back(motion.starts[k]);
+        orbit.durations.push_back(motion.durations[k]);
+        known += motion.durations[k];
+    }
+    orbit.signature.push_back(like.symmetry ? image_of(model, *like.symmetry, motion.segments[0], like)
+                                            : motion.segments[0]);
+    orbit.starts.push_back(motion.starts[count]);
+    orbit.durations.push_back(round - known);
+    return orbit;
+}
+
 } // namespace graze

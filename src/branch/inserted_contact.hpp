@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/branch/special_point.hpp"
+#include "graze/orbit/solve.hpp"
 #include "graze/trajectory/simulation.hpp"
 
 #include <optional>
@@ -15,5 +16,9 @@ namespace graze {
 /// @param after, mode just after the contact; @param last the segment that the contact ends
 std::optional<Orbit> with_contact_inserted(const Simulation& simulation, const SpecialPoint& point,
                                            const std::vector<double>& after, std::size_t mode, const Segment& last);
+
+/// The contacts of a motion that has been followed for one round and begins between two of them, as an orbit that
+/// begins after the first. @param like has the parameters and the symmetry
+Orbit begun_after_first_contact(const Model& model, const Orbit& like, const FollowedMotion& motion, double round);
 
 } // namespace graze

@@ -1,5 +1,6 @@
 #include "graze/branch/orbit_branch.hpp"
 
+#include "branch/crossing.hpp"
 #include "branch/orbit_problem.hpp"
 #include "branch/orbit_tests.hpp"
 #include "graze/branch/switching.hpp"
@@ -181,6 +182,7 @@ private:
         problem_ = std::make_unique<OrbitProblem>(simulation_, orbit, settings_.parameter, settings_.free,
                                                   settings_.free.empty() ? nullptr : monitors_.get());
         continuation_ = std::make_unique<Continuation>(*problem_, settings_.continuation);
+        older_.clear();
     }
 
     std::vector<double> unknowns_of(const Orbit& orbit) {
@@ -286,19 +288,16 @@ private:
             return;
         const double from = continuation_->previous().arclength;
         const double length = continuation_->point().arclength - from;
-        for (std::size_t i = 0; i < tests_.size(); ++i) {
-            const double a = before[i].value, b = tests_[i].value;
-            const bool appeared = tests_[i].type == PointType::grazing && std::isnan(a) && b < 0;
-            const bool vanished = tests_[i].type == PointType::grazing && std::isnan(b) && a < 0;
-            if (!(a * b < 0) && !appeared && !vanished && !(b == 0 && a != 0))
-                continue;
-            if (std::optional<SpecialPoint> special = locate(i, a, b)) {
-                special->bracket = std::minmax(parameter_before, point.parameter);
-                special->step = point.step;
-                accept_limit(*special, was_admissible);
-                found.push_back(std::move(*special));
-            }
-        }
+        for (std::size_t i = 0; i < tests_.size(); ++i)
+            for (const auto& [low, high] : brackets_of(i, before[i].value))
+                if (std::optional<SpecialPoint> special = locate(i, low, high)) {
+                    special->bracket = std::minmax(parameter_before, point.parameter);
+                    special->step = point.step;
+                    accept_limit(*special, was_admissible);
+                    found.push_back(std::move(*special));
+                }
+        older_ = before;
+        older_arclength_ = arclength_ + from;
         std::stable_sort(found.begin(), found.end(),
                          [](const SpecialPoint& a, const SpecialPoint& b) { return a.arclength < b.arclength; });
         merge(length);
@@ -316,11 +315,41 @@ private:
             certificate.reason.clear();
     }
 
-    /// The zero of a test between the last two points, by the secant method kept within a bracket (M. Dowell and
+    /// Parts of the last step in which a test changes its sign.
+    std::vector<std::pair<TestValue, TestValue>> brackets_of(std::size_t test, double before) {
+        const TestValue low{0, before}, high{1, tests_[test].value};
+        const bool grazing = tests_[test].type == PointType::grazing;
+        const bool appeared = grazing && std::isnan(low.value) && high.value < 0;
+        const bool vanished = grazing && std::isnan(high.value) && low.value < 0;
+        if (low.value * high.value < 0 || appeared || vanished || (high.value == 0 && low.value != 0))
+            return {{low, high}};
+        if (older_.size() != tests_.size() || !(low.value * high.value > 0))
+            return {};
+        const double from = arclength_ + continuation_->previous().arclength;
+        const double length = arclength_ + continuation_->point().arclength - from;
+        const auto dip = possible_dip({(older_arclength_ - from) / length, older_[test].value}, low, high);
+        ContinuationPoint at;
+        if (!dip || !continuation_->between(*dip, at))
+            return {};
+        BranchPoint there;
+        std::vector<BranchTest> tests;
+        describe(at, there, tests);
+        const TestValue middle{*dip, tests[test].value};
+        if (!(middle.value * low.value < 0))
+            return {};
+        return {{low, middle}, {middle, high}};
+    }
+
+    std::optional<SpecialPoint> locate(std::size_t test, const TestValue& low, const TestValue& high) {
+        return tests_[test].singular ? locate_branch_point(test, low, high) : locate_zero(test, low, high);
+    }
+
+    /// The zero of a test within the last step, by the secant method kept within a bracket (M. Dowell and
     /// P. Jarratt's Illinois variant of regula falsi, 1971). A value without meaning, as where a minimum does not exist
     /// yet, counts as positive but of unknown size.
-    std::optional<SpecialPoint> locate(std::size_t test, double low_value, double high_value) {
-        double low = 0, high = 1, fraction = 0;
+    std::optional<SpecialPoint> locate_zero(std::size_t test, const TestValue& begin, const TestValue& end) {
+        double low = begin.fraction, low_value = begin.value, high = end.fraction, high_value = end.value;
+        double fraction = 0;
         const double size = std::fmax(std::abs(low_value), std::abs(high_value));
         ContinuationPoint at;
         BranchPoint there;
@@ -350,10 +379,24 @@ private:
                 side = 1;
             }
         }
-        if (!found_any)
+        return found_any ? special_at(at, there, tests[test], size) : std::nullopt;
+    }
+
+    /// Where another branch crosses, at which determinants are zero.
+    std::optional<SpecialPoint> locate_branch_point(std::size_t test, const TestValue& low, const TestValue& high) {
+        const std::optional<ContinuationPoint> at = locate_crossing(*continuation_, low, high);
+        if (!at)
             return std::nullopt;
+        BranchPoint there;
+        std::vector<BranchTest> tests;
+        describe(*at, there, tests);
+        return special_at(*at, there, tests[test], std::max(std::abs(low.value), std::abs(high.value)));
+    }
+
+    /// @param size of the test at the ends of the bracket
+    std::optional<SpecialPoint> special_at(const ContinuationPoint& at, const BranchPoint& there,
+                                           const BranchTest& here, double size) const {
         SpecialPoint special;
-        const BranchTest& here = tests[test];
         special.type = here.type;
         special.solution = there.solution;
         special.parameter = there.parameter;
@@ -565,7 +608,8 @@ private:
     std::unique_ptr<OrbitMonitors> monitors_;
     std::unique_ptr<OrbitProblem> problem_;
     std::unique_ptr<Continuation> continuation_;
-    std::vector<BranchTest> tests_;
+    std::vector<BranchTest> tests_, older_; ///< at the last point, and at the one before the previous one
+    double older_arclength_ = 0;
     double arclength_ = 0, growth_ = 1;
     std::size_t reorderings_ = 0;
     bool ended_ = true;

@@ -84,6 +84,7 @@ std::vector<BranchTest> branch_tests(const Shooting& shooting, const OrbitSoluti
     // The half of a symmetric orbit that changes into its image loses the symmetry instead of doubling its period.
     add(shooting.symmetry() ? PointType::branch_point : PointType::flip, shooting.system().antiperiodic_determinant());
     add(PointType::branch_point, determinant);
+    tests.back().singular = true;
     add(PointType::torus,
         torus_test(solution.half_multipliers.empty() ? solution.multipliers : solution.half_multipliers));
     const Certificate& certificate = solution.certificate;

@@ -20,6 +20,7 @@ struct BranchTest {
     /// Of bound and crossing: which monitor, and which of its crossings. None for bounds of the parameter.
     std::optional<std::size_t> monitor;
     std::size_t crossing = 0;
+    bool singular = false; ///< the equations cannot be solved where it is zero
 };
 
 /// All of them at a point, always in the same order for one signature.

@@ -1,8 +1,10 @@
 #include "branch/reordering.hpp"
 
+#include "branch/inserted_contact.hpp"
 #include "branch/orbit_problem.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "orbit/certify.hpp"
+#include "orbit/close_at_section.hpp"
 
 #include <fmt/format.h>
 
@@ -17,8 +19,6 @@ namespace {
 
 /// How far beyond the point the model's motion is looked at, in units of the scales.
 constexpr double distances[] = {1e-4, 1e-5, 1e-3, 1e-6};
-/// Share of a round at whose end the first event comes again.
-constexpr double before_end = 1e-7;
 
 SimulationOptions integration(const OrbitOptions& options) {
     SimulationOptions result;
@@ -26,50 +26,27 @@ SimulationOptions integration(const OrbitOptions& options) {
     return result;
 }
 
-/// The segment whose start, just after an event, is farthest in time from the place where the order changes.
-std::optional<std::size_t> quiet_start(const Orbit& orbit, std::size_t segment) {
-    const std::size_t count = orbit.segments();
+/// What the model does for one round from the middle of an orbit's longest segment, as an orbit.
+std::optional<Orbit> followed(const Simulation& simulation, const Orbit& orbit, std::string& why) {
     const double round = std::accumulate(orbit.durations.begin(), orbit.durations.end(), 0.0);
-    double at = 0, change = 0, best = -1;
-    for (std::size_t k = 0; k <= segment; ++k)
-        change += orbit.durations[k];
-    std::optional<std::size_t> result;
-    for (std::size_t k = 0; k < count; ++k) {
-        const double apart = std::abs(at - change), distance = std::min(apart, round - apart);
-        const Segment& before = orbit.signature[(k + count - 1) % count];
-        if (before.end == SegmentEnd::event && distance > best && (k > 0 || !orbit.symmetry)) {
-            best = distance;
-            result = k;
-        }
-        at += orbit.durations[k];
+    const auto longest = static_cast<std::size_t>(std::max_element(orbit.durations.begin(), orbit.durations.end()) -
+                                                  orbit.durations.begin());
+    std::vector<double> state = orbit.starts[longest];
+    const std::size_t mode = orbit.signature[longest].mode;
+    ArcFlow flow(simulation, {});
+    flow.set_parameters(orbit.parameters);
+    if (flow.run(mode, state, 0.5 * orbit.durations[longest]) != ArcFlow::Ending::done) {
+        why = "the orbit cannot be followed";
+        return std::nullopt;
     }
-    if (!result && orbit.symmetry && orbit.signature.back().end == SegmentEnd::event)
-        result = 0;
-    return best > 1e-6 * round || count == 1 || result == std::optional<std::size_t>(0) ? result : std::nullopt;
-}
-
-/// What the model does for one round from the start of a segment of an orbit.
-std::optional<Orbit> followed(const Simulation& simulation, const Orbit& orbit, std::size_t first, std::string& why) {
-    const double round = std::accumulate(orbit.durations.begin(), orbit.durations.end(), 0.0);
-    const FollowedMotion motion = follow_motion(simulation, orbit.parameters, orbit.starts[first],
-                                                orbit.signature[first].mode, (1 - before_end) * round);
+    const FollowedMotion motion = follow_motion(simulation, orbit.parameters, state, mode, round);
     if (!motion.problem.empty()) {
         why = motion.problem;
         return std::nullopt;
     }
-    Orbit result;
-    result.parameters = orbit.parameters;
-    result.symmetry = orbit.symmetry;
-    result.signature = motion.segments;
-    result.starts = motion.starts;
-    result.durations = motion.durations;
-    result.durations.push_back(round - std::accumulate(motion.durations.begin(), motion.durations.end(), 0.0));
-    const Model& model = simulation.model();
-    Segment last = orbit.signature[(first + orbit.segments() - 1) % orbit.segments()];
-    if (orbit.symmetry && first > 0)
-        last = image_of(model, *orbit.symmetry, last, orbit);
-    result.signature.push_back(last);
-    return result;
+    return motion.segments.empty()
+               ? close_at_section(simulation.model(), orbit.parameters, state, mode, round, "", orbit.symmetry)
+               : std::optional(begun_after_first_contact(simulation.model(), orbit, motion, round));
 }
 
 bool is_sound(const Simulation& simulation, const Orbit& orbit, std::string& why) {
@@ -88,16 +65,15 @@ bool is_sound(const Simulation& simulation, const Orbit& orbit, std::string& why
 BranchStart with_events_reordered(const Model& model, const SpecialPoint& point, const BranchSettings& settings) {
     const Simulation simulation(model, {}, {}, integration(settings.orbit));
     const Orbit& orbit = point.solution.orbit;
-    std::string why = "nothing is far enough from where it changes";
+    std::string why = "the branch's direction is not known";
     OrbitProblem problem(simulation, orbit, settings.parameter);
     const Eigen::VectorXd unknowns = problem.shooting().unknowns_of(orbit);
-    const auto first = quiet_start(orbit, point.segment);
-    if (first && point.tangent.size() == problem.unknowns())
+    if (point.tangent.size() == problem.unknowns())
         for (const double distance : distances)
             for (const double side : {1.0, -1.0}) {
                 const Eigen::VectorXd there = unknowns + side * distance * OrbitProblem::vector_of(point.tangent);
                 Orbit beyond = problem.shooting().orbit_of(there);
-                const auto candidate = followed(simulation, beyond, *first, why);
+                const auto candidate = followed(simulation, beyond, why);
                 if (!candidate)
                     continue;
                 OrbitOptions options = settings.orbit;

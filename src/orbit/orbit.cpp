@@ -111,7 +111,9 @@ Orbit whole_orbit(const Model& model, const Orbit& orbit) {
 }
 
 void validate_orbit(const Model& model, const Orbit& orbit) {
-    validate_signature(model, orbit.signature);
+    if (orbit.symmetry && *orbit.symmetry >= model.symmetries.size())
+        throw InputError("the orbit has a symmetry that the model does not have", "declare it in the model");
+    validate_signature(model, orbit.signature, {}, orbit.symmetry);
     if (orbit.parameters.size() != model.parameter_symbols().size())
         throw InputError(fmt::format("the orbit has {} parameters and the model {}", orbit.parameters.size(),
                                      model.parameter_symbols().size()),
@@ -133,8 +135,6 @@ void validate_orbit(const Model& model, const Orbit& orbit) {
     for (const double value : orbit.parameters)
         if (!std::isfinite(value))
             throw InputError("a parameter of the orbit is not finite", "give finite numbers");
-    if (orbit.symmetry && *orbit.symmetry >= model.symmetries.size())
-        throw InputError("the orbit has a symmetry that the model does not have", "declare it in the model");
 }
 
 } // namespace graze

@@ -31,6 +31,7 @@ Shooting::Shooting(const Simulation& simulation, const Orbit& orbit, std::vector
     inputs_.resize(n_ + parameters_.size());
     compile_ends();
     period_rates_ = Eigen::MatrixXd::Zero(index(n_), index(free_.size()));
+    coupling_ = Eigen::MatrixXd::Zero(index(n_), index(n_));
     split(orbit);
     system_.resize(pieces_.size());
     largest_scales_ = Eigen::VectorXd::Zero(index(n_ + free_.size()));
@@ -98,6 +99,20 @@ void Shooting::compile_ends() {
     values_.resize(std::max({n_ * (n_ + parameters_.size()), 1 + n_ + free_.size(), n_ * free_.size()}));
 }
 
+/// Derivatives of the state after a time, and on the way how strongly states act on one another.
+bool Shooting::follow(std::size_t mode, std::span<double> state, double duration, Eigen::MatrixXd& derivatives) {
+    constexpr int parts = 4; // whose derivatives do not vanish together, as they may after whole periods
+    derivatives = Eigen::MatrixXd::Identity(index(n_), index(n_));
+    Eigen::MatrixXd part;
+    for (int i = 0; i < parts; ++i) {
+        if (flow_.run(mode, state, duration / parts, part) != ArcFlow::Ending::done)
+            return false;
+        coupling_ = coupling_.cwiseMax(part.leftCols(index(n_)).cwiseAbs());
+        derivatives = part.leftCols(index(n_)) * derivatives;
+    }
+    return true;
+}
+
 /// Chooses into how many pieces each segment is split, by how much derivatives grow along it.
 void Shooting::split(const Orbit& orbit) {
     flow_.set_parameters(parameters_);
@@ -105,14 +120,12 @@ void Shooting::split(const Orbit& orbit) {
         std::vector<double> state = orbit.starts[s];
         Eigen::MatrixXd derivatives;
         std::size_t count = 1;
-        if (orbit.durations[s] > 0 &&
-            flow_.run(signature_[s].mode, state, orbit.durations[s], derivatives) == ArcFlow::Ending::done) {
+        if (orbit.durations[s] > 0 && follow(signature_[s].mode, state, orbit.durations[s], derivatives)) {
             Eigen::VectorXd sizes = Eigen::VectorXd::Ones(index(n_));
             for (std::size_t i = 0; i < n_; ++i)
                 sizes[index(i)] = std::max({std::abs(orbit.starts[s][i]), std::abs(state[i]), 1e-300});
-            const Eigen::MatrixXd scaled =
-                sizes.cwiseInverse().asDiagonal() * derivatives.leftCols(index(n_)) * sizes.asDiagonal();
-            const double growth = std::log(std::max(derivatives.leftCols(index(n_)).norm(), 1.0));
+            const Eigen::MatrixXd scaled = sizes.cwiseInverse().asDiagonal() * derivatives * sizes.asDiagonal();
+            const double growth = std::log(std::max(derivatives.norm(), 1.0));
             const double scaled_growth = std::log(std::max(scaled.norm(), 1.0));
             count = 1 + static_cast<std::size_t>(std::min(growth, scaled_growth) / std::log(most_growth));
         }
@@ -214,8 +227,11 @@ void Shooting::set_scales(const Eigen::VectorXd& unknowns) {
     for (std::size_t k = 0; k < pieces_.size(); ++k)
         scales_[index(duration_of(k))] = time > 0 ? time : 1;
     for (std::size_t f = 0; f < free_.size(); ++f) {
+        // Near zero a parameter says nothing of its own size.
+        constexpr double smallest = 1e-2;
+        const double usual = std::abs(model().parameter_values()[free_[f]]);
         double& largest = largest_scales_[index(n_ + f)];
-        largest = std::max(largest, std::abs(unknowns[index(place_of_parameter(f))]));
+        largest = std::max({largest, std::abs(unknowns[index(place_of_parameter(f))]), smallest * usual});
         scales_[index(place_of_parameter(f))] = largest > 0 ? largest : 1;
     }
 }
@@ -228,6 +244,7 @@ void Shooting::choose_scales(const std::vector<double>& least, const std::vector
     constexpr double smallest_scale = 1e-2;
     // What is smaller than the others by this is zero, by a symmetry, but for what has not decayed yet.
     constexpr double negligible = 1e-25;
+    constexpr double round_off_share = 1e-3;
     std::vector<double> scales(n_);
     double largest = 0, smallest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < n_; ++i) {
@@ -242,9 +259,13 @@ void Shooting::choose_scales(const std::vector<double>& least, const std::vector
     for (std::size_t i = 0; i < n_; ++i)
         if (scales[i] > negligible * largest && periods_[i] == 0)
             smallest = std::min(smallest, scales[i]);
+    const std::vector<double> own = scales;
     for (std::size_t i = 0; i < n_; ++i) {
-        if (!(scales[i] > negligible * largest))
+        if (!(own[i] > negligible * largest))
             scales[i] = std::isfinite(smallest) ? smallest : 1;
+        // Round-off of the states that act on it is not an extent.
+        for (std::size_t j = 0; j < n_; ++j)
+            scales[i] = std::max(scales[i], round_off_share * coupling_(index(i), index(j)) * own[j]);
         double& kept = largest_scales_[index(i)];
         kept = std::max(kept, scales[i]);
         for (std::size_t k = 0; k < pieces_.size(); ++k)

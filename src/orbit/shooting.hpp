@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -100,6 +101,7 @@ private:
     };
     void compile_ends();
     void split(const Orbit& orbit);
+    bool follow(std::size_t mode, std::span<double> state, double duration, Eigen::MatrixXd& derivatives);
     bool evaluate_piece(std::size_t k, const Eigen::VectorXd& unknowns);
     bool pass_end(std::size_t k);
     void assemble(const Eigen::VectorXd& unknowns);
@@ -123,6 +125,7 @@ private:
     std::vector<std::size_t> last_pieces_;
     std::vector<double> parameters_, periods_, inputs_, work_, values_, reference_;
     Eigen::MatrixXd period_rates_;            ///< states x free
+    Eigen::MatrixXd coupling_;                ///< greatest derivatives of states with respect to earlier ones
     Eigen::VectorXd scales_, largest_scales_; ///< the latter of states and free parameters, since the beginning
     std::vector<bool> neutral_;               ///< states that every piece leaves exactly as they are
     std::vector<std::size_t> active_;

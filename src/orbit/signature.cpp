@@ -255,7 +255,8 @@ std::string to_string(const Model& model, const Signature& signature) {
     return text;
 }
 
-void validate_signature(const Model& model, const Signature& signature, const Place& place) {
+void validate_signature(const Model& model, const Signature& signature, const Place& place,
+                        std::optional<std::size_t> symmetry) {
     if (signature.empty())
         throw InputError(place, "the signature is empty", "list at least one event or section");
     for (const Segment& segment : signature) {
@@ -268,7 +269,12 @@ void validate_signature(const Model& model, const Signature& signature, const Pl
     }
     for (std::size_t k = 0; k < signature.size(); ++k) {
         const Segment& before = signature[k];
-        const Segment& after = signature[(k + 1) % signature.size()];
+        Segment after = signature[(k + 1) % signature.size()];
+        if (symmetry && k + 1 == signature.size()) {
+            // The motion goes on in the mode whose image is the first.
+            const auto& images = model.symmetries[*symmetry].modes;
+            after.mode = static_cast<std::size_t>(std::find(images.begin(), images.end(), after.mode) - images.begin());
+        }
         if (!can_follow(model, before, after))
             throw InputError(place,
                              fmt::format("'{}' cannot follow '{}' in mode '{}'", end_name(model, after),

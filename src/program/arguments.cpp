@@ -1,6 +1,7 @@
 #include "program/arguments.hpp"
 
 #include "graze/symbolic/parser.hpp"
+#include "program/branch_arguments.hpp"
 #include "program/study_arguments.hpp"
 
 #include <CLI/Config.hpp>
@@ -21,8 +22,8 @@ namespace {
 
 constexpr const char* general_text =
     R"(Simulates hybrid dynamical systems: smooth motion interrupted by impacts, switches, stick and slip,
-and sweeps them through their parameters. A model is a text file of equations, a study one of computations with it;
-several of both come with graze.)";
+sweeps them through their parameters, and follows branches of periodic orbits. A model is a text file of equations, a
+study one of computations with it; several of both come with graze.)";
 
 constexpr const char* general_examples = R"(Start here:
   graze models                                     what comes with graze
@@ -31,6 +32,7 @@ constexpr const char* general_examples = R"(Start here:
   graze check my-ball.toml                         is it right?
   graze run --list                                 studies that come with graze: bifurcation diagrams and more
   graze run mems-switch --output switch            do one; its results and pictures go to a folder
+  graze points results                             special points of branches of periodic orbits
   graze COMMAND --help                             all options of a command)";
 
 constexpr const char* check_text = R"(Check a model and say what is in it.
@@ -277,6 +279,21 @@ std::string explain_missing(const std::string& message, const std::string& help)
     return fmt::format("{}: its value is missing; write {} {}", option, option, type);
 }
 
+/// @param message of CLI11, as "MODEL is required"
+std::string explain_required(const std::string& message, const CLI::App& command, const std::string& name) {
+    std::string all;
+    for (const CLI::Option* option : command.get_options())
+        if (option->get_positional() && option->get_required())
+            all += ' ' + option->get_name();
+    const std::string missing = message.substr(0, message.find(' '));
+    return fmt::format("{} is missing; write {}{}, then the options",
+                       missing == "MODEL"   ? "the model"
+                       : missing == "POINT" ? "the point"
+                       : missing == "FILE"  ? "the file"
+                                            : missing,
+                       name, all);
+}
+
 } // namespace
 
 void declare_arguments(CLI::App& app, Arguments& arguments) {
@@ -289,6 +306,7 @@ void declare_arguments(CLI::App& app, Arguments& arguments) {
     declare_models(app, arguments.models);
     declare_simulate(app, arguments.simulate);
     declare_study_commands(app, arguments);
+    declare_branch_commands(app, arguments);
 }
 
 std::vector<std::string> with_joined_counts(std::vector<std::string> arguments) {
@@ -317,8 +335,7 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app) {
         const std::vector<std::string> extras = app.remaining(true);
         if (!extras.empty())
             return explain_extra(extras.front(), command, help);
-        return &command == &app ? "a command is missing; " + help
-                                : fmt::format("the model is missing; write {} MODEL, then the options", name);
+        return &command == &app ? "a command is missing; " + help : explain_required(error.what(), command, name);
     }
     if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr)
         return explain_conversion(error.what(), help);

@@ -60,7 +60,7 @@ struct RunArguments {
     std::string study, folder;
     std::vector<std::string> only;
     int jobs = 0; ///< 0: as many as there are cores
-    bool progress = false, quiet = false, list = false, show = false, no_pictures = false;
+    bool progress = false, quiet = false, list = false, show = false, no_pictures = false, steps = false;
     OutputArguments output;
 };
 
@@ -72,14 +72,30 @@ struct ExportArguments {
 
 struct PlotArguments {
     std::string file, kind, x, title, x_range, y_range, fit, group, output, data;
-    std::vector<std::string> runs, y, samples, directions, at, logarithmic;
+    std::vector<std::string> runs, y, samples, directions, at, points, logarithmic;
     bool successive = false;
+};
+
+struct PointsArguments {
+    std::string file;
+    std::vector<std::string> runs, types;
+    bool all = false;
+    OutputArguments output{TableFormat::table, 0, ""}; ///< digits 0: as many as go with the format
+};
+
+struct OrbitArguments {
+    std::string file, point, plot, data, x;
+    std::vector<std::string> quantities, y;
+    std::optional<std::size_t> samples;
+    OutputArguments output{TableFormat::table, 0, ""};
 };
 
 struct Arguments {
     RunArguments run;
     ExportArguments exports;
     PlotArguments plot;
+    PointsArguments points;
+    OrbitArguments orbit;
     CheckArguments check;
     ModelsArguments models;
     SimulateArguments simulate;

@@ -12,6 +12,8 @@ int simulate_command(const SimulateArguments& arguments, const Console& console)
 int run_command(const RunArguments& arguments, const Console& console);
 int export_command(const ExportArguments& arguments, const Console& console);
 int plot_command(const PlotArguments& arguments, const Console& console);
+int points_command(const PointsArguments& arguments, const Console& console);
+int orbit_command(const OrbitArguments& arguments, const Console& console);
 
 /// Hands a table to the user. @throws InputError when it cannot be written
 void deliver(const Table& table, const OutputArguments& output, const JsonObject& heading, const Console& console);

@@ -2,6 +2,7 @@
 #include "graze/results/result_file.hpp"
 #include "program/commands.hpp"
 #include "program/output_file.hpp"
+#include "program/picture_kinds.hpp"
 #include "program/result_query.hpp"
 #include "program/values.hpp"
 
@@ -27,64 +28,130 @@ std::vector<std::string> chosen_runs(const ResultFile& file, const std::vector<s
     return wanted.empty() ? known : wanted;
 }
 
-std::string in_quotes(const std::string& text) {
-    std::string result = "'";
-    for (const char c : text)
-        result += c == '\'' ? std::string("''") : std::string(1, c);
-    return result + "'";
+/// How many points of each run are there.
+std::string query_of_runs(const ResultFile& file) {
+    std::string counts;
+    for (const RunRecord& run : file.runs())
+        counts += fmt::format(" WHEN {} THEN (SELECT count(*) FROM {})", in_quotes(run.name),
+                              StoredRun(file, run.name, {}).points);
+    return fmt::format("SELECT r.name AS run, r.kind, r.status, r.points, {} AS done, r.model_name AS model, r.version "
+                       "FROM runs AS r ORDER BY r.number",
+                       counts.empty() ? "0" : fmt::format("CASE r.name{} END", counts));
 }
 
-std::string query_of(const ExportArguments& arguments, const ResultFile& file) {
-    if (!arguments.sql.empty())
-        return arguments.sql;
+std::string query_of_multipliers(const ResultFile& file, const std::vector<std::string>& names,
+                                 const std::string& where) {
+    bool branches = false, others = false;
+    for (const RunRecord& run : file.runs())
+        (run.is_branch() ? branches : others) = true;
+    // Of a branch, its parts are directions, and the parameter that is followed the coordinate.
+    const std::string of_branches =
+        "SELECT run, number, part AS direction, value AS coordinate, label, type FROM branch_points";
+    const std::string of_others = "SELECT run, number, direction, coordinate, label, label AS type FROM all_points";
+    return fmt::format("SELECT m.run, m.point, p.direction, p.coordinate, m.position, m.real, m.imaginary FROM "
+                       "multipliers AS m JOIN ({}) AS p ON p.run = m.run AND p.number = m.point WHERE m.run IN "
+                       "({}) AND {} ORDER BY m.run, m.point, m.position",
+                       branches && others ? of_others + " UNION ALL " + of_branches
+                       : branches         ? of_branches
+                                          : of_others,
+                       in_list(names), where);
+}
+
+/// What is shown of a run's table.
+std::string columns_of(const StoredRun& run, const std::string& what) {
+    if (what == "points")
+        return "p.*";
+    std::string columns = what == "segments" ? "s.point, p.part, p.type, p.label" : std::string("s.point, p.direction");
+    const std::size_t shown = what == "samples" ? run.record.coordinates.size() : 1; // of a branch what is followed
+    for (std::size_t c = 0; c < std::min(shown, run.record.coordinates.size()); ++c)
+        columns += ", " + run.column(run.record.coordinates[c].name);
+    if (what == "segments") {
+        columns += ", s.segment, s.mode, s.ending, s.duration, s.approach_speed, s.departure, s.guard_margin";
+        for (const std::string& name : run.state_columns)
+            columns += ", s." + quoted_column(name);
+        return columns;
+    }
+    columns += ", s.sampling, s.time";
+    for (const ResultColumn& column : run.record.values)
+        columns += ", " + run.value_column(column.name);
+    return columns;
+}
+
+/// Which runs have a table: branches have segments and no samples, other runs the reverse; points of both kinds do not
+/// go into one table.
+std::vector<StoredRun> runs_with(const std::string& what, const ExportArguments& arguments, const ResultFile& file,
+                                 const Console& console) {
+    std::vector<StoredRun> branches, others;
+    for (const std::string& name : chosen_runs(file, split_list(arguments.runs))) {
+        StoredRun run(file, name, {});
+        (run.record.is_branch() ? branches : others).push_back(std::move(run));
+    }
+    const bool named = !arguments.runs.empty();
+    const bool wants_branches = what == "segments" || (what == "points" && others.empty());
+    std::vector<StoredRun>& chosen = wants_branches ? branches : others;
+    const std::vector<StoredRun>& rest = wants_branches ? others : branches;
+    if (chosen.empty() && rest.empty())
+        throw InputError("there are no runs in the file", "run the study first");
+    if (chosen.empty() || (named && !rest.empty()))
+        throw InputError({"--what", 0, 0},
+                         fmt::format("run '{}' is of kind {}, which has no {}{}", rest.front().record.name,
+                                     rest.front().record.kind, what, what == "points" ? " like the others" : ""),
+                         what == "points" ? "export one of them at a time, by --run NAME"
+                                          : fmt::format("export its {}", wants_branches ? "samples" : "segments"));
+    if (what == "points" && !rest.empty())
+        console.err << fmt::format("graze: branches have other columns and are left out: see graze points {0}, or "
+                                   "graze export {0} --run {1}\n",
+                                   arguments.file, rest.front().record.name);
+    return std::move(chosen);
+}
+
+/// Which rows are asked for. @param type column of another name that a label may be
+std::string condition_of(const ExportArguments& arguments, const char* type, const char* direction) {
     std::string where = "1";
     if (!arguments.label.empty())
-        where += " AND p.label = " + in_quotes(arguments.label);
+        where += fmt::format(" AND {} IN (p.label, {})", in_quotes(arguments.label), type);
     if (!arguments.direction.empty())
-        where += " AND p.direction = " + in_quotes(arguments.direction);
-    const auto names = chosen_runs(file, split_list(arguments.runs));
-    if (arguments.what == "runs")
-        return "SELECT r.name AS run, r.kind, r.status, r.points, (SELECT count(*) FROM all_points AS a WHERE a.run = "
-               "r.name) AS done, r.model_name AS model, r.version FROM runs AS r ORDER BY r.number";
-    if (arguments.what == "multipliers") {
-        std::string list;
-        for (const std::string& name : names)
-            list += (list.empty() ? "" : ",") + in_quotes(name);
-        return fmt::format(
-            "SELECT m.run, m.point, p.direction, p.coordinate, m.position, m.real, m.imaginary FROM "
-            "multipliers AS m JOIN all_points AS p ON p.run = m.run AND p.number = m.point WHERE m.run IN "
-            "({}) AND {} ORDER BY m.run, m.point, m.position",
-            list, where);
+        where += fmt::format(" AND {} = {}", direction, in_quotes(arguments.direction));
+    return where;
+}
+
+std::string query_of(const ExportArguments& arguments, const ResultFile& file, const Console& console) {
+    if (!arguments.sql.empty())
+        return arguments.sql;
+    const std::vector<std::string> names = chosen_runs(file, split_list(arguments.runs));
+    const std::string& what = arguments.what;
+    if (what == "runs")
+        return query_of_runs(file);
+    if (what == "multipliers") {
+        return query_of_multipliers(file, names, condition_of(arguments, "p.type", "p.direction"));
     }
-    const std::vector<std::string> tables{"points", "samples"};
-    if (std::find(tables.begin(), tables.end(), arguments.what) == tables.end())
-        throw InputError({"--what", 0, 0}, fmt::format("there is no table '{}'", arguments.what),
-                         name_advice(arguments.what, {"points", "samples", "multipliers", "runs"}, ""));
-    if (names.empty())
-        throw InputError("there are no runs in the file", "run the study first");
+    const std::vector<std::string> tables{"points", "samples", "segments"};
+    if (std::find(tables.begin(), tables.end(), what) == tables.end())
+        throw InputError({"--what", 0, 0}, fmt::format("there is no table '{}'", what),
+                         name_advice(what, {"points", "samples", "segments", "multipliers", "runs"}, ""));
+    const std::vector<StoredRun> runs = runs_with(what, arguments, file, console);
     std::string all;
-    std::size_t width = 0;
-    for (const std::string& name : names) {
-        const StoredRun run(file, name, {});
-        std::string columns = arguments.what == "points" ? "p.*" : "";
-        if (columns.empty()) {
-            columns = "s.point, p.direction";
-            for (const ResultColumn& column : run.record.coordinates)
-                columns += ", " + run.column(column.name);
-            columns += ", s.sampling, s.time";
-            for (const ResultColumn& column : run.record.values)
-                columns += ", " + run.value_column(column.name);
-        }
-        const std::string from = arguments.what == "points" ? run.points + " AS p" : run.joined;
-        const std::string order = arguments.what == "points" ? "p.number" : "s.rowid";
-        if (names.size() == 1)
+    std::vector<std::string> shape;
+    for (const StoredRun& run : runs) {
+        const bool branch = run.record.is_branch();
+        const std::string from = what == "points" ? run.points + " AS p" : run.joined;
+        const std::string where =
+            condition_of(arguments, branch ? "p.type" : "p.label", branch ? "p.part" : "p.direction");
+        const std::string columns = columns_of(run, what);
+        const std::string order = what == "points" ? "p.number" : branch ? "s.point, s.segment" : "s.rowid";
+        if (runs.size() == 1)
             return fmt::format("SELECT {} FROM {} WHERE {} ORDER BY {}", columns, from, where, order);
-        const std::size_t here = run.record.coordinates.size() + run.record.values.size() + run.record.states.size();
-        if (width != 0 && width != here)
-            throw InputError("the runs do not have the same columns", "export one of them at a time, by --run NAME");
-        width = here;
-        all += fmt::format("{}SELECT {} AS run, {} FROM {} WHERE {}", all.empty() ? "" : " UNION ALL ", in_quotes(name),
-                           columns, from, where);
+        std::vector<std::string> here;
+        for (const auto* list : {&run.record.coordinates, &run.record.values, &run.record.states})
+            for (const ResultColumn& column : *list)
+                here.push_back(column.name);
+        if (!shape.empty() && (branch ? shape != here : shape.size() != here.size()))
+            throw InputError("the runs do not have the same columns",
+                             branch ? "export one of them at a time, by --run NAME, or see graze points FILE --all"
+                                    : "export one of them at a time, by --run NAME");
+        shape = here;
+        all += fmt::format("{}SELECT {} AS run, {} FROM {} WHERE {}", all.empty() ? "" : " UNION ALL ",
+                           in_quotes(run.record.name), columns, from, where);
     }
     return all;
 }
@@ -147,7 +214,7 @@ int export_command(const ExportArguments& arguments, const Console& console) {
     output.format = arguments.hdf5 == "csv"    ? TableFormat::csv
                     : arguments.hdf5 == "json" ? TableFormat::json
                                                : TableFormat::table;
-    auto rows = file.query(query_of(arguments, file));
+    auto rows = file.query(query_of(arguments, file, console));
     if (output.format == TableFormat::csv && output.file.empty()) {
         write_csv(console.out, rows, output.digits);
         return exit_success;

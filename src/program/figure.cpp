@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/input_error.hpp"
 #include "program/gnuplot_text.hpp"
+#include "program/label_places.hpp"
 #include "program/output_file.hpp"
 #include "program/picture.hpp"
 #include "program/process.hpp"
@@ -27,12 +28,6 @@ constexpr double dots_per_inch = 200;
 constexpr double grain = 1.0 / 2000;
 constexpr std::array<const char*, 8> palette{"#1f4e9c", "#c8232c", "#2a8c4a", "#d98200",
                                              "#7b3fa0", "#1797a6", "#8a5a32", "#606060"};
-
-const char* colour_text(std::size_t colour) {
-    if (colour == FigureSeries::grey)
-        return "#b0b0b0";
-    return colour == FigureSeries::black ? "#000000" : palette[colour % palette.size()];
-}
 
 bool is_drawn(const PlanePoint& point, const FigurePanel& panel) {
     return std::isfinite(point.x) && std::isfinite(point.y) && (!panel.logarithmic_x || point.x > 0) &&
@@ -82,7 +77,11 @@ std::string style_text(const FigureSeries& series, bool crowded) {
     case FigureSeries::Style::line:
         return fmt::format("with lines lw 1.3 lc rgb '{}'", colour);
     case FigureSeries::Style::dashed:
-        return fmt::format("with lines lw 1.3 dt 2 lc rgb '{}'", colour);
+        return fmt::format("with lines lw 1.3 dt (7,4) lc rgb '{}'", colour);
+    case FigureSeries::Style::dotted:
+        return fmt::format("with lines lw 0.9 dt 3 lc rgb '{}'", colour);
+    case FigureSeries::Style::symbols:
+        return fmt::format("with points pt {} ps 0.8 lw 1.2 lc rgb '{}'", series.symbol, colour);
     case FigureSeries::Style::impulses:
         return fmt::format("with linespoints pt 7 ps 0.4 lw 1.1 lc rgb '{}'", colour);
     }
@@ -93,14 +92,41 @@ std::string range_text(const std::optional<std::pair<double, double>>& range) {
     return range ? fmt::format("[{}:{}]", number_text(range->first), number_text(range->second)) : "[*:*]";
 }
 
+/// Fewer tics than usual where their labels are so long that they would run into one another.
+std::string tics_text(const FigurePanel& panel) {
+    Extent extent;
+    if (panel.x_range) {
+        extent.add(panel.x_range->first);
+        extent.add(panel.x_range->second);
+    } else {
+        for (const FigureSeries& series : panel.series)
+            for (const PlanePoint& point : series.points)
+                if (is_drawn(point, panel))
+                    extent.add(point.x);
+    }
+    if (panel.logarithmic_x || !(extent.least < extent.greatest))
+        return "set xtics autofreq\n";
+    constexpr int usual = 8, few = 4;
+    constexpr std::size_t room = 54; // letters
+    const Axis axis = axis_for(extent.least, extent.greatest, usual, 0);
+    std::size_t letters = 0;
+    for (double count = std::ceil(axis.low / axis.tic); count * axis.tic <= axis.high; ++count)
+        letters += fmt::format("{:g}", count * axis.tic).size() + 1;
+    if (letters <= room)
+        return "set xtics autofreq\n";
+    return fmt::format("set xtics {:g}\n", axis_for(extent.least, extent.greatest, few, 0).tic);
+}
+
 std::string data_text(const FigureSeries& series, const FigurePanel& panel, bool& crowded) {
     const bool dots = series.style == FigureSeries::Style::dots;
     const std::vector<PlanePoint> points = dots ? thinned(series, panel) : series.points;
     constexpr std::size_t crowd = 20000;
+    const int digits = dots ? 7 : 10; // lines are also drawn of narrow ranges
     crowded = points.size() > crowd;
     std::string text;
     for (const PlanePoint& point : points)
-        text += is_drawn(point, panel) ? fmt::format("{:.7g} {:.7g}\n", point.x, point.y) : std::string("\n");
+        text += is_drawn(point, panel) ? fmt::format("{:.{}g} {:.{}g}\n", point.x, digits, point.y, digits)
+                                       : std::string("\n");
     return text;
 }
 
@@ -110,18 +136,31 @@ std::string panel_commands(const FigurePanel& panel) {
                         with_unit(name_text(panel.y_label), panel.y_unit));
     text += panel.logarithmic_x ? "set logscale x\nset format x '10^{%T}'\n" : "unset logscale x\nset format x '%g'\n";
     text += panel.logarithmic_y ? "set logscale y\nset format y '10^{%T}'\n" : "unset logscale y\nset format y '%g'\n";
+    text += tics_text(panel);
+    text += fmt::format("set offsets graph {0},graph {0},graph {1},graph {1}\n", panel.roomy_x ? roomy_margin : 0.0,
+                        panel.roomy ? roomy_margin : 0.0);
     text += fmt::format("set xrange {}\nset yrange {}\n", range_text(panel.x_range), range_text(panel.y_range));
     text += panel.key_inside ? "set key inside bottom right vertical Left reverse\n"
                              : "set key outside bottom center horizontal noreverse\n";
-    text += "unset arrow\n";
+    // Long enough for dashes to be seen.
+    const bool styles = std::any_of(panel.series.begin(), panel.series.end(),
+                                    [](const FigureSeries& series) { return series.only_in_legend; });
+    text += fmt::format("set key samplen {}\n", styles ? 3 : 1);
+    text += "unset arrow\nunset label\n";
     for (const double mark : panel.marks)
         text += fmt::format("set arrow from first {0},graph 0 to first {0},graph 1 nohead lw 0.5 dt 3 lc rgb "
                             "'#808080'\n",
                             fmt::format("{:.10g}", mark));
+    text += label_commands(panel);
     std::string plots, data;
     for (std::size_t s = 0; s < panel.series.size(); ++s) {
         const FigureSeries& series = panel.series[s];
         bool crowded = false;
+        if (series.only_in_legend) {
+            plots += fmt::format("{}NaN {} title \"{}\"", plots.empty() ? "" : ", ", style_text(series, false),
+                                 plain(series.title));
+            continue;
+        }
         const std::string points = data_text(series, panel, crowded);
         if (points.find_first_not_of('\n') == std::string::npos)
             continue;
@@ -135,13 +174,19 @@ std::string panel_commands(const FigurePanel& panel) {
         if (tiny)
             plots += fmt::format(", NaN with points pt 7 ps 0.7 lc rgb '{}' {}", colour_text(series.colour), title);
     }
-    if (plots.empty())
+    if (data.empty())
         return text + "set label 99 'no data' at graph 0.5,0.5 center\nset xrange [0:1]\nset yrange [0:1]\n"
                       "plot NaN notitle\nunset label 99\n";
     return text + "plot " + plots + "\n" + data;
 }
 
 } // namespace
+
+const char* colour_text(std::size_t colour) {
+    if (colour == FigureSeries::grey)
+        return "#b0b0b0";
+    return colour == FigureSeries::black ? "#000000" : palette[colour % palette.size()];
+}
 
 std::string Figure::script(const std::string& ending, const std::string& output) const {
     const std::size_t across = std::max<std::size_t>(1, std::min(columns, panels.size()));

@@ -33,6 +33,10 @@ ResultPicture basin_picture(const StudyPicture& picture, const ResultFile& file)
 ResultPicture spectrum_picture(const StudyPicture& picture, const ResultFile& file);
 /// Histories and portraits: one panel for each point (portrait) or value (history).
 Figure motion_picture(const StudyPicture& picture, const ResultFile& file, bool portrait);
+/// The same of orbits of branches, along the segments that were computed.
+Figure orbit_picture(const StudyPicture& picture, const ResultFile& file, bool portrait);
+/// Branches of orbits: one panel for each monitor.
+Figure branch_picture(const StudyPicture& picture, const ResultFile& file);
 ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& file);
 Figure scatter_picture(const StudyPicture& picture, const ResultFile& file);
 

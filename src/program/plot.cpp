@@ -31,24 +31,6 @@ std::size_t column_of(PlotContents& contents, RequestedQuantity quantity) {
     return contents.columns.size() - 1;
 }
 
-/// A displacement and its velocity: the first plain state whose rate is another one, or else the first two.
-std::vector<std::string> default_portrait(const Model& model) {
-    std::vector<std::string> plain;
-    for (std::size_t i = 0; i < model.states.size(); ++i) {
-        if (!is_plain(model.states[i]))
-            continue;
-        plain.push_back(model.states[i].name);
-        const Expression rate = model.expand(model.modes[model.initial_mode].rates[i]);
-        if (!rate.is_symbol())
-            continue;
-        const auto velocity = model.find_state(rate.name());
-        if (velocity && *velocity != i && is_plain(model.states[*velocity]))
-            return {model.states[i].name, model.states[*velocity].name};
-    }
-    plain.resize(std::min<std::size_t>(plain.size(), 2));
-    return plain.size() == 2 ? plain : std::vector<std::string>{};
-}
-
 /// Whether an event depends on nothing but phases: a switch that a clock operates, not something met by the motion.
 bool is_clock(const Model& model, const Event& event) {
     const std::vector<Expression> symbols = symbols_of({{model.expand(event.function)}});
@@ -61,9 +43,7 @@ bool is_clock(const Model& model, const Event& event) {
 void choose_panels(const Model& model, const SimulateArguments& arguments, PlotContents& contents) {
     std::vector<std::string> histories = arguments.quantities;
     if (histories.empty())
-        for (const State& state : model.states)
-            if (is_plain(state) && histories.size() < most_default_histories)
-                histories.push_back(state.name);
+        histories = plain_states(model);
     for (const std::string& text : histories)
         contents.histories.push_back(column_of(contents, requested_quantity(model, text, "--quantity")));
     std::vector<std::string> pairs = split_list(arguments.portraits);
@@ -83,6 +63,31 @@ void choose_panels(const Model& model, const SimulateArguments& arguments, PlotC
 }
 
 } // namespace
+
+std::vector<std::string> default_portrait(const Model& model) {
+    std::vector<std::string> plain;
+    for (std::size_t i = 0; i < model.states.size(); ++i) {
+        if (!is_plain(model.states[i]))
+            continue;
+        plain.push_back(model.states[i].name);
+        const Expression rate = model.expand(model.modes[model.initial_mode].rates[i]);
+        if (!rate.is_symbol())
+            continue;
+        const auto velocity = model.find_state(rate.name());
+        if (velocity && *velocity != i && is_plain(model.states[*velocity]))
+            return {model.states[i].name, model.states[*velocity].name};
+    }
+    plain.resize(std::min<std::size_t>(plain.size(), 2));
+    return plain.size() == 2 ? plain : std::vector<std::string>{};
+}
+
+std::vector<std::string> plain_states(const Model& model) {
+    std::vector<std::string> names;
+    for (const State& state : model.states)
+        if (is_plain(state) && names.size() < most_default_histories)
+            names.push_back(state.name);
+    return names;
+}
 
 PlotRequest plot_request(const Model& model, const SimulateArguments& arguments, const std::vector<bool>& marked) {
     PlotRequest request;

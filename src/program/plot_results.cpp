@@ -36,8 +36,14 @@ std::optional<std::pair<double, double>> range_of(const std::string& text, const
 
 StudyPicture picture_of(const PlotArguments& arguments, const RunRecord& run) {
     StudyPicture picture = default_picture(run);
+    picture.points = split_list(arguments.points);
     if (!arguments.kind.empty())
         picture.kind = arguments.kind;
+    else if (!picture.points.empty())
+        picture.kind = arguments.x == "t" ? "history" : "portrait";
+    if (!picture.points.empty() && !run.is_branch())
+        throw InputError({"--point", 0, 0}, fmt::format("run '{}' has no orbits of a branch", run.name),
+                         "choose points of other runs by --at NAME=VALUE");
     picture.x = arguments.x;
     picture.title = arguments.title;
     picture.group = arguments.group;
@@ -63,10 +69,35 @@ StudyPicture picture_of(const PlotArguments& arguments, const RunRecord& run) {
             throw InputError({"--sample", 0, 0}, fmt::format("run '{}' has no sampling '{}'", run.name, sampling),
                              name_advice(sampling, run.samplings, "it has none"));
     for (const std::string& direction : picture.directions)
-        if (std::find(run.directions.begin(), run.directions.end(), direction) == run.directions.end())
+        if (!run.is_branch() &&
+            std::find(run.directions.begin(), run.directions.end(), direction) == run.directions.end())
             throw InputError({"--direction", 0, 0}, fmt::format("run '{}' has no direction '{}'", run.name, direction),
                              name_advice(direction, run.directions, "it has none"));
     return picture;
+}
+
+/// Branches go into one picture. @return whether these do
+bool draw_together(const PlotArguments& arguments, const ResultFile& file, const std::vector<std::string>& names,
+                   const Console& console) {
+    StudyPicture picture;
+    const std::vector<RunRecord> all = file.runs();
+    const bool followed =
+        std::any_of(all.begin(), all.end(), [](const RunRecord& run) { return run.kind == "continue"; });
+    for (const std::string& name : names) {
+        const StoredRun run(file, name, {"--run", 0, 0});
+        if (arguments.runs.empty() && followed && run.record.kind == "orbit")
+            continue; // where a branch started: one of its orbits
+        const StudyPicture one = picture_of(arguments, run.record);
+        if (!run.record.is_branch() || one.kind != "branch")
+            return false;
+        if (picture.runs.empty())
+            picture = one;
+        else
+            picture.runs.push_back(name);
+    }
+    draw_figure(make_picture(picture, file).figure, arguments.output, arguments.data);
+    console.out << arguments.output << '\n';
+    return true;
 }
 
 } // namespace
@@ -79,6 +110,8 @@ int plot_command(const PlotArguments& arguments, const Console& console) {
             names.push_back(run.name);
     if (names.empty())
         throw InputError("there are no runs in the file", "run the study first");
+    if (names.size() > 1 && !arguments.output.empty() && draw_together(arguments, file, names, console))
+        return exit_success;
     if (names.size() > 1 && !arguments.output.empty())
         throw InputError({"--output", 0, 0}, "several runs cannot go into one picture", "choose one by --run NAME");
     for (const std::string& name : names) {

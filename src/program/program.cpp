@@ -40,6 +40,10 @@ int dispatch(std::span<const std::string> words, const Console& console) {
         return export_command(arguments.exports, console);
     if (app.got_subcommand("plot"))
         return plot_command(arguments.plot, console);
+    if (app.got_subcommand("points"))
+        return points_command(arguments.points, console);
+    if (app.got_subcommand("orbit"))
+        return orbit_command(arguments.orbit, console);
     return simulate_command(arguments.simulate, console);
 }
 

@@ -86,12 +86,13 @@ Figure scatter_picture(const StudyPicture& picture, const ResultFile& file) {
     for (std::size_t r = 0; r < picture.runs.size(); ++r) {
         const StoredRun run(file, picture.runs[r], picture.place);
         const std::string x = first_coordinate(picture, run);
-        const std::vector<std::string> ys = picture.y.empty() ? std::vector<std::string>{"lyapunov"} : picture.y;
+        const std::vector<std::string> ys =
+            picture.y.empty() ? std::vector<std::string>{run.record.is_branch() ? "period" : "lyapunov"} : picture.y;
         for (std::size_t v = 0; v < ys.size(); ++v) {
             if (v >= figure.panels.size())
                 figure.panels.push_back(panel_of(picture, x, run.unit(x), ys[v], run.unit(ys[v])));
             FigureSeries series{picture.runs.size() > 1 ? picture.runs[r] : "", FigureSeries::Style::circles, r, {}};
-            const bool sampled = run.has_value(ys[v]);
+            const bool sampled = run.has_value(ys[v]) && !run.record.is_branch();
             auto rows = file.query(fmt::format("SELECT {}, {} FROM {} ORDER BY p.number", run.column(x),
                                                run.column(ys[v]), sampled ? run.joined : run.points + " AS p"));
             while (rows.next())

@@ -19,6 +19,21 @@ namespace {
 
 constexpr std::size_t dense_samples = 3000;
 
+const ResultColumn* find(const std::vector<ResultColumn>& columns, const std::string& name) {
+    const auto found =
+        std::find_if(columns.begin(), columns.end(), [&](const ResultColumn& column) { return column.name == name; });
+    return found == columns.end() ? nullptr : &*found;
+}
+
+/// The quoted column that has the values of something named.
+std::string column_of(const std::vector<ResultColumn>& columns, const std::vector<std::string>& in_tables,
+                      const std::string& name) {
+    const ResultColumn* found = find(columns, name);
+    return quoted_column(found ? in_tables[static_cast<std::size_t>(found - columns.data())] : name);
+}
+
+} // namespace
+
 std::string quoted_column(const std::string& name) {
     std::string text = "\"";
     for (const char c : name)
@@ -26,13 +41,12 @@ std::string quoted_column(const std::string& name) {
     return text + '"';
 }
 
-const ResultColumn* find(const std::vector<ResultColumn>& columns, const std::string& name) {
-    const auto found =
-        std::find_if(columns.begin(), columns.end(), [&](const ResultColumn& column) { return column.name == name; });
-    return found == columns.end() ? nullptr : &*found;
+std::string in_quotes(const std::string& text) {
+    std::string result = "'";
+    for (const char c : text)
+        result += c == '\'' ? std::string("''") : std::string(1, c);
+    return result + "'";
 }
-
-} // namespace
 
 std::string result_path(const std::string& file_or_folder) {
     std::error_code error;
@@ -52,8 +66,20 @@ StoredRun::StoredRun(const ResultFile& file, const std::string& name, const Plac
     }
     record = *found;
     model = parse_model(record.model, record.name + ".toml");
-    points = quoted_column("points_" + name);
-    samples = quoted_column("samples_" + name);
+    points = quoted_column((record.is_branch() ? "branch_" : "points_") + name);
+    samples = quoted_column((record.is_branch() ? "segments_" : "samples_") + name);
+    // A name that a table had already was given another one there.
+    auto rows = file.query(
+        fmt::format("SELECT place, column_name FROM columns WHERE run = {} ORDER BY position", in_quotes(name)));
+    while (rows.next()) {
+        const std::string what = rows.text(0);
+        auto& list = what == "coordinate" ? coordinate_columns : what == "state" ? state_columns : value_columns;
+        list.push_back(rows.text(1));
+    }
+    if (record.is_branch()) {
+        joined = fmt::format("{} AS p JOIN {} AS s ON s.point = p.number", points, samples);
+        return;
+    }
     // Samples lie in the order of their points' numbers, by which they are found without an index.
     joined = fmt::format("{} AS p CROSS JOIN {} AS s ON s.rowid >= p.number * 16777216 AND s.rowid < (p.number + 1) * "
                          "16777216",
@@ -62,19 +88,26 @@ StoredRun::StoredRun(const ResultFile& file, const std::string& name, const Plac
 
 std::string StoredRun::column(const std::string& name) const {
     if (find(record.coordinates, name))
-        return "p." + quoted_column(name);
-    return find(record.values, name) ? "s." + quoted_column(name) : name;
+        return "p." + column_of(record.coordinates, coordinate_columns, name);
+    if (find(record.values, name))
+        return value_column(name);
+    if (record.is_branch() && name == "multiplier")
+        return fmt::format(
+            "(SELECT sqrt(m.real * m.real + m.imaginary * m.imaginary) FROM multipliers AS m WHERE m.run "
+            "= {} AND m.point = p.number AND m.position = 0)",
+            in_quotes(record.name));
+    return name;
 }
 
 std::string StoredRun::value_column(const std::string& name) const {
-    return "s." + quoted_column(name);
+    return (record.is_branch() ? "p." : "s.") + column_of(record.values, value_columns, name);
 }
 
 std::string StoredRun::unit(const std::string& name) const {
     for (const auto* columns : {&record.coordinates, &record.values})
         if (const ResultColumn* column = find(*columns, name))
             return column->unit;
-    if (name == "time" || name == "ending_time" || name == "duration")
+    if (name == "time" || name == "ending_time" || name == "duration" || (record.is_branch() && name == "period"))
         return model.time_unit;
     return "";
 }
@@ -84,6 +117,10 @@ bool StoredRun::has_value(const std::string& name) const {
 }
 
 PointRecord chosen_point(const ResultFile& file, const StoredRun& run, const StudyPicture& picture) {
+    if (run.record.is_branch())
+        throw InputError(picture.place,
+                         fmt::format("run '{}' has orbits of a branch, without samples", run.record.name),
+                         "draw it as branch, portrait or history");
     std::string where, order;
     std::vector<double> values;
     for (const std::string& direction : picture.directions)

@@ -11,6 +11,10 @@
 
 namespace graze {
 
+/// A text between SQL's quotes.
+std::string in_quotes(const std::string& text);
+/// A column's name between SQL's quotes.
+std::string quoted_column(const std::string& name);
 /// The result file of a folder, or the file itself.
 std::string result_path(const std::string& file_or_folder);
 
@@ -20,10 +24,12 @@ struct StoredRun {
 
     RunRecord record;
     Model model;
-    std::string points, samples; ///< quoted names of its tables
+    std::string points, samples; ///< quoted names of its tables; of a branch its orbits and their segments
     std::string joined;          ///< both, as p and s
+    std::vector<std::string> coordinate_columns, state_columns, value_columns; ///< of those of the record; unquoted
 
-    /// Column of a coordinate (of p) or value (of s); other texts are expressions in columns and stay as they are.
+    /// Column of a coordinate (of p) or value (of s, of a branch of p); `multiplier` of a branch is the greatest one's
+    /// modulus; other texts are expressions in columns and stay as they are.
     std::string column(const std::string& name) const;
     /// Column of a value, even if a coordinate has the same name.
     std::string value_column(const std::string& name) const;

@@ -2,6 +2,7 @@
 #include "graze/study/study_catalogue.hpp"
 #include "program/commands.hpp"
 #include "program/interrupt.hpp"
+#include "program/step_lines.hpp"
 #include "program/study_pictures.hpp"
 #include "program/values.hpp"
 
@@ -31,34 +32,51 @@ public:
     StudyProgress& operator=(const StudyProgress&) = delete;
 
     void update(const std::string& run, std::size_t done, std::size_t all) {
-        const auto now = Clock::now();
         if (first_ == 0)
             first_ = done;
+        const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+        const double left =
+            elapsed * static_cast<double>(all - done) / static_cast<double>(std::max<std::size_t>(done - first_, 1));
+        show([&] {
+            return fmt::format("{}: {} of {} points, {:.0f} %, {:.0f} s left", run, done, all,
+                               100.0 * static_cast<double>(done) / static_cast<double>(all), left);
+        });
+    }
+    /// Of a branch nobody knows how long it will be.
+    void update(const std::string& run, const OrbitRecord& orbit) {
+        show([&] { return fmt::format("{}: {} orbits, at {:.8g}", run, orbit.number + 1, orbit.point.parameter); });
+    }
+
+private:
+    /// @param text made only when it is shown
+    template <class Text>
+    void show(Text text) {
+        const auto now = Clock::now();
         if (!wanted_ || now - start_ < 2s || now - last_ < 200ms)
             return;
         last_ = now;
         shown_ = true;
-        const double elapsed = std::chrono::duration<double>(now - start_).count();
-        const double left =
-            elapsed * static_cast<double>(all - done) / static_cast<double>(std::max<std::size_t>(done - first_, 1));
-        console_->err << fmt::format("\r{:<70}",
-                                     fmt::format("{}: {} of {} points, {:.0f} %, {:.0f} s left", run, done, all,
-                                                 100.0 * static_cast<double>(done) / static_cast<double>(all), left))
-                      << std::flush;
+        console_->err << fmt::format("\r{:<70}", text()) << std::flush;
     }
 
-private:
     const Console* console_;
     bool wanted_, shown_ = false;
     std::size_t first_ = 0;
     Clock::time_point start_ = Clock::now(), last_ = start_;
 };
 
-/// "periodic 1330, chaotic 270"
-std::string labels_of(const ResultFile& file, const std::string& run) {
+/// "periodic 1330, chaotic 270", or of branches their special points: "GR 1, PD 2".
+std::string labels_of(const ResultFile& file, const RunReport& report) {
+    const bool branch = report.kind == name_of(RunKind::orbit) || report.kind == name_of(RunKind::follow);
+    // An end that was not located is an orbit that was not found.
+    auto rows = file.query(fmt::format(
+        fmt::runtime(
+            branch
+                ? "SELECT iif(type = 'EP', 'not found', type) AS what, count(*) FROM \"branch_{}\" WHERE type NOT IN "
+                  "('RG', 'EP') OR (type = 'EP' AND NOT located) GROUP BY what ORDER BY what"
+                : "SELECT label, count(*) FROM \"points_{}\" GROUP BY label ORDER BY 2 DESC, 1"),
+        report.name));
     std::string text;
-    auto rows =
-        file.query(fmt::format("SELECT label, count(*) FROM \"points_{}\" GROUP BY label ORDER BY 2 DESC, 1", run));
     while (rows.next())
         text += fmt::format("{}{} {}", text.empty() ? "" : ", ", rows.text(0), rows.integer(1));
     return text;
@@ -82,7 +100,7 @@ Table table_of(const std::vector<RunReport>& reports, const ResultFile& file) {
                   : report.computed == 0            ? "was there"
                   : report.computed < report.points ? "gone on with"
                                                     : "done");
-        table.add(labels_of(file, report.name));
+        table.add(labels_of(file, report));
     }
     return table;
 }
@@ -138,7 +156,8 @@ int run_command(const RunArguments& arguments, const Console& console) {
     std::vector<RunReport> reports;
     {
         const InterruptGuard guard;
-        StudyProgress progress(console, arguments.progress || console.terminal);
+        StudyProgress progress(console, (arguments.progress || console.terminal) && !arguments.steps);
+        StepLines steps(study, console.err);
         RunnerOptions options;
         options.jobs =
             arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -146,6 +165,11 @@ int run_command(const RunArguments& arguments, const Console& console) {
         options.interrupted = [] { return InterruptGuard::requested(); };
         options.progress = [&](const std::string& run, std::size_t done, std::size_t all) {
             progress.update(run, done, all);
+        };
+        options.orbit = [&](const std::string& run, const OrbitRecord& record) {
+            if (arguments.steps)
+                steps.show(run, record);
+            progress.update(run, record);
         };
         reports = run_study(study, file, options);
     }

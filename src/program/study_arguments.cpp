@@ -7,24 +7,28 @@ namespace graze {
 namespace {
 
 constexpr const char* run_text = R"(Do what a study asks for, and keep the results.
-A study is a text file of named runs (simulations, sweeps of parameters, basins of attraction) and of the pictures
-to be made from them. Results go to FOLDER/results.sqlite as they come, pictures beside it. Run again, it only does
-what is not there yet or has changed; so a run that was interrupted, even by a power cut, goes on where it stopped.)";
+A study is a text file of named runs (simulations, sweeps of parameters, basins of attraction, periodic orbits and
+branches of them) and of the pictures to be made from them. Results go to FOLDER/results.sqlite as they come, pictures
+beside it. Run again, it only does what is not there yet or has changed; so a run that was interrupted, even by a power
+cut, goes on where it stopped.)";
 
 constexpr const char* run_examples = R"(Examples:
   graze run --list
   graze run electromagnetic-testbed --output testbed
   graze run my-study.toml --output results --jobs 8
+  graze run my-study.toml --only chain --steps
   graze run mems-switch --show > my-switch.toml)";
 
 constexpr const char* export_text = R"(Take results out of the file of a study.
-What is shown: points (one row for each parameter value, with what the motion settles on), samples, multipliers of
-the periodic orbits, the list of runs, or whatever a query in SQL asks for (docs/result-file.md).)";
+What is shown: points (one row for each parameter value, with what the motion settles on, or for each orbit of a
+branch), samples, segments of the orbits of branches, multipliers of periodic orbits, the list of runs, or whatever a
+query in SQL asks for (docs/result-file.md).)";
 
 constexpr const char* export_examples = R"(Examples:
   graze export testbed --what runs
   graze export testbed --run sweep_6_25Hz --format csv --output points.csv
   graze export testbed --run sweep_6_25Hz --what samples --direction up --format csv
+  graze export results --run chain --what segments --format csv
   graze export testbed --format hdf5 --output testbed.h5
   graze export testbed --sql "SELECT * FROM label_changes")";
 
@@ -34,7 +38,9 @@ Without options: a picture of every run, by its kind, in the present folder.)";
 constexpr const char* plot_examples = R"(Examples:
   graze plot testbed
   graze plot testbed --run sweep_7Hz --y v --direction up --x-range 3.6:3.8 --output onset.svg
-  graze plot testbed --run sweep_6_25Hz --kind portrait --x I --y v --at V0=4.833 --output orbit.png)";
+  graze plot testbed --run sweep_6_25Hz --kind portrait --x I --y v --at V0=4.833 --output orbit.png
+  graze plot results --run chain,doubled --y period --output branches.pdf
+  graze plot results --run chain --kind portrait --point GR1 --output grazing.png)";
 
 template <class Value>
 CLI::Option* add(CLI::App& command, const char* name, Value& value, const char* type, const char* text) {
@@ -59,6 +65,7 @@ void declare_run(CLI::App& app, RunArguments& arguments) {
     add(command, "--only", arguments.only, "RUN", "Only these runs, with those that they start from");
     command.add_flag("--list", arguments.list, "List the shipped studies");
     command.add_flag("--show", arguments.show, "Print the study instead of running it");
+    command.add_flag("--steps", arguments.steps, "Print a line for each orbit of a branch as it is found");
     command.add_flag("--no-pictures", arguments.no_pictures, "Compute only");
     command.add_flag("--progress", arguments.progress, "Show progress even if standard error is no terminal");
     command.add_flag("--quiet", arguments.quiet, "Do not list what was done");
@@ -70,9 +77,10 @@ void declare_export(CLI::App& app, ExportArguments& arguments) {
     command.footer(export_examples);
     add(command, "FILE", arguments.file, "", "Result file, or the folder of a study")->required();
     add(command, "--run", arguments.runs, "RUN", "Only these runs (all)");
-    add(command, "--what", arguments.what, "TABLE", "points (default), samples, multipliers or runs");
-    add(command, "--label", arguments.label, "LABEL", "Only points with this label, such as periodic");
-    add(command, "--direction", arguments.direction, "WAY", "Only points of sweeps up or down");
+    add(command, "--what", arguments.what, "TABLE", "points (default), samples, segments, multipliers or runs");
+    add(command, "--label", arguments.label, "LABEL",
+        "Only points with this label, such as periodic; of branches also a type, such as GR");
+    add(command, "--direction", arguments.direction, "WAY", "Only points of sweeps or branches up or down");
     add(command, "--sql", arguments.sql, "QUERY", "The rows of a query instead");
     static const std::map<std::string, std::string> known{
         {"table", "table"}, {"csv", "csv"}, {"json", "json"}, {"hdf5", "hdf5"}};
@@ -87,15 +95,19 @@ void declare_plot_results(CLI::App& app, PlotArguments& arguments) {
     CLI::App& command = *app.add_subcommand("plot", plot_text);
     command.footer(plot_examples);
     add(command, "FILE", arguments.file, "", "Result file, or the folder of a study")->required();
-    add(command, "--run", arguments.runs, "RUN", "Runs to be drawn (each by itself, all)");
+    add(command, "--run", arguments.runs, "RUN",
+        "Runs to be drawn (all; each by itself, but branches with --output together)");
     add(command, "--kind", arguments.kind, "KIND",
-        "bifurcation, basin, spectrum, history, portrait, regression or scatter")
-        ->check(CLI::IsMember({"bifurcation", "basin", "spectrum", "history", "portrait", "regression", "scatter"}));
+        "bifurcation, branch, basin, spectrum, history, portrait, regression or scatter")
+        ->check(CLI::IsMember(
+            {"bifurcation", "branch", "basin", "spectrum", "history", "portrait", "regression", "scatter"}));
     add(command, "--x", arguments.x, "NAME", "Horizontal axis: what varies, or a value");
     add(command, "--y", arguments.y, "NAME", "Vertical axes, one panel each (all values)");
     add(command, "--sample", arguments.samples, "NAME", "Only these samplings");
-    add(command, "--direction", arguments.directions, "WAY", "Only sweeps up or down");
+    add(command, "--direction", arguments.directions, "WAY", "Only sweeps or branches up or down");
     add(command, "--at", arguments.at, "NAME=VALUE", "Nearest points, of portraits, histories and spectra");
+    add(command, "--point", arguments.points, "POINT",
+        "Orbits of a branch by label or number, of portraits and histories");
     add(command, "--x-range", arguments.x_range, "A:B", "Limits of the horizontal axis");
     add(command, "--y-range", arguments.y_range, "A:B", "Limits of the vertical axes");
     add(command, "--fit", arguments.fit, "A:B", "Range of x that a regression uses");

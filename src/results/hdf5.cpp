@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include <algorithm>
 #include <limits>
+#include <set>
 
 namespace graze {
 
@@ -116,22 +118,31 @@ private:
     std::vector<std::string> texts_;
 };
 
-/// What the schema declares a column of a table to be.
-Column::Kind kind_of(const std::string& name) {
-    for (const char* whole : {"number", "chain", "period", "symmetric", "cycles", "returns", "point", "position"})
-        if (name == whole)
-            return Column::Kind::whole;
-    for (const char* text : {"direction", "label", "signature", "mode", "ending", "detail", "sampling"})
-        if (name == text)
-            return Column::Kind::text;
-    return Column::Kind::real;
+/// What the schema declares a column of a run's tables to be.
+Column::Kind kind_of(const std::string& name, bool is_branch) {
+    static const std::set<std::string> whole_of_points{"number", "chain",   "period", "symmetric",
+                                                       "cycles", "returns", "point",  "position"};
+    static const std::set<std::string> whole_of_branches{"number",     "step",       "stable",  "unstable",
+                                                         "admissible", "iterations", "located", "event_segment",
+                                                         "at_end",     "point",      "segment", "position"};
+    static const std::set<std::string> texts{"direction", "label",    "signature", "mode",   "ending",
+                                             "detail",    "sampling", "part",      "type",   "symmetry",
+                                             "reason",    "outcome",  "event",     "tangent"};
+    if ((is_branch ? whole_of_branches : whole_of_points).contains(name))
+        return Column::Kind::whole;
+    return texts.contains(name) ? Column::Kind::text : Column::Kind::real;
 }
 
-void write_table(hid_t parent, const char* name, ResultFile::Rows rows, const std::string& path) {
+/// @param numbers columns that are named by a model or study: numbers, whatever their names
+void write_table(hid_t parent, const char* name, ResultFile::Rows rows, bool is_branch,
+                 const std::vector<std::string>& numbers, const std::string& path) {
     const Handle group(H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path);
     std::vector<Column> columns;
-    for (std::size_t c = 0; c < rows.columns(); ++c)
-        columns.emplace_back(group.id(), rows.column_name(c), kind_of(rows.column_name(c)), path);
+    for (std::size_t c = 0; c < rows.columns(); ++c) {
+        const std::string column = rows.column_name(c);
+        const bool number = std::find(numbers.begin(), numbers.end(), column) != numbers.end();
+        columns.emplace_back(group.id(), column, number ? Column::Kind::real : kind_of(column, is_branch), path);
+    }
     while (rows.next())
         for (std::size_t c = 0; c < columns.size(); ++c)
             columns[c].add(rows, c);
@@ -157,13 +168,21 @@ void export_hdf5(const ResultFile& file, const std::vector<std::string>& runs, c
         write_attribute(group.id(), "fingerprint", run->fingerprint, path);
         write_attribute(group.id(), "version", run->version, path);
         const RunTables tables(*run);
-        write_table(group.id(), "points", file.query("SELECT * FROM " + tables.points + " ORDER BY number"), path);
-        write_table(group.id(), "samples", file.query("SELECT * FROM " + tables.samples + " ORDER BY rowid"), path);
+        const bool branch = tables.is_branch;
+        std::vector<std::string> of_points = tables.coordinates;
+        const auto& more = branch ? tables.values : tables.states;
+        of_points.insert(of_points.end(), more.begin(), more.end());
+        write_table(group.id(), branch ? "orbits" : "points",
+                    file.query("SELECT * FROM " + tables.points + " ORDER BY number"), branch, of_points, path);
+        write_table(group.id(), branch ? "segments" : "samples",
+                    file.query(fmt::format("SELECT * FROM {} ORDER BY {}", tables.samples,
+                                           branch ? "point, segment" : "rowid")),
+                    branch, branch ? tables.states : tables.values, path);
         write_table(group.id(), "multipliers",
                     file.query(fmt::format("SELECT point, position, real, imaginary FROM multipliers WHERE run = '{}' "
                                            "ORDER BY point, position",
                                            name)),
-                    path);
+                    branch, {}, path);
     }
 }
 

@@ -119,6 +119,19 @@ std::vector<double> numbers_of(const std::string& json) {
     return values;
 }
 
+Segment segment_named(const Model& model, const std::string& mode, const std::string& end) {
+    Segment segment;
+    segment.mode = model.find_mode(mode).value_or(0);
+    for (std::size_t t = 0; t < model.transitions.size(); ++t)
+        if (model.transitions[t].mode == segment.mode && model.transitions[t].label == end) {
+            segment.index = t;
+            return segment;
+        }
+    segment.end = SegmentEnd::section;
+    segment.index = model.find_section(end).value_or(0);
+    return segment;
+}
+
 /// A row without segments and multipliers.
 OrbitRecord read_row(const Statement& row, const Model& model, const RunRecord& run) {
     OrbitRecord record;
@@ -136,10 +149,10 @@ OrbitRecord read_row(const Statement& row, const Model& model, const RunRecord& 
     for (const std::size_t place : parameter_places(model, run))
         orbit.parameters[place] = row.number(at++);
     point.parameter = run.coordinates.empty() ? 0 : row.number(5);
-    ++at; // the period follows from the segments
+    ++at; // the period follows from the segments,
     for (std::size_t m = 0; m < run.values.size(); ++m, ++at)
         point.monitors.push_back(row.is_null(at) ? std::numeric_limits<double>::quiet_NaN() : row.number(at));
-    orbit.signature = parse_signature(model, row.text(at++));
+    ++at; // the signature, too
     if (const std::string name = row.text(at++); !name.empty())
         for (std::size_t i = 0; i < model.symmetries.size(); ++i)
             if (model.symmetries[i].name == name)
@@ -218,6 +231,7 @@ std::vector<OrbitRecord> ResultFile::read_orbits(const std::string& name, const 
         Certificate& certificate = solution.certificate;
         segments.bind(1, record.number);
         while (segments.step()) {
+            solution.orbit.signature.push_back(segment_named(model, segments.text(2), segments.text(3)));
             solution.orbit.durations.push_back(segments.number(4));
             certificate.approach_speeds.push_back(segments.number(5));
             certificate.departures.push_back(segments.number(6));

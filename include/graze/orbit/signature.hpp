@@ -3,6 +3,7 @@
 #include "graze/model/model.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,7 +40,9 @@ Signature parse_signature(const Model& model, std::string_view text, const Place
 /// Text that parse_signature reads back, as short as repetition makes it: "(J1 J8)^2".
 std::string to_string(const Model& model, const Signature& signature);
 
+/// @param symmetry when these are the first half of an orbit's segments, whose images under it are the second
 /// @throws InputError when a segment does not exist or cannot follow the one before
-void validate_signature(const Model& model, const Signature& signature, const Place& place = {});
+void validate_signature(const Model& model, const Signature& signature, const Place& place = {},
+                        std::optional<std::size_t> symmetry = std::nullopt);
 
 } // namespace graze

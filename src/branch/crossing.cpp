@@ -1,0 +1,114 @@
+#include "branch/crossing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+/// Distances of the points from where the zero is thought to be, as fractions of the step: near enough for the
+/// polynomial to be exact, far enough for Newton's method to be.
+constexpr double offsets[] = {-0.12, -0.09, -0.06, -0.03, 0.03, 0.06, 0.09, 0.12};
+constexpr std::size_t fewest = 6;
+constexpr int most_rounds = 8;
+constexpr double settled = 0.015;
+
+struct Sample {
+    double fraction;
+    ContinuationPoint point;
+};
+
+/// Lagrange's weights of the samples at a place.
+std::vector<double> weights_at(const std::vector<Sample>& samples, double fraction) {
+    std::vector<double> weights(samples.size(), 1.0);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        for (std::size_t j = 0; j < samples.size(); ++j)
+            if (i != j)
+                weights[i] *= (fraction - samples[j].fraction) / (samples[i].fraction - samples[j].fraction);
+    return weights;
+}
+
+double determinant_at(const std::vector<Sample>& samples, double fraction) {
+    const std::vector<double> weights = weights_at(samples, fraction);
+    double sum = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        sum += weights[i] * samples[i].point.determinant;
+    return sum;
+}
+
+/// The zero of the polynomial through the samples, which has one between the first and the last.
+double zero_of(const std::vector<Sample>& samples) {
+    double low = samples.front().fraction, high = samples.back().fraction;
+    const bool negative = samples.front().point.determinant < 0;
+    constexpr int halvings = 60;
+    for (int i = 0; i < halvings; ++i) {
+        const double middle = 0.5 * (low + high);
+        ((determinant_at(samples, middle) < 0) == negative ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+ContinuationPoint point_at(const std::vector<Sample>& samples, double fraction) {
+    const std::vector<double> weights = weights_at(samples, fraction);
+    ContinuationPoint result;
+    result.u.assign(samples[0].point.u.size(), 0.0);
+    result.tangent.assign(result.u.size(), 0.0);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        for (std::size_t k = 0; k < result.u.size(); ++k) {
+            result.u[k] += weights[i] * samples[i].point.u[k];
+            result.tangent[k] += weights[i] * samples[i].point.tangent[k];
+        }
+        result.arclength += weights[i] * samples[i].point.arclength;
+    }
+    return result;
+}
+
+} // namespace
+
+std::optional<ContinuationPoint> locate_crossing(Continuation& continuation, const TestValue& begin,
+                                                 const TestValue& end) {
+    double low = begin.fraction, high = end.fraction;
+    double guess = low + (high - low) * begin.value / (begin.value - end.value);
+    for (int round = 0; round < most_rounds; ++round) {
+        std::vector<Sample> samples;
+        for (const double offset : offsets) {
+            Sample sample{guess + offset, {}};
+            if (continuation.between(sample.fraction, sample.point))
+                samples.push_back(std::move(sample));
+        }
+        if (samples.size() < fewest)
+            return std::nullopt;
+        if (samples.front().point.determinant * samples.back().point.determinant < 0) {
+            const double zero = zero_of(samples);
+            if (std::abs(zero - guess) < settled)
+                return point_at(samples, zero);
+            guess = zero;
+            continue;
+        }
+        // Not where it was thought to be: the bracket is halved.
+        const bool before = (samples.front().point.determinant < 0) == (begin.value < 0);
+        (before ? low : high) = std::clamp(guess, low, high);
+        guess = 0.5 * (low + high);
+    }
+    return std::nullopt;
+}
+
+std::optional<double> possible_dip(const TestValue& before, const TestValue& low, const TestValue& high) {
+    const double first = (low.value - before.value) / (low.fraction - before.fraction),
+                 second = (high.value - low.value) / (high.fraction - low.fraction),
+                 curvature = (second - first) / (high.fraction - before.fraction);
+    // p(s) = low + second (s - low) + curvature (s - low) (s - high)
+    const double vertex = 0.5 * (low.fraction + high.fraction) - 0.5 * second / curvature;
+    if (!(vertex > low.fraction && vertex < high.fraction))
+        return std::nullopt;
+    const double least =
+        low.value + second * (vertex - low.fraction) + curvature * (vertex - low.fraction) * (vertex - high.fraction);
+    constexpr double near = 0.25;
+    const double sign = low.value < 0 ? -1 : 1;
+    const bool close = sign * least < near * std::min(std::abs(low.value), std::abs(high.value));
+    return close ? std::optional(vertex) : std::nullopt;
+}
+
+} // namespace graze

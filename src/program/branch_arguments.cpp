@@ -1,0 +1,86 @@
+#include "program/branch_arguments.hpp"
+
+#include <map>
+
+namespace graze {
+
+namespace {
+
+constexpr const char* points_text = R"(List the special points of branches of periodic orbits.
+A branch is what a study's run of kind "continue" has followed: orbits over a parameter. Something happens at its
+special points: SN fold, PD period doubling, NS torus, BP branch point, GR grazing, DZ vanishing segment, EE two events
+at once, GU another guard, UZ value asked for, BD bound, EP end. Their labels, such as GR1, are names for other
+commands.)";
+
+constexpr const char* points_examples = R"(Examples:
+  graze points results                             all special points of all branches
+  graze points results --run chain --type GR,SN    grazings and folds of one
+  graze points results --all --format csv          every orbit, with all its multipliers
+  graze orbit results GR1                          the motion at one of them)";
+
+constexpr const char* orbit_text = R"(Show one periodic orbit of a branch.
+Prints its motion over one period, segment by segment, with both sides of every jump. POINT is a label (GR1), a label
+of one run (chain:GR1) or any point of a branch by its number (chain:17); graze points lists them. As CSV it can be
+where another run starts. With --plot it is drawn instead.)";
+
+constexpr const char* orbit_examples = R"(Examples:
+  graze orbit results GR1
+  graze orbit results chain:GR1 --quantity energy --format csv --output orbit.csv
+  graze orbit results chain:17 --plot orbit.svg
+  graze orbit results GR1 --plot history.pdf --x t --y q,v)";
+
+template <class Value>
+CLI::Option* add(CLI::App& command, const char* group, const char* name, Value& value, const char* type,
+                 const char* text) {
+    return command.add_option(name, value, text)->type_name(type)->group(group);
+}
+
+void declare_output(CLI::App& command, OutputArguments& output) {
+    static const std::map<std::string, TableFormat> formats{
+        {"table", TableFormat::table}, {"csv", TableFormat::csv}, {"json", TableFormat::json}};
+    add(command, "Output", "--format", output.format, "FORMAT", "table (default), csv or json")
+        ->transform(CLI::Transformer(formats).description(""));
+    add(command, "Output", "--digits", output.digits, "N", "Significant digits of numbers (10; 17 of csv and json)")
+        ->check(CLI::Range(1, 17));
+    add(command, "Output", "--output", output.file, "FILE", "Write the table there instead of to standard output");
+}
+
+void declare_points(CLI::App& app, PointsArguments& arguments) {
+    CLI::App& command = *app.add_subcommand("points", points_text);
+    command.footer(points_examples);
+    command.add_option("FILE", arguments.file, "Result file, or the folder of a study")->type_name("")->required();
+    const char* group = "What to show";
+    add(command, group, "--run", arguments.runs, "RUN", "Only these runs (all branches)");
+    add(command, group, "--type", arguments.types, "TYPE", "Only points of these types, such as GR,SN");
+    command.add_flag("--all", arguments.all, "The regular points between them too (type RG)")->group(group);
+    declare_output(command, arguments.output);
+}
+
+void declare_orbit(CLI::App& app, OrbitArguments& arguments) {
+    CLI::App& command = *app.add_subcommand("orbit", orbit_text);
+    command.footer(orbit_examples);
+    command.add_option("FILE", arguments.file, "Result file, or the folder of a study")->type_name("")->required();
+    command.add_option("POINT", arguments.point, "LABEL, RUN:LABEL or RUN:NUMBER")->type_name("")->required();
+    const char* group = "What to show";
+    add(command, group, "--quantity", arguments.quantities, "EXPR",
+        "More columns: quantities of the model, or any expressions in its names");
+    add(command, group, "--samples", arguments.samples, "N", "About so many rows of the whole period (200)")
+        ->check(CLI::Range(1, 1'000'000));
+    declare_output(command, arguments.output);
+    group = "Picture";
+    add(command, group, "--plot", arguments.plot, "FILE", "Draw it instead, as svg, png or pdf");
+    add(command, group, "--x", arguments.x, "NAME", "Horizontal axis: a value, or t for histories (a state)");
+    add(command, group, "--y", arguments.y, "NAME",
+        "Vertical axes, one panel each (its velocity; of histories all states)");
+    add(command, group, "--data", arguments.data, "FILE",
+        "Keep data and commands, to be changed and drawn by `gnuplot FILE`");
+}
+
+} // namespace
+
+void declare_branch_commands(CLI::App& app, Arguments& arguments) {
+    declare_points(app, arguments.points);
+    declare_orbit(app, arguments.orbit);
+}
+
+} // namespace graze

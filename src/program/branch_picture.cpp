@@ -1,0 +1,266 @@
+#include "graze/branch/special_point.hpp"
+#include "program/picture_kinds.hpp"
+#include "program/stored_orbit.hpp"
+#include "program/values.hpp"
+
+#include "graze/symbolic/parser.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <set>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t most_panels = 4;
+
+/// What is known of an orbit as far as it decides how a branch is drawn there.
+enum class Look { stable, unstable, unphysical };
+constexpr std::array<std::pair<Look, const char*>, 3> looks{
+    {{Look::stable, "stable"}, {Look::unstable, "unstable"}, {Look::unphysical, "unphysical"}}};
+
+struct DrawnPoint {
+    std::string part, label;
+    PointType type = PointType::regular;
+    Look look = Look::stable;
+    std::int64_t step = 0;
+    double x = 0;
+    std::vector<double> y;
+};
+
+/// Points at which nothing changes: what is known of their orbits holds on both sides.
+bool is_ordinary(PointType type) {
+    return type == PointType::regular || type == PointType::end || type == PointType::bound ||
+           type == PointType::crossing;
+}
+
+int symbol_of(PointType type) {
+    switch (type) {
+    case PointType::fold:
+        return 7;
+    case PointType::flip:
+        return 9;
+    case PointType::torus:
+        return 13;
+    case PointType::branch_point:
+        return 5;
+    case PointType::grazing:
+        return 12;
+    case PointType::vanishing:
+        return 8;
+    case PointType::two_events:
+        return 4;
+    case PointType::guard:
+        return 10;
+    case PointType::crossing:
+        return 2;
+    case PointType::bound:
+    case PointType::end:
+    case PointType::regular:
+        break;
+    }
+    return 6;
+}
+
+FigureSeries::Style style_of(Look look) {
+    return look == Look::unstable ? FigureSeries::Style::dashed : FigureSeries::Style::line;
+}
+
+/// Names that can be drawn of a branch, besides expressions in SQL.
+std::vector<std::string> known_names(const StoredRun& run) {
+    std::vector<std::string> names;
+    for (const auto* columns : {&run.record.values, &run.record.coordinates})
+        for (const ResultColumn& column : *columns)
+            names.push_back(column.name);
+    for (const char* name : {"period", "multiplier", "arclength", "unstable", "residual", "error", "iterations"})
+        names.emplace_back(name);
+    return names;
+}
+
+void require_known(const StudyPicture& picture, const StoredRun& run, const std::string& name) {
+    const std::vector<std::string> known = known_names(run);
+    if (is_valid_name(name) && std::find(known.begin(), known.end(), name) == known.end())
+        throw InputError(picture.place, fmt::format("run '{}' has no monitor or parameter '{}'", run.record.name, name),
+                         name_advice(name, known, ""));
+}
+
+/// Monitors of the first run that all have, or the period.
+std::vector<std::string> default_values(const std::vector<StoredRun>& runs) {
+    std::vector<std::string> names;
+    for (const ResultColumn& column : runs.front().record.values)
+        if (names.size() < most_panels &&
+            std::all_of(runs.begin(), runs.end(), [&](const StoredRun& run) { return run.has_value(column.name); }))
+            names.push_back(column.name);
+    return names.empty() ? std::vector<std::string>{"period"} : names;
+}
+
+/// @throws InputError for parts that the run does not have
+void require_parts(const ResultFile& file, const StoredRun& run, const StudyPicture& picture) {
+    std::vector<std::string> known;
+    auto rows = file.query(fmt::format("SELECT DISTINCT part FROM {}", run.points));
+    while (rows.next())
+        known.push_back(rows.text(0));
+    for (const std::string& part : picture.directions)
+        if (std::find(known.begin(), known.end(), part) == known.end())
+            throw InputError(picture.place, fmt::format("run '{}' has no direction '{}'", run.record.name, part),
+                             name_advice(part, known, "it has none"));
+}
+
+std::vector<DrawnPoint> points_of(const ResultFile& file, const StoredRun& run, const StudyPicture& picture,
+                                  const std::string& x, const std::vector<std::string>& values) {
+    require_known(picture, run, x);
+    std::string columns = run.column(x);
+    for (const std::string& value : values) {
+        require_known(picture, run, value);
+        columns += ", " + run.column(value);
+    }
+    require_parts(file, run, picture);
+    const std::string where =
+        picture.directions.empty() ? "" : fmt::format("WHERE p.part IN ({})", in_list(picture.directions));
+    auto rows =
+        file.query(fmt::format("SELECT p.part, p.label, p.type, p.stable, p.admissible, p.step, {} FROM {} AS p {} "
+                               "ORDER BY p.number",
+                               columns, run.points, where));
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    std::vector<DrawnPoint> points;
+    while (rows.next()) {
+        DrawnPoint& point = points.emplace_back();
+        point.part = rows.text(0);
+        point.label = rows.text(1);
+        point.type = point_type(rows.text(2)).value_or(PointType::regular);
+        point.look = rows.integer(4) == 0 ? Look::unphysical : rows.integer(3) == 0 ? Look::unstable : Look::stable;
+        point.step = rows.integer(5);
+        point.x = rows.is_null(6) ? nothing : rows.number(6);
+        for (std::size_t v = 0; v < values.size(); ++v)
+            point.y.push_back(rows.is_null(7 + v) ? nothing : rows.number(7 + v));
+    }
+    return points;
+}
+
+/// A stretch of a branch along which orbits are of one kind; its ends belong to its neighbours too.
+struct Stretch {
+    Look look;
+    std::vector<std::size_t> points;
+};
+
+/// Parts one after the other. What an orbit at a special point is like is a matter of round-off; so looks are those of
+/// the ordinary points around, and change at the first special point between those that differ.
+std::vector<Stretch> stretches_of(const std::vector<DrawnPoint>& points) {
+    std::vector<Stretch> stretches;
+    for (std::size_t i = 0; i < points.size();) {
+        std::size_t end = i + 1; // parts may have the same name, but steps are counted anew
+        while (end < points.size() && points[end].part == points[i].part && points[end].step >= points[end - 1].step)
+            ++end;
+        const auto next_ordinary = [&](std::size_t at) {
+            while (at < end && !is_ordinary(points[at].type))
+                ++at;
+            return at;
+        };
+        const std::size_t first = next_ordinary(i);
+        Look look = points[first < end ? first : i].look;
+        stretches.push_back({look, {i}});
+        for (std::size_t k = i + 1; k < end; ++k) {
+            stretches.back().points.push_back(k);
+            const std::size_t next = next_ordinary(k);
+            const Look coming = next < end ? points[next].look : points[k].look;
+            if (coming != look && k + 1 < end) {
+                look = coming;
+                stretches.push_back({look, {k}});
+            }
+        }
+        i = end;
+    }
+    return stretches;
+}
+
+/// @param labels colour of the labels
+void add_branch(FigurePanel& panel, const std::vector<DrawnPoint>& points, std::size_t value, std::size_t colour,
+                std::size_t labels) {
+    // What is unphysical lies beneath.
+    const std::vector<Stretch> stretches = stretches_of(points);
+    for (const bool unphysical : {true, false})
+        for (const Stretch& stretch : stretches) {
+            if ((stretch.look == Look::unphysical) != unphysical || stretch.points.size() < 2)
+                continue;
+            FigureSeries series{"", style_of(stretch.look), unphysical ? FigureSeries::grey : colour, {}};
+            for (const std::size_t at : stretch.points)
+                series.points.push_back({points[at].x, points[at].y[value]});
+            panel.series.push_back(std::move(series));
+        }
+    std::set<int> symbols;
+    for (const DrawnPoint& point : points)
+        if (!is_ordinary(point.type) || point.type == PointType::crossing)
+            symbols.insert(symbol_of(point.type));
+    for (const int symbol : symbols) {
+        FigureSeries series{"", FigureSeries::Style::symbols, colour, {}};
+        series.symbol = symbol;
+        for (const DrawnPoint& point : points)
+            if ((!is_ordinary(point.type) || point.type == PointType::crossing) && symbol_of(point.type) == symbol) {
+                series.points.push_back({point.x, point.y[value]});
+                panel.labels.push_back({series.points.back(), point.label, labels});
+            }
+        panel.series.push_back(std::move(series));
+    }
+    if (points.size() == 1)
+        panel.series.push_back({"", FigureSeries::Style::circles, colour, {{points[0].x, points[0].y[value]}}});
+}
+
+/// Says which colour is which run, and what the styles mean that are there.
+void add_legend(FigurePanel& panel, const std::vector<StoredRun>& runs,
+                const std::vector<std::vector<DrawnPoint>>& points) {
+    const auto add = [&](const std::string& title, FigureSeries::Style style, std::size_t colour) {
+        FigureSeries series{title, style, colour, {}};
+        series.only_in_legend = true;
+        panel.series.push_back(std::move(series));
+    };
+    if (runs.size() > 1)
+        for (std::size_t r = 0; r < runs.size(); ++r)
+            if (!points[r].empty())
+                add(runs[r].record.name, FigureSeries::Style::line, r);
+    std::set<Look> shown;
+    for (const std::vector<DrawnPoint>& run : points)
+        for (const Stretch& stretch : stretches_of(run))
+            if (stretch.points.size() > 1)
+                shown.insert(stretch.look);
+    const std::size_t colour = runs.size() > 1 ? FigureSeries::black : 0;
+    for (const auto& [look, name] : looks)
+        if (shown.contains(look))
+            add(name, style_of(look), look == Look::unphysical ? FigureSeries::grey : colour);
+}
+
+} // namespace
+
+Figure branch_picture(const StudyPicture& picture, const ResultFile& file) {
+    std::vector<StoredRun> runs;
+    for (const std::string& name : picture.runs) {
+        const StoredRun& run = runs.emplace_back(file, name, picture.place);
+        if (!run.record.is_branch())
+            throw InputError(picture.place, fmt::format("run '{}' is of kind {}, not a branch", name, run.record.kind),
+                             "leave the kind of picture out to have it drawn by its own kind");
+    }
+    const std::string x = picture.x.empty() ? first_coordinate(picture, runs.front()) : picture.x;
+    const std::vector<std::string> values = picture.y.empty() ? default_values(runs) : picture.y;
+    std::vector<std::vector<DrawnPoint>> points;
+    for (const StoredRun& run : runs)
+        points.push_back(points_of(file, run, picture, x, values));
+    Figure figure;
+    figure.columns = values.size() > 1 ? 2 : 1;
+    for (std::size_t v = 0; v < values.size(); ++v) {
+        FigurePanel panel = panel_of(picture, x, runs.front().unit(x), values[v], runs.front().unit(values[v]));
+        panel.roomy = true;
+        if (values.size() > 1 || runs.size() == 1)
+            panel.title = (values.size() > 1 ? fmt::format("({}) ", static_cast<char>('a' + v)) : std::string()) +
+                          (runs.size() == 1 ? runs.front().record.name : std::string());
+        for (std::size_t r = 0; r < runs.size(); ++r)
+            add_branch(panel, points[r], v, r, runs.size() > 1 ? r : FigureSeries::black);
+        add_legend(panel, runs, points);
+        figure.panels.push_back(std::move(panel));
+    }
+    return figure;
+}
+
+} // namespace graze

@@ -1,0 +1,113 @@
+#include "graze/symbolic/input_error.hpp"
+#include "program/commands.hpp"
+#include "program/figure.hpp"
+#include "program/orbit_motion.hpp"
+#include "program/picture.hpp"
+#include "program/picture_kinds.hpp"
+#include "program/quantity.hpp"
+#include "program/stored_orbit.hpp"
+#include "program/values.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t default_samples = 200;
+
+Table table_of(const Model& model, const std::vector<SegmentMotion>& motion,
+               const std::vector<RequestedQuantity>& quantities) {
+    std::vector<Table::Column> columns{{"segment", ""}, {"mode", ""}, {"end", ""}, {"t", model.time_unit}};
+    StateColumns states(model, quantities);
+    states.declare(columns);
+    Table table(columns);
+    for (std::size_t s = 0; s < motion.size(); ++s)
+        for (std::size_t i = 0; i < motion[s].times.size(); ++i) {
+            table.add(static_cast<double>(s + 1));
+            table.add(model.modes[motion[s].mode].name);
+            table.add(motion[s].end);
+            table.add(motion[s].times[i]);
+            states.add(table, motion[s].states[i]);
+        }
+    return table;
+}
+
+JsonObject heading_of(const ResultFile& file, const StoredOrbit& stored) {
+    const OrbitRecord& record = stored.record;
+    const OrbitSolution& solution = record.point.solution;
+    const Model& model = stored.run.model;
+    JsonObject heading, parameters;
+    const std::vector<double> values = parameters_of(stored.run, record);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        parameters.add(stored.run.record.coordinates[i].name, values[i]);
+    heading.add("graze", GRAZE_VERSION);
+    heading.add("file", file.path());
+    heading.add("model", model.name);
+    heading.add("run", stored.run.record.name);
+    heading.add("number", static_cast<double>(record.number));
+    heading.add("label", record.label);
+    heading.add("type", short_name(record.point.type));
+    heading.add("parameters", parameters);
+    heading.add("period", solution.orbit.period());
+    heading.add("signature", to_string(model, solution.orbit.signature));
+    heading.add("symmetry", solution.orbit.symmetry ? model.symmetries[*solution.orbit.symmetry].name : "");
+    heading.add("multipliers", multipliers_text(solution.multipliers, 17));
+    heading.add("stable", record.stable ? 1.0 : 0.0);
+    heading.add("admissible", solution.certificate.admissible ? 1.0 : 0.0);
+    heading.add("reason", solution.certificate.reason);
+    heading.add("detail", record.point.detail);
+    heading.add("residual", solution.residual);
+    return heading;
+}
+
+void draw(const OrbitArguments& arguments, const ResultFile& file, const StoredOrbit& stored, const Console& console) {
+    StudyPicture picture;
+    picture.kind = arguments.x == "t" ? "history" : "portrait";
+    picture.name = picture.title = "";
+    picture.runs = {stored.run.record.name};
+    picture.points = {fmt::format("{}", stored.record.number)};
+    picture.x = arguments.x;
+    picture.y = split_list(arguments.y);
+    picture.place = {"--plot", 0, 0};
+    draw_figure(orbit_picture(picture, file, picture.kind == "portrait"), arguments.plot, arguments.data);
+    console.out << arguments.plot << '\n';
+}
+
+} // namespace
+
+int orbit_command(const OrbitArguments& arguments, const Console& console) {
+    if (!arguments.plot.empty())
+        picture_ending(arguments.plot, "--plot", {"svg", "png", "pdf"});
+    const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
+    const StoredOrbit stored = find_stored_orbit(file, arguments.point, {"POINT", 0, 0});
+    if (!arguments.plot.empty()) {
+        draw(arguments, file, stored, console);
+        return exit_success;
+    }
+    if (!arguments.x.empty() || !arguments.y.empty())
+        throw InputError("--x and --y say what to draw, and nothing is drawn", "name a picture by --plot FILE");
+    const Orbit orbit = whole_orbit(stored.run.model, stored.record.point.solution.orbit);
+    const Model model = model_at(stored.run.model, orbit);
+    const auto quantities = requested_quantities(model, arguments.quantities, "--quantity");
+    const auto motion = orbit_motion(model, orbit, arguments.samples.value_or(default_samples));
+    OutputArguments output = arguments.output;
+    if (output.digits == 0)
+        output.digits = output.format == TableFormat::table ? 10 : 17;
+    deliver(table_of(model, motion, quantities), output, heading_of(file, stored), console);
+    bool whole = true;
+    for (std::size_t s = 0; s < motion.size(); ++s)
+        if (!motion[s].problem.empty()) {
+            whole = false;
+            console.err << fmt::format("graze: segment {} cannot be followed to its end: {}\n", s + 1,
+                                       motion[s].problem);
+        }
+    if (is_unphysical(stored.record))
+        console.err << fmt::format("graze: warning: the model would not follow this orbit: {}\n",
+                                   stored.record.point.solution.certificate.reason);
+    return whole ? exit_success : exit_irregular;
+}
+
+} // namespace graze

@@ -1,0 +1,113 @@
+#include "program/orbit_motion.hpp"
+
+#include "graze/orbit/signature.hpp"
+#include "graze/symbolic/function.hpp"
+#include "graze/trajectory/recorder.hpp"
+#include "graze/trajectory/trajectory.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+constexpr double tolerance = 1e-13; ///< with which orbits are computed
+
+/// The smooth motion of the modes alone.
+Model without_events(Model model, bool backwards) {
+    for (Mode& mode : model.modes) {
+        mode.watched.clear();
+        for (Expression& rate : mode.rates)
+            rate = backwards ? -rate : rate;
+    }
+    model.transitions.clear();
+    return model;
+}
+
+std::vector<double> periods_of(const Model& model) {
+    std::vector<Expression> periods;
+    for (const State& state : model.states)
+        periods.push_back(state.period ? model.expand(*state.period) : model.number(0));
+    return Function(model.parameter_symbols(), periods)(model.parameter_values());
+}
+
+/// Follows segments in one direction of time.
+class SmoothMotion {
+public:
+    SmoothMotion(const Model& model, bool backwards)
+        : parameters_(model.parameter_values()), periods_(periods_of(model)),
+          simulation_(without_events(model, backwards), {}, {}, options()), jets_(simulation_, LaneKind::single) {}
+
+    /// @param duration positive; @param receive given the time since the segment's start, and the state
+    /// @return why it ended before; empty when it did not
+    template <class Receive>
+    std::string follow(const std::vector<double>& start, std::size_t mode, double duration, std::size_t intervals,
+                       Receive receive) {
+        Sampler sampler(0, duration / static_cast<double>(intervals), intervals, periods_,
+                        [&](double time, std::size_t, std::span<const double> state) { receive(time, state); });
+        Trajectory trajectory(simulation_, parameters_, sampler);
+        trajectory.start(start, mode, 0, duration);
+        graze::run(trajectory, jets_);
+        const Outcome& outcome = trajectory.outcome();
+        if (outcome.ending != Ending::end_time)
+            return outcome.detail.empty() ? std::string(name_of(outcome.ending)) : outcome.detail;
+        receive(duration, trajectory.state());
+        return {};
+    }
+
+private:
+    static SimulationOptions options() {
+        SimulationOptions options;
+        options.tolerance = tolerance;
+        return options;
+    }
+    std::vector<double> parameters_, periods_;
+    Simulation simulation_;
+    JetSet jets_;
+};
+
+} // namespace
+
+Model model_at(const Model& model, const Orbit& orbit) {
+    Model result = model;
+    const std::vector<Expression> symbols = model.parameter_symbols();
+    for (std::size_t i = 0; i < symbols.size(); ++i)
+        result.set_parameter(symbols[i].name(), orbit.parameters[i]);
+    return result;
+}
+
+std::vector<SegmentMotion> orbit_motion(const Model& model, const Orbit& orbit, std::size_t samples) {
+    const Model there = model_at(model, orbit);
+    SmoothMotion forwards(there, false);
+    double whole = 0, time = 0;
+    for (const double duration : orbit.durations)
+        whole += std::abs(duration);
+    std::vector<SegmentMotion> motion;
+    for (std::size_t s = 0; s < orbit.segments(); ++s) {
+        const double duration = orbit.durations[s];
+        SegmentMotion& segment = motion.emplace_back();
+        segment.mode = orbit.signature[s].mode;
+        segment.end = end_name(model, orbit.signature[s]);
+        const double share = whole > 0 ? std::abs(duration) / whole : 0;
+        const auto intervals =
+            static_cast<std::size_t>(std::max(1.0, std::round(share * static_cast<double>(samples))));
+        const auto receive = [&](double since, std::span<const double> state) {
+            segment.times.push_back(time + std::copysign(since, duration));
+            segment.states.emplace_back(state.begin(), state.end());
+        };
+        if (duration == 0) {
+            receive(0, orbit.starts[s]);
+            receive(0, orbit.starts[s]);
+        } else if (duration > 0) {
+            segment.problem = forwards.follow(orbit.starts[s], segment.mode, duration, intervals, receive);
+        } else {
+            segment.problem =
+                SmoothMotion(there, true).follow(orbit.starts[s], segment.mode, -duration, intervals, receive);
+        }
+        time += duration;
+    }
+    return motion;
+}
+
+} // namespace graze

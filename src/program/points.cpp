@@ -1,0 +1,254 @@
+#include "graze/branch/special_point.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "program/commands.hpp"
+#include "program/result_query.hpp"
+#include "program/stored_orbit.hpp"
+#include "program/values.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+struct ListedPoint {
+    const StoredRun* run = nullptr;
+    OrbitRecord record;
+    std::vector<double> parameters; ///< of the run's columns
+};
+
+/// Points with the parameters by which they differ.
+struct PointList {
+    std::vector<StoredRun> runs;
+    std::vector<ListedPoint> points;
+    std::string followed; ///< the parameter that all follow; empty: each run its own
+    std::vector<std::string> others;
+};
+
+std::vector<std::string> all_types() {
+    std::vector<std::string> names;
+    for (int i = 0; i <= static_cast<int>(PointType::regular); ++i)
+        names.emplace_back(short_name(static_cast<PointType>(i)));
+    return names;
+}
+
+std::vector<PointType> chosen_types(const std::vector<std::string>& names) {
+    std::vector<PointType> types;
+    for (const std::string& name : names) {
+        std::string upper = name;
+        std::transform(upper.begin(), upper.end(), upper.begin(), [](unsigned char c) { return std::toupper(c); });
+        const auto type = point_type(upper);
+        if (!type)
+            throw InputError({"--type", 0, 0}, fmt::format("there is no type of points '{}'", name),
+                             fmt::format("known are: {}", fmt::join(all_types(), ", ")));
+        types.push_back(*type);
+    }
+    return types;
+}
+
+double value_of_parameter(const ListedPoint& point, const std::string& name) {
+    const std::vector<ResultColumn>& columns = point.run->record.coordinates;
+    for (std::size_t i = 0; i < std::min(columns.size(), point.parameters.size()); ++i)
+        if (columns[i].name == name)
+            return point.parameters[i];
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Parameters, besides the one that is followed, that are not the same everywhere.
+std::vector<std::string> differing_parameters(const PointList& list) {
+    std::vector<std::string> names;
+    for (const StoredRun& run : list.runs)
+        for (const ResultColumn& column : run.record.coordinates)
+            if (column.name != list.followed && std::find(names.begin(), names.end(), column.name) == names.end())
+                names.push_back(column.name);
+    std::erase_if(names, [&](const std::string& name) {
+        return std::all_of(list.points.begin(), list.points.end(), [&](const ListedPoint& point) {
+            const double first = value_of_parameter(list.points.front(), name), here = value_of_parameter(point, name);
+            return first == here || (std::isnan(first) && std::isnan(here));
+        });
+    });
+    return names;
+}
+
+PointList listed_points(const PointsArguments& arguments, const ResultFile& file) {
+    PointList list;
+    const std::vector<PointType> types = chosen_types(split_list(arguments.types));
+    for (const RunRecord& run : branch_runs(file, split_list(arguments.runs), {"--run", 0, 0}))
+        list.runs.emplace_back(file, run.name, Place{"--run", 0, 0});
+    bool several = false;
+    for (std::size_t r = 0; r < list.runs.size(); ++r) {
+        const RunRecord& run = list.runs[r].record;
+        const std::string followed = followed_parameter(run);
+        if (!followed.empty()) {
+            several = several || (!list.followed.empty() && list.followed != followed);
+            list.followed = followed;
+        }
+        const bool wants_regular = arguments.all || run.kind == "orbit" ||
+                                   std::find(types.begin(), types.end(), PointType::regular) != types.end();
+        for (OrbitRecord& record : file.orbits(run.name, !wants_regular)) {
+            if (!types.empty() && std::find(types.begin(), types.end(), record.point.type) == types.end())
+                continue;
+            ListedPoint point{&list.runs[r], std::move(record), {}};
+            point.parameters = parameters_of(list.runs[r], point.record);
+            list.points.push_back(std::move(point));
+        }
+    }
+    if (several)
+        list.followed.clear();
+    list.others = differing_parameters(list);
+    return list;
+}
+
+/// Fills a table column by column: all that is known for machines, for people what they look at.
+class PointTable {
+public:
+    PointTable(const PointList& list, TableFormat format, int digits)
+        : list_(list), for_people_(format == TableFormat::table), digits_(digits) {
+        const auto any = [&](auto holds) { return std::any_of(list.points.begin(), list.points.end(), holds); };
+        with_symmetry_ = !for_people_ ||
+                         any([](const ListedPoint& p) { return p.record.point.solution.orbit.symmetry.has_value(); });
+        with_reason_ = !for_people_ || any([](const ListedPoint& p) { return is_unphysical(p.record); });
+        with_bracket_ = !for_people_ || any([](const ListedPoint& p) { return !p.record.point.located; });
+        with_detail_ = !for_people_ || any([](const ListedPoint& p) {
+            return !p.record.point.detail.empty() || is_unphysical(p.record);
+        });
+        with_type_ = !for_people_ || any([](const ListedPoint& p) { return p.record.label.empty(); });
+        with_parameter_ = list.followed.empty() &&
+                          any([](const ListedPoint& p) { return !followed_parameter(p.run->record).empty(); });
+    }
+
+    Table make() {
+        declare();
+        table_ = Table(columns_);
+        for (const ListedPoint& point : list_.points)
+            add(point);
+        return std::move(table_);
+    }
+
+private:
+    void declare() {
+        add_columns({"run", "label"}, true);
+        add_columns({"type"}, with_type_);
+        if (with_parameter_)
+            for (const char* name : {"parameter", "value"})
+                columns_.push_back({name, ""});
+        else if (!list_.followed.empty())
+            columns_.push_back({list_.followed, unit_of(list_.followed)});
+        for (const std::string& name : list_.others)
+            columns_.push_back({name, unit_of(name)});
+        const std::string time = list_.runs.empty() ? "" : list_.runs.front().model.time_unit;
+        columns_.push_back({"period", time});
+        columns_.push_back({"durations", time});
+        add_columns({"signature"}, true);
+        add_columns({"symmetry"}, with_symmetry_);
+        add_columns({"stable", "multiplier"}, true);
+        add_columns({"multipliers"}, !for_people_);
+        add_columns({for_people_ ? "physical" : "admissible"}, with_reason_);
+        add_columns({"reason"}, !for_people_);
+        add_columns({"located", "low", "high"}, with_bracket_);
+        add_columns({"detail"}, with_detail_);
+        add_columns({"residual"}, !for_people_);
+    }
+    void add_columns(const std::vector<std::string>& names, bool wanted) {
+        for (const std::string& name : names)
+            if (wanted)
+                columns_.push_back({name, ""});
+    }
+    std::string unit_of(const std::string& name) const {
+        return list_.runs.empty() ? "" : list_.runs.front().unit(name);
+    }
+
+    void add(const ListedPoint& point) {
+        const OrbitRecord& record = point.record;
+        const OrbitSolution& solution = record.point.solution;
+        const RunRecord& run = point.run->record;
+        table_.add(run.name);
+        table_.add(record.label);
+        if (with_type_)
+            table_.add(short_name(record.point.type));
+        const std::string followed = followed_parameter(run);
+        if (with_parameter_)
+            table_.add(followed);
+        if (with_parameter_)
+            table_.add(followed.empty() ? nothing : value_of_parameter(point, followed));
+        else if (!list_.followed.empty())
+            table_.add(value_of_parameter(point, list_.followed));
+        for (const std::string& name : list_.others)
+            table_.add(value_of_parameter(point, name));
+        table_.add(solution.orbit.period());
+        table_.add(numbers_text(solution.orbit.durations, for_people_ ? 6 : digits_));
+        table_.add(to_string(point.run->model, solution.orbit.signature));
+        if (with_symmetry_)
+            table_.add(solution.orbit.symmetry ? point.run->model.symmetries[*solution.orbit.symmetry].name : "");
+        add_truth(record.stable);
+        table_.add(solution.multipliers.empty() ? nothing : brief(std::abs(solution.multipliers.front())));
+        if (!for_people_)
+            table_.add(multipliers_text(solution.multipliers, digits_));
+        if (with_reason_ && for_people_)
+            table_.add(solution.certificate.admissible ? "yes" : is_unphysical(record) ? "no" : "limit");
+        else if (with_reason_)
+            add_truth(solution.certificate.admissible);
+        if (!for_people_)
+            table_.add(solution.certificate.reason);
+        if (with_bracket_) {
+            add_truth(record.point.located);
+            table_.add(record.point.bracket.first);
+            table_.add(record.point.bracket.second);
+        }
+        if (with_detail_)
+            table_.add(detail_of(record));
+        if (!for_people_)
+            table_.add(solution.residual);
+    }
+    /// To people also why it is unphysical.
+    std::string detail_of(const OrbitRecord& record) const {
+        const std::string& detail = record.point.detail;
+        if (!for_people_ || !is_unphysical(record))
+            return detail;
+        return detail + (detail.empty() ? "" : "; ") + record.point.solution.certificate.reason;
+    }
+    void add_truth(bool holds) {
+        if (for_people_)
+            table_.add(holds ? "yes" : "no");
+        else
+            table_.add(holds ? 1.0 : 0.0);
+    }
+    /// People compare multipliers with 1, for which few digits do.
+    double brief(double value) const { return for_people_ ? std::stod(fmt::format("{:.6g}", value)) : value; }
+    static std::string numbers_text(const std::vector<double>& values, int digits) {
+        std::string text;
+        for (const double value : values)
+            text += fmt::format("{}{:.{}g}", text.empty() ? "" : " ", value, digits);
+        return text;
+    }
+
+    static constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    const PointList& list_;
+    bool for_people_, with_symmetry_, with_reason_, with_bracket_, with_detail_, with_type_, with_parameter_;
+    int digits_;
+    std::vector<Table::Column> columns_;
+    Table table_;
+};
+
+} // namespace
+
+int points_command(const PointsArguments& arguments, const Console& console) {
+    const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
+    const PointList list = listed_points(arguments, file);
+    OutputArguments output = arguments.output;
+    if (output.digits == 0)
+        output.digits = output.format == TableFormat::table ? 10 : 17;
+    JsonObject heading;
+    heading.add("file", file.path());
+    deliver(PointTable(list, output.format, output.digits).make(), output, heading, console);
+    if (list.points.empty())
+        console.err << "graze: there are no such points; --all lists the regular ones too\n";
+    return exit_success;
+}
+
+} // namespace graze

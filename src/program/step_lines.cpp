@@ -1,0 +1,56 @@
+#include "program/step_lines.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace graze {
+
+namespace {
+
+constexpr int wide = 18, digits = 10;
+
+/// Which has a column anyway.
+bool is_period(const Monitor& monitor) {
+    return monitor.kind == Monitor::Kind::duration && monitor.segment.empty();
+}
+
+} // namespace
+
+void StepLines::begin(const StudyRun& run, const std::string& part) {
+    const auto symbols = run.model.parameter_symbols();
+    const std::size_t parameter = run.branch.settings.parameter;
+    std::string line = fmt::format("{:>5} {:<4} {:<6} {:>{}} {:>{}} {:<6}", "step", "type", "label",
+                                   parameter < symbols.size() ? symbols[parameter].name() : "parameter", wide, "period",
+                                   wide, "stable");
+    for (const Monitor& monitor : run.branch.settings.monitors)
+        if (!is_period(monitor))
+            line += fmt::format(" {:>{}}", monitor.name, wide);
+    line.erase(line.find_last_not_of(' ') + 1);
+    *out_ << run.name << (part.empty() ? "" : ", ") << part << '\n' << line << '\n';
+}
+
+void StepLines::show(const std::string& name, const OrbitRecord& record) {
+    const auto run =
+        std::find_if(study_->runs.begin(), study_->runs.end(), [&](const StudyRun& one) { return one.name == name; });
+    if (run == study_->runs.end())
+        return;
+    const bool starts = record.point.step == 0; // two parts may have the same name
+    if (run_ != name || part_ != record.part || starts)
+        begin(*run, record.part);
+    run_ = name;
+    part_ = record.part;
+    const SpecialPoint& point = record.point;
+    const char* stable = !point.solution.certificate.admissible ? "unphys" : record.stable ? "yes" : "no";
+    std::string line =
+        fmt::format("{:>5} {:<4} {:<6} {:>{}.{}g} {:>{}.{}g} {:<6}", point.step, short_name(point.type), record.label,
+                    point.parameter, wide, digits, point.solution.orbit.period(), wide, digits, stable);
+    const std::vector<Monitor>& monitors = run->branch.settings.monitors;
+    for (std::size_t m = 0; m < std::min(monitors.size(), point.monitors.size()); ++m)
+        if (!is_period(monitors[m]))
+            line += fmt::format(" {:>{}.{}g}", point.monitors[m], wide, digits);
+    line.erase(line.find_last_not_of(' ') + 1);
+    *out_ << line << std::endl; // as it comes, also into a file
+}
+
+} // namespace graze
