@@ -1,0 +1,162 @@
+#include "graze/branch/monitor.hpp"
+#include "graze/branch/orbit_branch.hpp"
+
+#include "follow.hpp"
+#include "graze/model/named_value.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+using namespace graze::testing;
+
+constexpr double pi = std::numbers::pi;
+
+/// x'' + 2 zeta x' + x = F cos(theta): the orbit is a cosine of amplitude F / |H|.
+const char* const linear = R"(
+name = "linear"
+[parameters]
+zeta = 0.1
+omega = 1.7
+F = 0.8
+[states]
+x = 0
+v = 0
+theta = { initial = 0, period = "2*pi" }
+[modes.all]
+rates = { x = "v", v = "F*cos(theta) - 2*zeta*v - x", theta = "omega" }
+[sections.phase0]
+state = "theta"
+value = 0
+)";
+
+double amplitude(double zeta, double omega, double force) {
+    return force / std::hypot(1 - omega * omega, 2 * zeta * omega);
+}
+
+Monitor monitor(const std::string& name, Monitor::Kind kind, const Model& model, const std::string& expression,
+                const std::string& segment = "") {
+    Monitor result;
+    result.name = name;
+    result.kind = kind;
+    if (!expression.empty())
+        result.expression = named_value(model, expression, {}).value;
+    result.segment = segment;
+    return result;
+}
+
+TEST(OrbitMonitors, of_a_cosine_are_known) {
+    const Model model = model_from(linear);
+    const OrbitSolution solution = settled(model, "phase0");
+    OrbitMonitors monitors(
+        model, solution.orbit.signature,
+        {monitor("period", Monitor::Kind::duration, model, ""), monitor("greatest", Monitor::Kind::maximum, model, "x"),
+         monitor("least", Monitor::Kind::minimum, model, "v + 1"), monitor("mean", Monitor::Kind::mean, model, "x + 3"),
+         monitor("norm", Monitor::Kind::norm, model, "x"), monitor("start", Monitor::Kind::start, model, "x"),
+         monitor("end", Monitor::Kind::value, model, "x*omega", "phase0"),
+         monitor("by number", Monitor::Kind::maximum, model, "F*x", "1")});
+    const std::vector<double> values = monitors(solution.orbit);
+    const double a = amplitude(0.1, 1.7, 0.8), tolerance = 1e-13;
+    EXPECT_NEAR(values[0], 2 * pi / 1.7, tolerance);
+    EXPECT_NEAR(values[1], a, tolerance);
+    EXPECT_NEAR(values[2], 1 - 1.7 * a, tolerance);
+    EXPECT_NEAR(values[3], 3, tolerance);
+    EXPECT_NEAR(values[4], a / std::sqrt(2.0), tolerance);
+    EXPECT_NEAR(values[6], 1.7 * values[5], tolerance);
+    EXPECT_NEAR(values[7], 0.8 * a, tolerance);
+}
+
+TEST(OrbitMonitors, see_both_halves_of_a_symmetric_orbit) {
+    const Model model = load_model("dry-friction-oscillator");
+    const OrbitSolution half = settled(model, "phase0");
+    ASSERT_TRUE(half.orbit.symmetry);
+    const std::vector<Monitor> wanted{
+        monitor("greatest", Monitor::Kind::maximum, model, "x"), monitor("least", Monitor::Kind::minimum, model, "x"),
+        monitor("mean", Monitor::Kind::mean, model, "x"), monitor("period", Monitor::Kind::duration, model, "")};
+    const std::vector<double> values = OrbitMonitors(model, half.orbit.signature, wanted)(half.orbit);
+    EXPECT_NEAR(values[0], -values[1], 1e-12);
+    EXPECT_NEAR(values[2], 0, 1e-12);
+    EXPECT_NEAR(values[3], 2 * pi / 0.4, 1e-12);
+    const Orbit whole = whole_orbit(model, half.orbit);
+    const std::vector<double> again = OrbitMonitors(model, whole.signature, wanted)(whole);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        EXPECT_NEAR(values[i], again[i], 1e-12);
+}
+
+TEST(OrbitMonitors, say_which_segments_there_are) {
+    const Model model = model_from(linear);
+    const OrbitSolution solution = settled(model, "phase0");
+    for (const char* const wrong : {"2", "0", "impact", "phase0#2", "phase0#"})
+        EXPECT_THROW(
+            OrbitMonitors(model, solution.orbit.signature, {monitor("m", Monitor::Kind::value, model, "x", wrong)}),
+            InputError)
+            << wrong;
+}
+
+TEST(MonitorsOfBranches, are_reported_and_bound_them) {
+    const Model model = model_from(linear);
+    const OrbitSolution solution = settled(model, "phase0");
+    BranchSettings settings;
+    settings.parameter = parameter_place(model, "F");
+    settings.monitors = {monitor("amplitude", Monitor::Kind::maximum, model, "x")};
+    const double unit = amplitude(0.1, 1.7, 1);
+    settings.monitors[0].crossings = {0.5, 0.75};
+    settings.monitors[0].greatest = 1.25;
+    const Branch branch = follow_branch(model, solution.orbit, settings);
+    ASSERT_EQ(branch.outcome, BranchOutcome::bound) << branch.detail;
+    const auto crossings = of_type(branch, PointType::crossing);
+    ASSERT_EQ(crossings.size(), 2u);
+    EXPECT_NEAR(crossings[0].parameter, 0.5 / unit, 1e-10);
+    EXPECT_NEAR(crossings[1].parameter, 0.75 / unit, 1e-10);
+    EXPECT_NEAR(branch.special.back().parameter, 1.25 / unit, 1e-10);
+    EXPECT_EQ(branch.special.size(), 3u);
+}
+
+/// With the amplitude held, force and frequency go along the resonance curve F = a |H(omega)|.
+void expect_resonance_curve(const Model& model, const Monitor& held, double value) {
+    const OrbitSolution solution = settled(model, "phase0");
+    BranchSettings settings;
+    settings.parameter = parameter_place(model, "omega");
+    settings.free = {parameter_place(model, "F")};
+    settings.direction = -1;
+    settings.least = 0.4;
+    settings.monitors = {held};
+    settings.monitors[0].fixed = true;
+    settings.monitors[0].held = value;
+    const Branch branch = follow_branch(model, solution.orbit, settings);
+    ASSERT_EQ(branch.outcome, BranchOutcome::bound) << branch.detail;
+    EXPECT_NEAR(branch.points.back().parameter, 0.4, 1e-12);
+    for (const BranchPoint& point : branch.points) {
+        EXPECT_NEAR(point.monitors[0], value, 1e-10);
+        const double omega = point.parameter, force = point.solution.orbit.parameters[settings.free[0]];
+        const double size = held.kind == Monitor::Kind::norm ? value * std::sqrt(2.0) : value;
+        EXPECT_NEAR(amplitude(0.1, omega, force), size, 1e-9 * size);
+        EXPECT_TRUE(point.stable);
+    }
+    EXPECT_EQ(branch.special.size(), 1u); // the bound: a turn of the force is no fold
+}
+
+TEST(MonitorsOfBranches, that_are_held_free_a_parameter) {
+    const Model model = model_from(linear);
+    expect_resonance_curve(model, monitor("amplitude", Monitor::Kind::maximum, model, "x"), 0.3);
+    expect_resonance_curve(model, monitor("norm", Monitor::Kind::norm, model, "x"), 0.2);
+}
+
+TEST(MonitorsOfBranches, must_match_what_is_free) {
+    const Model model = model_from(linear);
+    const OrbitSolution solution = settled(model, "phase0");
+    BranchSettings settings;
+    settings.monitors = {monitor("amplitude", Monitor::Kind::maximum, model, "x")};
+    settings.free = {1};
+    EXPECT_THROW(follow_branch(model, solution.orbit, settings), InputError);
+    settings.monitors[0].fixed = true;
+    settings.free = {settings.parameter};
+    EXPECT_THROW(follow_branch(model, solution.orbit, settings), InputError);
+    settings.free = {};
+    EXPECT_THROW(follow_branch(model, solution.orbit, settings), InputError);
+}
+
+} // namespace
+} // namespace graze
