@@ -239,15 +239,17 @@ bool Continuation::closes() {
         chord[i] = point_.u[i] - previous_.u[i];
         offset[i] = first_.u[i] - previous_.u[i];
     }
+    problem_->reduce(offset);
     const double length2 = product(chord, chord), along = product(offset, chord) / length2;
     if (!(along > 0 && along <= 1) || product(offset, offset) > 4 * length2 ||
-        product(first_.tangent, point_.tangent) < 0.5)
+        product(first_.tangent, point_.tangent) < 0.5 * std::sqrt(product(first_.tangent, first_.tangent)))
         return false;
     ContinuationPoint here;
     if (!between(along, here))
         return false;
     for (std::size_t i = 0; i < offset.size(); ++i)
         offset[i] = here.u[i] - first_.u[i];
+    problem_->reduce(offset);
     return std::sqrt(product(offset, offset)) < same_point;
 }
 

@@ -36,11 +36,14 @@ bool is_among(PointType type, const std::vector<PointType>& types) {
 int rank(const SpecialPoint& point) {
     switch (point.type) {
     case PointType::grazing: {
+        const Orbit& orbit = point.solution.orbit;
+        const double duration = std::abs(orbit.durations[point.segment]);
+        // An arc that vanishes has the contact before it to thank for that.
+        constexpr double almost_nothing = 1e-4;
         if (point.at_end)
-            return 1;
+            return duration > almost_nothing * orbit.period() ? 1 : 2;
         // A minimum that comes or goes through an end of its arc does so because a contact has lost its speed.
         constexpr double at_edge = 1e-6;
-        const double duration = std::abs(point.solution.orbit.durations[point.segment]);
         return point.time > at_edge * duration && point.time < (1 - at_edge) * duration ? 0 : 2;
     }
     case PointType::vanishing:
@@ -130,6 +133,7 @@ public:
             throw InputError("the direction does not fit the orbit", "give as many numbers as there are unknowns");
         if (distance != 0)
             return begin(continuation_->start_along(u, direction, distance));
+        begun_at_solution_ = true;
         std::vector<double> row = direction;
         for (std::size_t i = 0; i < row.size(); ++i)
             row[i] /= problem_->scales()[i] * problem_->scales()[i];
@@ -302,6 +306,7 @@ private:
                          [](const SpecialPoint& a, const SpecialPoint& b) { return a.arclength < b.arclength; });
         merge(length);
         drop_folds_of_return(length);
+        drop_origin(length);
         problem_->evaluate(continuation_->point().u);
     }
 
@@ -561,6 +566,15 @@ private:
         return true;
     }
 
+    /// A branch that begins at a special point of another has not found that point.
+    void drop_origin(double length) {
+        constexpr double same_place = 1e-6;
+        if (point.step == 1 && begun_at_solution_)
+            std::erase_if(found, [&](const SpecialPoint& special) {
+                return rank(special) >= 0 && special.arclength < same_place * length;
+            });
+    }
+
     /// Ends the branch where what was found says so.
     void judge(bool was_admissible) {
         // The branch ends in the special point itself, not beyond it.
@@ -612,7 +626,7 @@ private:
     double older_arclength_ = 0;
     double arclength_ = 0, growth_ = 1;
     std::size_t reorderings_ = 0;
-    bool ended_ = true;
+    bool ended_ = true, begun_at_solution_ = false;
 };
 
 OrbitBranch::OrbitBranch(const Model& model, const Orbit& candidate, const BranchSettings& settings)

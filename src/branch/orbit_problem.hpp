@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -39,6 +40,16 @@ public:
         constexpr std::size_t renewal = 5;
         if (accepted_++ % renewal == 0)
             shooting_.set_scales(vector_of(u));
+    }
+
+    void reduce(std::span<double> difference) const override {
+        const std::vector<double>& periods = shooting_.periods();
+        for (std::size_t k = 0; k < shooting_.pieces(); ++k)
+            for (std::size_t i = 0; i < periods.size(); ++i)
+                if (periods[i] > 0) {
+                    double& one = difference[shooting_.start_of(k) + i];
+                    one -= std::round(one / periods[i]) * periods[i];
+                }
     }
 
     static Eigen::Map<const Eigen::VectorXd> vector_of(std::span<const double> values) {

@@ -49,6 +49,19 @@ std::optional<Orbit> followed(const Simulation& simulation, const Orbit& orbit, 
                : std::optional(begun_after_first_contact(simulation.model(), orbit, motion, round));
 }
 
+/// Whether orbits have the same segments, wherever they begin: then the one is on the branch of the other.
+bool are_alike(const Orbit& one, const Orbit& other) {
+    Signature signature = one.signature;
+    if (signature.size() != other.signature.size())
+        return false;
+    for (std::size_t k = 0; k < signature.size(); ++k) {
+        if (signature == other.signature)
+            return true;
+        std::rotate(signature.begin(), signature.begin() + 1, signature.end());
+    }
+    return false;
+}
+
 bool is_sound(const Simulation& simulation, const Orbit& orbit, std::string& why) {
     Shooting shooting(simulation, orbit, {});
     const Eigen::VectorXd unknowns = shooting.unknowns_of(orbit);
@@ -74,7 +87,7 @@ BranchStart with_events_reordered(const Model& model, const SpecialPoint& point,
                 const Eigen::VectorXd there = unknowns + side * distance * OrbitProblem::vector_of(point.tangent);
                 Orbit beyond = problem.shooting().orbit_of(there);
                 const auto candidate = followed(simulation, beyond, why);
-                if (!candidate)
+                if (!candidate || are_alike(*candidate, orbit))
                     continue;
                 OrbitOptions options = settings.orbit;
                 options.error_estimate = false;

@@ -25,6 +25,8 @@ public:
                        double* determinant) = 0;
     /// Called before each step with the point from which it goes: scales may be chosen anew.
     virtual void accept(std::span<const double>) {}
+    /// Takes whole periods out of the difference of two solutions, where some unknowns are angles.
+    virtual void reduce(std::span<double>) const {}
 };
 
 /// Equations given by functions, solved with dense matrices: for problems of moderate size.

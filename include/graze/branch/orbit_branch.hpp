@@ -71,7 +71,7 @@ public:
     /// problem, as SpecialPoint::tangent. @param distance of the first point; 0 for the solution itself
     bool start_along(const std::vector<double>& direction, double distance);
 
-    /// @return false when the branch has ended
+    /// @return false when the branch has ended. If a special point has ended it, its last point is that one.
     bool step();
     const BranchPoint& point() const;
     /// What was found between the last point and the one before, in the order of the branch.

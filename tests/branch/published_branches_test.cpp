@@ -1,0 +1,274 @@
+// Branches of the shipped models against values that are published or were computed independently, by other methods.
+
+#include "follow.hpp"
+
+#include "graze/model/microbeam.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+constexpr double pi = std::numbers::pi;
+
+struct Microactuator {
+    Model model = load_model("impact-microactuator");
+    BranchSettings settings;
+
+    explicit Microactuator(double omega) {
+        model.set_parameter("V", 0.1);
+        model.set_parameter("omega", omega);
+        settings.parameter = parameter_place(model, "V");
+        settings.least = 0;
+        settings.greatest = 3;
+        settings.steps = 1000;
+    }
+    Branch without_contact() const { return follow_branch(model, settled(model, "longest", 4000).orbit, settings); }
+};
+
+TEST(PublishedBranches, microactuator_up_to_its_first_contact) {
+    const Microactuator one(0.9189);
+    const Branch branch = one.without_contact();
+    ASSERT_EQ(names(branch), "PD PD SN GR");
+    EXPECT_EQ(branch.outcome, BranchOutcome::unphysical);
+    EXPECT_NEAR(branch.special[0].parameter, 0.316674036113040, 1e-13);
+    EXPECT_NEAR(branch.special[1].parameter, 0.451075045332847, 1e-13);
+    EXPECT_NEAR(branch.special[2].parameter, 0.587638103140046, 1e-13);
+    EXPECT_NEAR(branch.special[3].parameter, 0.5876212422746997, 1e-13);
+    expect_flip(branch.special[0]);
+    expect_flip(branch.special[1]);
+    expect_fold(branch, branch.special[2]);
+    expect_touch(one.model, branch.special[3], 0.5);
+    // The fold and the touch lie 2e-5 apart in V, in this order.
+    EXPECT_LT(branch.special[2].arclength, branch.special[3].arclength);
+    const SpecialPoint& grazing = branch.special[3];
+    const double phase = grazing.solution.orbit.starts[grazing.segment][4] + 0.9189 * grazing.time;
+    EXPECT_NEAR(std::remainder(phase - 3.132040065911, pi), 0, 1e-11);
+    // Points end where the orbits cease to be possible.
+    EXPECT_NEAR(branch.points.back().parameter, grazing.parameter, 1e-15);
+    for (const BranchPoint& point : branch.points) {
+        ASSERT_EQ(point.solution.multipliers.size(), 2U);
+        EXPECT_NEAR(std::abs(point.solution.multipliers[0] * point.solution.multipliers[1]),
+                    std::exp(-0.04 * pi / 0.9189), 1e-9);
+    }
+}
+
+/// One contact more at each grazing, and what is found on each of these branches.
+void expect_contacts(double omega, const std::vector<double>& grazings, double tolerance) {
+    const Microactuator one(omega);
+    Branch branch = one.without_contact();
+    for (std::size_t n = 0; n < grazings.size(); ++n) {
+        ASSERT_FALSE(branch.special.empty());
+        const SpecialPoint grazing = branch.special.back();
+        EXPECT_NEAR(grazing.parameter, grazings[n], tolerance) << n;
+        expect_touch(one.model, grazing, 0.5);
+        const auto starts = branches_at(one.model, grazing, one.settings);
+        ASSERT_EQ(starts.size(), 1U);
+        EXPECT_EQ(to_string(one.model, starts[0].orbit.signature), n == 0 ? "J8 J1" : fmt::format("(J8 J1)^{}", n + 1));
+        branch = follow(one.model, starts[0], one.settings);
+        for (const SpecialPoint& fold : of_type(branch, PointType::fold))
+            expect_fold(branch, fold);
+        for (const SpecialPoint& flip : of_type(branch, PointType::flip))
+            expect_flip(flip);
+        EXPECT_EQ(branch.outcome, BranchOutcome::unphysical);
+    }
+}
+
+TEST(PublishedBranches, microactuator_gains_contact_after_contact) {
+    expect_contacts(
+        0.9189, {0.5876212422746997, 0.7304755333366196, 0.8095127614194632, 0.8558788675649937, 0.8819580628177297},
+        1e-12);
+}
+
+TEST(PublishedBranches, microactuator_gains_contact_after_contact_at_another_frequency) {
+    expect_contacts(2.0056,
+                    {.52745995765981, .66636423118007, .74940362005310, .79897011651099, .82715666925300,
+                     .84240315127881, .85032000894172, .85431167398464},
+                    2e-13);
+}
+
+TEST(PublishedBranches, microactuator_with_one_contact_has_its_flip) {
+    const Microactuator one(0.9189);
+    const Branch before = one.without_contact();
+    const Branch branch =
+        follow(one.model, branches_at(one.model, before.special.back(), one.settings).at(0), one.settings);
+    const auto flips = of_type(branch, PointType::flip);
+    ASSERT_EQ(flips.size(), 1U);
+    EXPECT_NEAR(flips[0].parameter, 0.858230023098903, 1e-12);
+    expect_flip(flips[0]);
+}
+
+TEST(PublishedBranches, microactuator_loses_its_contact_where_it_was_gained) {
+    const Microactuator one(0.9189);
+    const Branch before = one.without_contact();
+    Branch branch = follow(one.model, branches_at(one.model, before.special.back(), one.settings).at(0), one.settings);
+    ASSERT_GT(branch.points.size(), 200U);
+    ASSERT_GT(branch.points[190].parameter, 0.65);
+    // Back from far away, towards vanishing speed.
+    BranchSettings back = one.settings;
+    back.direction = -1;
+    const Branch returned = follow_branch(one.model, branch.points[190].solution.orbit, back);
+    ASSERT_EQ(names(returned), "GR");
+    const SpecialPoint& lost = returned.special[0];
+    EXPECT_TRUE(lost.at_end);
+    EXPECT_EQ(returned.outcome, BranchOutcome::unphysical);
+    // The contact's speed vanishes with the root of the distance: less is known of the parameter's last digits.
+    EXPECT_NEAR(lost.parameter, 0.5876212422746997, 1e-11);
+    const auto starts = branches_at(one.model, lost, one.settings);
+    ASSERT_EQ(starts.size(), 1U);
+    EXPECT_EQ(starts[0].orbit.segments(), 1U);
+    const Branch without = follow(one.model, starts[0], one.settings);
+    const auto flips = of_type(without, PointType::flip);
+    ASSERT_EQ(flips.size(), 2U);
+    EXPECT_NEAR(flips[1].parameter, 0.316674036113040, 1e-12);
+    EXPECT_NEAR(flips[0].parameter, 0.451075045332847, 1e-12);
+    EXPECT_EQ(of_type(without, PointType::fold).size(), 1U);
+}
+
+TEST(PublishedBranches, testbed_grazes) {
+    for (const auto& [frequency, voltage] :
+         {std::pair{6.25, 4.833263260865}, {7.0, 3.675357252066}, {8.0, 3.998955699893}}) {
+        Model model = load_model("electromagnetic-testbed");
+        model.set_parameter("f", frequency);
+        model.set_parameter("V0", 3);
+        BranchSettings settings;
+        settings.parameter = parameter_place(model, "V0");
+        const Orbit orbit = settled(model, "phase0", 600).orbit;
+        ASSERT_TRUE(orbit.symmetry);
+        const Branch branch = follow_branch(model, orbit, settings);
+        ASSERT_EQ(names(branch), "GR");
+        EXPECT_NEAR(branch.special[0].parameter, voltage, 1e-11);
+        expect_touch(model, branch.special[0], 1e-3);
+        // One impact against the stop in each half: the orbit stays symmetric.
+        const auto starts = branches_at(model, branch.special[0], settings);
+        ASSERT_EQ(starts.size(), 1U);
+        EXPECT_TRUE(starts[0].orbit.symmetry);
+        EXPECT_EQ(to_string(model, starts[0].orbit.signature), "impact");
+    }
+}
+
+TEST(PublishedBranches, testbed_orbit_of_three_periods) {
+    Model model = load_model("electromagnetic-testbed");
+    model.set_initial("I", 0.1);
+    const OrbitSolution solution = settled(model, "phase0", 600);
+    ASSERT_TRUE(solution.orbit.symmetry);
+    BranchSettings settings;
+    settings.parameter = parameter_place(model, "V0");
+    settings.direction = -1;
+    const Branch down = follow_branch(model, solution.orbit, settings);
+    const auto folds = of_type(down, PointType::fold);
+    ASSERT_EQ(folds.size(), 1U);
+    EXPECT_NEAR(folds[0].parameter, 4.789014895054, 1e-11);
+    expect_fold(down, folds[0]);
+
+    settings.direction = 1;
+    const Branch up = follow_branch(model, solution.orbit, settings);
+    const auto breaking = of_type(up, PointType::branch_point);
+    ASSERT_GE(breaking.size(), 1U);
+    EXPECT_NEAR(breaking[0].parameter, 4.846244144797, 1e-11);
+    // Located with the half map, whose multiplier is -1; the whole one has 1.
+    const auto& halves = breaking[0].solution.half_multipliers;
+    EXPECT_LT(std::abs(halves.at(0) + 1.0), 1e-9);
+    EXPECT_LT(nearest_multiplier(breaking[0].solution, 1), 1e-9);
+
+    // Two branches without the symmetry, images of each other.
+    const auto starts = branches_at(model, breaking[0], settings);
+    ASSERT_EQ(starts.size(), 2U);
+    const Branch one = follow(model, starts[0], settings), other = follow(model, starts[1], settings);
+    EXPECT_EQ(names(one), names(other));
+    ASSERT_EQ(one.special.size(), other.special.size());
+    for (std::size_t i = 0; i < one.special.size(); ++i)
+        EXPECT_NEAR(one.special[i].parameter, other.special[i].parameter, 1e-10);
+    ASSERT_GT(one.points.size(), 2U);
+    const Orbit& whole = one.points[2].solution.orbit;
+    EXPECT_FALSE(whole.symmetry);
+    EXPECT_FALSE(half_orbit(model, whole));
+    EXPECT_NEAR(whole.period(), 3 / 6.25, 1e-10);
+}
+
+TEST(PublishedBranches, mems_switch_grazes) {
+    Model model = load_model("mems-switch");
+    model.set_parameter("V", 0.15);
+    model.set_initial("q", 0);
+    BranchSettings settings;
+    settings.parameter = parameter_place(model, "V");
+    const Branch branch = follow_branch(model, settled(model, "phase0").orbit, settings);
+    ASSERT_EQ(names(branch), "GR");
+    const SpecialPoint& grazing = branch.special[0];
+    EXPECT_NEAR(grazing.parameter, 0.2013662121541341, 1e-13);
+    EXPECT_NEAR(grazing.solution.orbit.starts[grazing.segment][2] + grazing.time, 0.7306205700512591, 1e-12);
+    ASSERT_EQ(grazing.solution.multipliers.size(), 2U);
+    EXPECT_LT(nearest_multiplier(grazing.solution, 0), 1);
+    EXPECT_NEAR(grazing.solution.multipliers[0].real(), 0.8765517138529, 1e-11);
+    EXPECT_NEAR(std::abs(grazing.solution.multipliers[0].imag()), 0.0970812655112, 1e-11);
+    expect_touch(model, grazing, 0.6);
+    // The orbit with an impact is there, but unstable from the start: beyond grazing nothing but snap-through is left.
+    const auto starts = branches_at(model, grazing, settings);
+    ASSERT_EQ(starts.size(), 1U);
+    const Branch impacting = follow(model, starts[0], settings);
+    ASSERT_GT(impacting.points.size(), 3U);
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_TRUE(impacting.points[i].solution.certificate.admissible);
+        EXPECT_FALSE(impacting.points[i].stable);
+        EXPECT_LT(impacting.points[i].parameter, grazing.parameter);
+    }
+}
+
+TEST(PublishedBranches, microbeam_touches_its_stop) {
+    Model model = load_model("microbeam");
+    model.set_parameter("V", 0.01);
+    BranchSettings settings;
+    settings.parameter = parameter_place(model, "V");
+    settings.least = 0.005;
+    settings.greatest = 0.06;
+    const Branch branch = follow_branch(model, settled(model, "phase0").orbit, settings);
+    ASSERT_EQ(names(branch), "GR");
+    EXPECT_NEAR(branch.special[0].parameter, 0.030040810557599, 1e-13);
+    expect_touch(model, branch.special[0], 0.01);
+    const auto starts = branches_at(model, branch.special[0], settings);
+    ASSERT_EQ(starts.size(), 1U);
+    settings.steps = 40;
+    const Branch deeper = follow(model, starts[0], settings);
+    const auto folds = of_type(deeper, PointType::fold);
+    ASSERT_EQ(folds.size(), 2U);
+    EXPECT_NEAR(folds[0].parameter, 0.032825650930776, 1e-13);
+    expect_fold(deeper, folds[0]);
+    // Where contact lasts beyond the end of the pulse, the same branch goes on in another order of events; it turns
+    // again where the high-penetration orbits begin.
+    EXPECT_EQ(of_type(deeper, PointType::vanishing).size(), 1U);
+    EXPECT_NEAR(folds[1].parameter, 0.022532683475758, 1e-13);
+    expect_fold(deeper, folds[1]);
+}
+
+TEST(PublishedBranches, microbeam_deep_in_its_stop_and_without_one) {
+    Model model = load_model("microbeam");
+    model.set_parameter("V", 0.034);
+    BranchSettings settings;
+    settings.parameter = parameter_place(model, "V");
+    settings.direction = -1;
+    settings.least = 0.01;
+    settings.stop_at = {PointType::fold};
+    const Branch high = follow_branch(model, settled(model, "phase0").orbit, settings);
+    EXPECT_EQ(high.outcome, BranchOutcome::stopped) << high.detail;
+    const auto folds = of_type(high, PointType::fold);
+    ASSERT_EQ(folds.size(), 1U);
+    EXPECT_NEAR(folds[0].parameter, 0.022532683475758, 1e-13);
+
+    MicrobeamOptions free;
+    free.stop_stiffness = 0;
+    free.stop_distance = -0.02;
+    free.voltage = 0.01;
+    model = microbeam(free);
+    settings.direction = 1;
+    const Branch soft = follow_branch(model, settled(model, "phase0").orbit, settings);
+    EXPECT_EQ(names(soft), "SN");
+    EXPECT_NEAR(soft.special.back().parameter, 0.036662363851355, 1e-13);
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,187 @@
+// Branches of models with dry friction and of such as users write, whose answers are known in closed form.
+
+#include "follow.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+constexpr double pi = std::numbers::pi;
+
+/// Sliding without stops under dry friction F and the force cos(omega t) (J. P. Den Hartog, 1931), without viscous
+/// damping: amplitude sqrt(V^2 - (F U)^2), V the response and U the damping function, force at the turning points
+/// omega^2 times that.
+struct Sliding {
+    double omega, friction;
+    double response() const { return 1 / (1 - omega * omega); }
+    double damping() const { return std::sin(pi / omega) / (omega * (1 + std::cos(pi / omega))); }
+    double amplitude() const { return std::sqrt(response() * response() - std::pow(friction * damping(), 2)); }
+    double force() const { return omega * omega * amplitude(); }
+};
+
+Model sliding_model(const Sliding& known, double greatest_at_rest) {
+    Model model = load_model("dry-friction-oscillator");
+    model.set_parameter("zeta", 0);
+    model.set_parameter("omega", known.omega);
+    model.set_parameter("friction_dynamic", known.friction);
+    model.set_parameter("friction_static", greatest_at_rest);
+    return model;
+}
+
+Orbit sliding_orbit(const Sliding& known, const Model& model) {
+    // To the left, from a turning point on the right.
+    const double x = known.amplitude(),
+                 phase = std::atan2(-known.friction * known.damping() / known.response(), x / known.response());
+    Orbit orbit{parse_signature(model, "slip_minus:stop_minus slip_plus:stop_plus"),
+                model.parameter_values(),
+                {{x, 0, phase}, {-x, 0, phase + pi}},
+                {pi / known.omega, pi / known.omega},
+                {}};
+    return half_orbit(model, orbit).value();
+}
+
+TEST(UserModels, dry_friction_holds_where_den_hartog_says) {
+    const Sliding known{0.8, 0.3};
+    const Model model = sliding_model(known, 0.3);
+    BranchSettings settings;
+    settings.parameter = parameter_place(model, "friction_static");
+    settings.greatest = 3;
+    const Branch branch = follow_branch(model, sliding_orbit(known, model), settings);
+    ASSERT_EQ(names(branch), "GU BD");
+    EXPECT_NEAR(branch.special[0].parameter, known.force(), 1e-12);
+    for (const BranchPoint& point : branch.points) {
+        EXPECT_TRUE(point.solution.orbit.symmetry);
+        EXPECT_TRUE(point.solution.certificate.admissible) << point.solution.certificate.reason;
+        if (point.parameter < known.force()) {
+            EXPECT_EQ(point.solution.orbit.segments(), 1U);
+            EXPECT_NEAR(std::abs(point.solution.orbit.starts[0][0]), known.amplitude(), 1e-12);
+        } else { // there are stops now, which last the longer the firmer the mass is held
+            EXPECT_EQ(point.solution.orbit.segments(), 2U) << point.parameter;
+        }
+    }
+    EXPECT_EQ(branch.points.back().solution.orbit.segments(), 2U);
+}
+
+TEST(UserModels, dry_friction_slides_at_the_amplitude_of_den_hartog) {
+    // With more friction while sliding, and with another frequency.
+    for (const char* parameter : {"friction_dynamic", "omega"}) {
+        const Sliding begin{0.8, 0.3};
+        const Model model = sliding_model(begin, 0.3);
+        BranchSettings settings;
+        settings.parameter = parameter_place(model, parameter);
+        settings.direction = -1;
+        settings.least = parameter[0] == 'o' ? 0.55 : 0.01;
+        const Branch branch = follow_branch(model, sliding_orbit(begin, model), settings);
+        ASSERT_GT(branch.points.size(), 3U);
+        for (const BranchPoint& point : branch.points) {
+            const Sliding known{parameter[0] == 'o' ? point.parameter : 0.8,
+                                parameter[0] == 'o' ? 0.3 : point.parameter};
+            if (point.solution.certificate.admissible) {
+                EXPECT_NEAR(std::abs(point.solution.orbit.starts[0][0]), known.amplitude(), 1e-11);
+            }
+        }
+        EXPECT_TRUE(of_type(branch, PointType::fold).empty());
+    }
+}
+
+/// A spring that is stiffer on one side: x'' + 2 zeta x' + (1 or stiffness) x = load + cos(omega t).
+Model bilinear(double stiffness) {
+    return model_from(fmt::format(R"toml(
+[parameters]
+stiffness = {:.17g}
+omega = 2.3
+zeta = 0.05
+load = 0
+[states]
+x = 0.5
+v = 0
+theta = {{ initial = 0, period = "2*pi" }}
+[modes.soft]
+rates = {{ x = "v", v = "load + cos(theta) - 2*zeta*v - x", theta = "omega" }}
+watch = ["rise"]
+[modes.stiff]
+rates = {{ x = "v", v = "load + cos(theta) - 2*zeta*v - stiffness*x", theta = "omega" }}
+watch = ["fall"]
+[events]
+rise = "-x"
+fall = "x"
+[[transitions]]
+label = "up"
+mode = "soft"
+event = "rise"
+next = "stiff"
+[[transitions]]
+label = "down"
+mode = "stiff"
+event = "fall"
+next = "soft"
+[sections.start]
+state = "theta"
+value = 0
+[initial]
+mode = "stiff"
+)toml",
+                                  stiffness));
+}
+
+TEST(UserModels, bilinear_oscillator_is_linear_where_both_sides_are_alike) {
+    const Model model = bilinear(1.4);
+    const Orbit orbit = settled(model, "start").orbit;
+    BranchSettings settings;
+    settings.parameter = parameter_place(model, "stiffness");
+    settings.direction = -1;
+    settings.least = 1;
+    const Branch branch = follow_branch(model, orbit, settings);
+    ASSERT_EQ(branch.outcome, BranchOutcome::bound) << names(branch);
+    for (const BranchPoint& point : branch.points) {
+        ASSERT_EQ(point.solution.multipliers.size(), 2U);
+        // A spring without jumps of velocity: damping alone decides the product.
+        EXPECT_NEAR((point.solution.multipliers[0] * point.solution.multipliers[1]).real(),
+                    std::exp(-2 * 0.05 * point.solution.orbit.period()), 1e-11);
+    }
+    const Orbit& linear = branch.points.back().solution.orbit;
+    const double amplitude = 1 / std::hypot(1 - 2.3 * 2.3, 0.23);
+    EXPECT_NEAR(linear.period(), 2 * pi / 2.3, 1e-12);
+    for (std::size_t k = 0; k < linear.segments(); ++k)
+        EXPECT_NEAR(std::abs(linear.starts[k][1]), 2.3 * amplitude, 1e-11); // x = 0 is passed at the greatest speed
+}
+
+TEST(UserModels, bilinear_oscillator_leaves_the_stiff_side_by_a_touch) {
+    // Pressed to one side by a load, x is load / stiffness + response: it reaches zero where both are equal.
+    Model model = bilinear(3);
+    model.set_parameter("load", 10);
+    model.set_initial("x", 3.3);
+    const Orbit orbit = settled(model, "start").orbit;
+    ASSERT_EQ(orbit.segments(), 1U);
+    BranchSettings settings;
+    settings.parameter = parameter_place(model, "load");
+    settings.direction = -1;
+    settings.least = -10;
+    const Branch branch = follow_branch(model, orbit, settings);
+    ASSERT_EQ(names(branch), "GR");
+    EXPECT_NEAR(branch.special[0].parameter, 3 / std::hypot(3 - 2.3 * 2.3, 0.23), 1e-12);
+    expect_touch(model, branch.special[0], 1);
+    // Beyond, both springs act in turn, until the load presses it to the other side: there the soft one acts alone.
+    const auto starts = branches_at(model, branch.special[0], settings);
+    ASSERT_EQ(starts.size(), 1U);
+    EXPECT_EQ(starts[0].orbit.segments(), 2U);
+    const Branch both = follow(model, starts[0], settings);
+    const auto lost = of_type(both, PointType::grazing);
+    ASSERT_EQ(lost.size(), 1U) << names(both);
+    EXPECT_NEAR(lost[0].parameter, -1 / std::hypot(1 - 2.3 * 2.3, 0.23), 1e-11);
+    const auto on = branches_at(model, lost[0], settings);
+    ASSERT_EQ(on.size(), 1U);
+    EXPECT_EQ(on[0].orbit.segments(), 1U);
+    const Branch soft = follow(model, on[0], settings);
+    ASSERT_FALSE(soft.points.empty());
+    EXPECT_EQ(names(soft), "BD");
+    EXPECT_EQ(soft.points.back().parameter, -10);
+}
+
+} // namespace
+} // namespace graze
