@@ -26,7 +26,7 @@ Eigen::Index index(std::size_t i) {
 Shooting::Shooting(const Simulation& simulation, const Orbit& orbit, std::vector<std::size_t> free)
     : simulation_(&simulation), signature_(orbit.signature), symmetry_(orbit.symmetry), free_(std::move(free)),
       n_(simulation.compiled().states()), flow_(simulation, free_), system_(n_, free_.size()),
-      parameters_(orbit.parameters), periods_(n_), reference_(orbit.starts.front()) {
+      parameters_(orbit.parameters), periods_(n_), reference_(orbit.starts.front()), state_scales_(n_) {
     validate_orbit(simulation.model(), orbit);
     inputs_.resize(n_ + parameters_.size());
     compile_ends();
@@ -34,7 +34,7 @@ Shooting::Shooting(const Simulation& simulation, const Orbit& orbit, std::vector
     coupling_ = Eigen::MatrixXd::Zero(index(n_), index(n_));
     split(orbit);
     system_.resize(pieces_.size());
-    largest_scales_ = Eigen::VectorXd::Zero(index(n_ + free_.size()));
+    largest_parameters_.resize(free_.size());
     set_scales(unknowns_of(orbit));
 }
 
@@ -200,76 +200,34 @@ void Shooting::set_scales(const Eigen::VectorXd& unknowns) {
     set_parameters(unknowns);
     const std::size_t count = pieces_.size() * (n_ + 1) + free_.size();
     scales_ = Eigen::VectorXd::Ones(index(count));
-    std::vector<double> least(n_, INFINITY), greatest(n_, -INFINITY), sizes(n_, 0.0);
+    state_scales_.begin();
     double time = 0;
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
         const double* start = unknowns.data() + start_of(k);
         std::vector<double> state(start, start + n_);
         time += std::abs(unknowns[index(duration_of(k))]);
-        const auto note = [&] {
-            for (std::size_t i = 0; i < n_; ++i) {
-                least[i] = std::min(least[i], state[i]);
-                greatest[i] = std::max(greatest[i], state[i]);
-                sizes[i] = std::max(sizes[i], std::abs(state[i]));
-            }
-        };
-        note();
+        state_scales_.note(state);
         // Extents along the motion: those of an orbit with a single piece are not seen from its start.
         constexpr int parts = 8;
         for (int part = 0; part < parts; ++part) {
             if (flow_.run(signature_[pieces_[k].segment].mode, state, unknowns[index(duration_of(k))] / parts) !=
                 ArcFlow::Ending::done)
                 break;
-            note();
+            state_scales_.note(state);
         }
     }
-    choose_scales(least, greatest, sizes);
+    const std::vector<double> chosen = state_scales_.choose(periods_, coupling_);
+    for (std::size_t k = 0; k < pieces_.size(); ++k)
+        std::copy(chosen.begin(), chosen.end(), scales_.data() + start_of(k));
     for (std::size_t k = 0; k < pieces_.size(); ++k)
         scales_[index(duration_of(k))] = time > 0 ? time : 1;
     for (std::size_t f = 0; f < free_.size(); ++f) {
         // Near zero a parameter says nothing of its own size.
         constexpr double smallest = 1e-2;
         const double usual = std::abs(model().parameter_values()[free_[f]]);
-        double& largest = largest_scales_[index(n_ + f)];
+        double& largest = largest_parameters_[f];
         largest = std::max({largest, std::abs(unknowns[index(place_of_parameter(f))]), smallest * usual});
         scales_[index(place_of_parameter(f))] = largest > 0 ? largest : 1;
-    }
-}
-
-/// Scales of the states from their extents and sizes along the orbit.
-void Shooting::choose_scales(const std::vector<double>& least, const std::vector<double>& greatest,
-                             const std::vector<double>& sizes) {
-    constexpr double smallest_share = 1e-3;
-    // Units that shrank with what they measure would keep a branch from ever passing zero.
-    constexpr double smallest_scale = 1e-2;
-    // What is smaller than the others by this is zero, by a symmetry, but for what has not decayed yet.
-    constexpr double negligible = 1e-25;
-    constexpr double round_off_share = 1e-3;
-    std::vector<double> scales(n_);
-    double largest = 0, smallest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < n_; ++i) {
-        double& scale = scales[i];
-        scale = periods_[i] > 0 ? periods_[i] : greatest[i] - least[i];
-        if (!(scale > smallest_share * sizes[i]))
-            scale = smallest_share * sizes[i];
-        if (!std::isfinite(scale))
-            scale = 1;
-        largest = std::max(largest, scale);
-    }
-    for (std::size_t i = 0; i < n_; ++i)
-        if (scales[i] > negligible * largest && periods_[i] == 0)
-            smallest = std::min(smallest, scales[i]);
-    const std::vector<double> own = scales;
-    for (std::size_t i = 0; i < n_; ++i) {
-        if (!(own[i] > negligible * largest))
-            scales[i] = std::isfinite(smallest) ? smallest : 1;
-        // Round-off of the states that act on it is not an extent.
-        for (std::size_t j = 0; j < n_; ++j)
-            scales[i] = std::max(scales[i], round_off_share * coupling_(index(i), index(j)) * own[j]);
-        double& kept = largest_scales_[index(i)];
-        kept = std::max(kept, scales[i]);
-        for (std::size_t k = 0; k < pieces_.size(); ++k)
-            scales_[index(start_of(k) + i)] = std::max(scales[i], smallest_scale * kept);
     }
 }
 

@@ -3,6 +3,7 @@
 #include "graze/orbit/orbit.hpp"
 #include "orbit/arc_flow.hpp"
 #include "orbit/cyclic_system.hpp"
+#include "orbit/state_scales.hpp"
 
 #include <Eigen/Core>
 
@@ -108,8 +109,6 @@ private:
     void pin(const Eigen::VectorXd& unknowns);
     void set_parameters(const Eigen::VectorXd& unknowns);
     void clear_remnants(Eigen::VectorXd& unknowns) const;
-    void choose_scales(const std::vector<double>& least, const std::vector<double>& greatest,
-                       const std::vector<double>& sizes);
 
     const Simulation* simulation_;
     Signature signature_;
@@ -124,10 +123,12 @@ private:
     std::vector<Piece> pieces_;
     std::vector<std::size_t> last_pieces_;
     std::vector<double> parameters_, periods_, inputs_, work_, values_, reference_;
-    Eigen::MatrixXd period_rates_;            ///< states x free
-    Eigen::MatrixXd coupling_;                ///< greatest derivatives of states with respect to earlier ones
-    Eigen::VectorXd scales_, largest_scales_; ///< the latter of states and free parameters, since the beginning
-    std::vector<bool> neutral_;               ///< states that every piece leaves exactly as they are
+    Eigen::MatrixXd period_rates_; ///< states x free
+    Eigen::MatrixXd coupling_;     ///< greatest derivatives of states with respect to earlier ones
+    StateScales state_scales_;
+    Eigen::VectorXd scales_;
+    std::vector<double> largest_parameters_; ///< of the free ones, since the beginning
+    std::vector<bool> neutral_;              ///< states that every piece leaves exactly as they are
     std::vector<std::size_t> active_;
     Eigen::VectorXd evaluated_; ///< where the equations have been evaluated last; empty: nowhere
     double residual_ = 0;

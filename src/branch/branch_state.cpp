@@ -1,0 +1,140 @@
+#include "branch/branch_state.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "orbit/newton.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace graze {
+
+namespace {
+
+/// Growth of derivatives over one piece at which the segments are split anew.
+constexpr double too_much_growth = 1e6;
+
+SimulationOptions integration(const OrbitOptions& options) {
+    SimulationOptions result;
+    result.tolerance = options.tolerance;
+    return result;
+}
+
+} // namespace
+
+BranchState::BranchState(const Model& model, const Orbit& candidate, const BranchSettings& settings)
+    : model_(&model), settings_(settings), simulation_(model, {}, {}, integration(settings.orbit)) {
+    settings_.validate(model);
+    validate_orbit(model, candidate);
+    if (is_outside(candidate.parameters[settings.parameter]))
+        throw InputError(fmt::format("the orbit's {} = {} lies outside the branch's bounds",
+                                     model.parameter_symbols()[settings.parameter].name(),
+                                     candidate.parameters[settings.parameter]),
+                         "choose bounds on either side of it");
+    if (!settings.monitors.empty())
+        monitors_ =
+            std::make_unique<OrbitMonitors>(model, candidate.signature, settings.monitors, settings.orbit.tolerance);
+    hold(candidate);
+    make_problem(candidate);
+}
+
+/// Monitors without a given value are held at that of the candidate, however the problem is made anew later.
+void BranchState::hold(const Orbit& candidate) {
+    if (settings_.free.empty())
+        return;
+    const std::vector<double> values = (*monitors_)(candidate);
+    for (std::size_t m = 0; m < values.size(); ++m)
+        if (settings_.monitors[m].fixed && !settings_.monitors[m].held)
+            settings_.monitors[m].held = values[m];
+    monitors_ =
+        std::make_unique<OrbitMonitors>(*model_, candidate.signature, settings_.monitors, settings_.orbit.tolerance);
+}
+
+void BranchState::make_problem(const Orbit& orbit) {
+    problem_ = std::make_unique<OrbitProblem>(simulation_, orbit, settings_.parameter, settings_.free,
+                                              settings_.free.empty() ? nullptr : monitors_.get());
+    continuation_ = std::make_unique<Continuation>(*problem_, settings_.continuation);
+}
+
+std::vector<double> BranchState::unknowns_of(const Orbit& orbit) {
+    const Eigen::VectorXd unknowns = problem_->shooting().unknowns_of(orbit);
+    return {unknowns.begin(), unknowns.end()};
+}
+
+std::vector<double> BranchState::row_of(const std::vector<double>& direction) {
+    std::vector<double> row = direction;
+    for (std::size_t i = 0; i < row.size(); ++i)
+        row[i] /= problem_->scales()[i] * problem_->scales()[i];
+    return row;
+}
+
+bool BranchState::is_outside(double parameter) const {
+    return (settings_.least && parameter < *settings_.least) || (settings_.greatest && parameter > *settings_.greatest);
+}
+
+void BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std::vector<BranchTest>& tests) {
+    Shooting& shooting = problem_->shooting();
+    const auto unknowns = OrbitProblem::vector_of(at.u);
+    shooting.evaluate(unknowns);
+    result.solution = {};
+    result.solution.outcome = OrbitOutcome::converged;
+    result.solution.iterations = at.iterations;
+    result.solution.orbit = shooting.orbit_of(unknowns);
+    describe_orbit(shooting, unknowns, result.solution);
+    result.parameter = at.u[problem_->parameter_place()];
+    result.tangent = at.tangent;
+    result.monitors = monitors_ ? (*monitors_)(result.solution.orbit) : std::vector<double>();
+    result.arclength = arclength(at.arclength);
+    result.stable = is_stable(result.solution);
+    tests = branch_tests(shooting, result.solution, at.tangent, at.determinant, result.monitors, settings_);
+}
+
+bool BranchState::pieces_are_unfit() {
+    const Shooting& shooting = problem_->shooting();
+    for (std::size_t k = 0; k < shooting.pieces(); ++k) {
+        const Shooting::Piece& piece = shooting.piece(k);
+        if (piece.flow.leftCols(static_cast<Eigen::Index>(shooting.states())).norm() > too_much_growth * growth_)
+            return true;
+        if (piece.last && k > shooting.first_piece(piece.segment) &&
+            continuation_->point().u[shooting.duration_of(k)] < 0.5 * piece.fixed_duration)
+            return true;
+    }
+    return false;
+}
+
+void BranchState::renew_pieces(const BranchPoint& from) {
+    const double length = continuation_->next_step();
+    const std::vector<double> tangent = continuation_->point().tangent;
+    const std::unique_ptr<OrbitProblem> old = std::move(problem_);
+    arclength_ = from.arclength;
+    make_problem(from.solution.orbit);
+    if (problem_->shooting().pieces() <= old->shooting().pieces())
+        growth_ *= 10; // nothing was gained: ask again later
+    // The direction in what both have in common: starts of segments and the parameter.
+    std::vector<double> row(problem_->unknowns(), 0.0);
+    const auto weigh = [&](std::size_t to, std::size_t of) {
+        row[to] = tangent[of] / (problem_->scales()[to] * problem_->scales()[to]);
+    };
+    for (std::size_t s = 0; s < problem_->shooting().signature().size(); ++s)
+        for (std::size_t i = 0; i < problem_->shooting().states(); ++i)
+            weigh(problem_->shooting().start_of(problem_->shooting().first_piece(s)) + i,
+                  old->shooting().start_of(old->shooting().first_piece(s)) + i);
+    weigh(problem_->parameter_place(), old->parameter_place());
+    continuation_->start_at(unknowns_of(from.solution.orbit), row);
+    continuation_->set_next_step(length);
+}
+
+void BranchState::go_on(const BranchStart& start, double arclength) {
+    if (monitors_)
+        monitors_ = std::make_unique<OrbitMonitors>(*model_, start.orbit.signature, settings_.monitors,
+                                                    settings_.orbit.tolerance);
+    const double length = continuation_->next_step();
+    arclength_ = arclength;
+    make_problem(start.orbit);
+    const std::vector<double> u = unknowns_of(start.orbit);
+    if (!continuation_->start_at(u, row_of(start.direction)))
+        throw InputError("the continuation does not start there", "choose another point");
+    continuation_->set_next_step(length);
+}
+
+} // namespace graze

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "branch/orbit_problem.hpp"
+#include "branch/orbit_tests.hpp"
+#include "graze/branch/orbit_branch.hpp"
+#include "graze/branch/switching.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace graze {
+
+/// The equations that a branch follows, where on it the continuation is, and what can be said of its points.
+class BranchState {
+public:
+    /// @throws InputError when candidate or settings do not fit the model
+    BranchState(const Model& model, const Orbit& candidate, const BranchSettings& settings);
+
+    const Model& model() const { return *model_; }
+    const BranchSettings& settings() const { return settings_; }
+    OrbitProblem& problem() { return *problem_; }
+    Continuation& continuation() { return *continuation_; }
+    std::vector<double> unknowns_of(const Orbit& orbit);
+    /// A vector that is to be multiplied with directions, from a direction.
+    std::vector<double> row_of(const std::vector<double>& direction);
+    /// Arclength on the branch of one in the present continuation, which may not have begun where the branch did.
+    double arclength(double in_continuation) const { return arclength_ + in_continuation; }
+    bool is_outside(double parameter) const;
+
+    /// What is known of a point of the branch.
+    void describe(const ContinuationPoint& at, BranchPoint& result, std::vector<BranchTest>& tests);
+    /// Whether derivatives have grown too much for their pieces, or the last piece of a segment, which alone has a
+    /// duration that is free, has become too short for the others.
+    bool pieces_are_unfit();
+    /// Splits the segments anew and goes on from a point.
+    void renew_pieces(const BranchPoint& from);
+    /// Goes on along other equations. @throws InputError when that is impossible
+    void go_on(const BranchStart& start, double arclength);
+
+private:
+    void hold(const Orbit& candidate);
+    void make_problem(const Orbit& orbit);
+
+    const Model* model_;
+    BranchSettings settings_;
+    Simulation simulation_;
+    std::unique_ptr<OrbitMonitors> monitors_;
+    std::unique_ptr<OrbitProblem> problem_;
+    std::unique_ptr<Continuation> continuation_;
+    double arclength_ = 0, growth_ = 1;
+};
+
+} // namespace graze

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "branch/branch_state.hpp"
+#include "branch/orbit_tests.hpp"
+
+#include <vector>
+
+namespace graze {
+
+// What is made of the zeros of tests that have been located.
+
+/// Of several things at one place, the one that tells most comes first. Negative for those that do not exclude others.
+int rank(const SpecialPoint& point);
+
+/// Whether a located zero means what its test stands for; puts it into words.
+bool is_what_it_seems(BranchState& state, SpecialPoint& special, const BranchTest& test);
+
+/// Whether an orbit is that of a shorter period several times over, or one of its symmetry: where a branch of less
+/// regular orbits comes back to the one that it left.
+bool is_degenerate(BranchState& state, const SpecialPoint& special);
+
+/// Of several points at the same place that are consequences of one another, only the first in rank is kept.
+/// @param length of the step in which they were found
+void merge(std::vector<SpecialPoint>& found, double length);
+
+/// Where a branch comes back to the one that it left, the parameter turns: no fold of its own.
+void drop_folds_of_return(BranchState& state, std::vector<SpecialPoint>& found, double length);
+
+} // namespace graze

@@ -1,0 +1,60 @@
+#include "orbit/state_scales.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+void StateScales::begin() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    least_.assign(largest_.size(), infinity);
+    greatest_.assign(largest_.size(), -infinity);
+    sizes_.assign(largest_.size(), 0.0);
+}
+
+void StateScales::note(std::span<const double> state) {
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        least_[i] = std::min(least_[i], state[i]);
+        greatest_[i] = std::max(greatest_[i], state[i]);
+        sizes_[i] = std::max(sizes_[i], std::abs(state[i]));
+    }
+}
+
+std::vector<double> StateScales::choose(std::span<const double> periods, const Eigen::MatrixXd& coupling) {
+    constexpr double smallest_share = 1e-3; // of the size, for what hardly moves
+    constexpr double smallest_scale = 1e-2; // of the largest so far
+    // What is smaller than the others by this is zero, by a symmetry, but for what has not decayed yet.
+    constexpr double negligible = 1e-25;
+    constexpr double round_off_share = 1e-3;
+    const std::size_t n = largest_.size();
+    std::vector<double> own(n);
+    double largest = 0, smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < n; ++i) {
+        double& scale = own[i];
+        scale = periods[i] > 0 ? periods[i] : greatest_[i] - least_[i];
+        if (!(scale > smallest_share * sizes_[i]))
+            scale = smallest_share * sizes_[i];
+        if (!std::isfinite(scale))
+            scale = 1;
+        largest = std::max(largest, scale);
+    }
+    for (std::size_t i = 0; i < n; ++i)
+        if (own[i] > negligible * largest && periods[i] == 0)
+            smallest = std::min(smallest, own[i]);
+    std::vector<double> scales = own;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!(own[i] > negligible * largest))
+            scales[i] = std::isfinite(smallest) ? smallest : 1;
+        // Round-off of the states that act on it is not an extent.
+        for (std::size_t j = 0; j < n; ++j)
+            scales[i] =
+                std::max(scales[i], round_off_share *
+                                        coupling(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * own[j]);
+        largest_[i] = std::max(largest_[i], scales[i]);
+        scales[i] = std::max(scales[i], smallest_scale * largest_[i]);
+    }
+    return scales;
+}
+
+} // namespace graze

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace graze {
+
+/// Sizes by which the states of orbits are measured: how far each goes along the orbit. They remember how large they
+/// have been, or a branch on which everything shrinks would never come to the end of it.
+class StateScales {
+public:
+    explicit StateScales(std::size_t states) : largest_(states, 0.0) {}
+
+    /// Forgets the states noted so far.
+    void begin();
+    void note(std::span<const double> state);
+    /// @param periods of cyclic states, 0 for others
+    /// @param coupling greatest derivatives of states with respect to earlier ones
+    std::vector<double> choose(std::span<const double> periods, const Eigen::MatrixXd& coupling);
+
+private:
+    std::vector<double> least_, greatest_, sizes_, largest_;
+};
+
+} // namespace graze
