@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What an electromagnetic testbed does as its voltage is swept up and down at three frequencies: bifurcation diagrams,
-# phase portraits and spectra. Run again, it only does what is missing.
+# phase portraits and spectra; then the branches of orbits that bound what was found. Run again, it only does what is missing.
 # usage: [GRAZE=program] demo.sh [FOLDER]
 set -euo pipefail
 graze=${GRAZE:-graze}
@@ -16,6 +16,9 @@ SELECT direction, min(V0) AS \"from\", max(V0) AS \"to\", label, period, symmetr
     SELECT *, (label IS NOT lag(label) OVER w OR period IS NOT lag(period) OVER w OR symmetric IS NOT lag(symmetric) OVER w)
               AS new FROM points_sweep_6_25Hz WINDOW w AS (ORDER BY number)))
 GROUP BY stretch HAVING count(*) >= 20 ORDER BY stretch"
-for picture in fig-5-10 fig-5-11 fig-5-12 fig-5-14 fig-5-15; do
+echo
+echo "Where motions without impacts graze the stop, and what bounds those with impacts:"
+"$graze" points "$folder" --type GR,SN,BP,PD --digits 12
+for picture in branches-6-25Hz branches-8Hz fig-5-10 fig-5-11 fig-5-12 fig-5-14 fig-5-15; do
     [[ -s $folder/$picture.png ]] || { echo "$folder/$picture.png was not drawn" >&2; exit 1; }
 done
