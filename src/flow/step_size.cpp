@@ -30,13 +30,15 @@ double StepSize::operator()(std::span<const Series> states, double previous) con
         return step_for(states, previous);
     // Without a previous step the sizes of states that start at zero are unknown: begin with a step over which
     // the state changes by about its own size, and let it settle.
-    double least = std::numeric_limits<double>::infinity(); // logarithm to base 2 of that step
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr std::size_t terms = 3; // those by which sizes are measured
+    double least = infinity;         // logarithm to base 2 of that step
     std::array<double, highest_order + 1> logarithms;
     for (const Series& c : states) {
         for (std::size_t k = 0; k <= order_; ++k)
-            logarithms[k] = c[k] != 0 ? std::log2(std::abs(c[k])) : std::numeric_limits<double>::infinity();
+            logarithms[k] = c[k] != 0 ? std::log2(std::abs(c[k])) : infinity;
         for (std::size_t k = 1; k <= order_; ++k)
-            for (std::size_t j = 0; j < k && logarithms[k] < std::numeric_limits<double>::infinity(); ++j)
+            for (std::size_t j = 0; j < std::min(k, terms) && logarithms[k] < infinity; ++j)
                 least = std::min(least, (logarithms[j] - logarithms[k]) / static_cast<double>(k - j));
     }
     double reference = std::isfinite(least) ? std::exp2(least) : 1;

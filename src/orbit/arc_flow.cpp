@@ -1,5 +1,7 @@
 #include "orbit/arc_flow.hpp"
 
+#include "graze/flow/tangent_reach.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +11,8 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_steps = 100000;
+/// What derivatives are allowed of the tolerance of the states.
+constexpr double allowance = 10;
 /// Share of an arc below which a step means that the solution ceases to exist.
 constexpr double smallest_share = 1e-14;
 /// Share of an arc over which sizes are taken where the start alone does not show them.
@@ -19,7 +23,8 @@ constexpr double first_share = 1e-10;
 ArcFlow::ArcFlow(const Simulation& simulation, std::vector<std::size_t> free)
     : simulation_(&simulation), free_(std::move(free)), states_(simulation.compiled().states()),
       directions_(states_ + free_.size()), step_size_(simulation.order(), simulation.options().tolerance),
-      single_(simulation, LaneKind::single), tangent_(simulation, LaneKind::tangent) {
+      tolerance_(allowance * simulation.options().tolerance), single_(simulation, LaneKind::single),
+      tangent_(simulation, LaneKind::tangent) {
     lanes_ = static_cast<std::size_t>(tangent_.width()) - 1;
     const std::size_t width = lanes_ + 1;
     parameters_.resize(simulation.compiled().parameters());
@@ -117,21 +122,29 @@ ArcFlow::Ending ArcFlow::run(std::size_t mode, std::span<double> state, double d
         if (count >= most_steps)
             return Ending::too_long;
         double step = 0;
-        for (std::size_t first = 0; first < directions_; first += lanes_) {
-            const std::size_t here = std::min(lanes_, directions_ - first);
-            load(mode, state, first, here);
-            jet.compute(seeds_);
-            if (first == 0) {
-                step = step_of(jet, remaining, false);
+        bool done = false;
+        while (!done) {
+            done = true;
+            for (std::size_t first = 0; first < directions_ && done; first += lanes_) {
+                const std::size_t here = std::min(lanes_, directions_ - first);
+                load(mode, state, first, here);
+                jet.compute(seeds_);
+                if (step == 0)
+                    step = step_of(jet, remaining, false);
                 if (std::isnan(step))
                     return Ending::undefined;
+                const double reach = tangent_reach(jet, states_, here, tolerance_, std::abs(step));
+                if (reach < std::abs(step)) {
+                    step = std::copysign(reach, step);
+                    done = first == 0; // derivatives computed before need the shorter step as well
+                }
                 if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining)
                     return Ending::singular;
                 std::fill(times_.begin(), times_.end(), step);
+                jet.evaluate_states(times_, sums_);
+                for (std::size_t i = 0; i < states_; ++i)
+                    std::copy_n(&sums_[i * width + 1], here, &next_[i * directions_ + first]);
             }
-            jet.evaluate_states(times_, sums_);
-            for (std::size_t i = 0; i < states_; ++i)
-                std::copy_n(&sums_[i * width + 1], here, &next_[i * directions_ + first]);
         }
         for (std::size_t i = 0; i < states_; ++i)
             state[i] = sums_[i * width];

@@ -43,6 +43,7 @@ private:
     std::vector<std::size_t> free_;
     std::size_t states_, directions_, lanes_;
     StepSize step_size_;
+    double tolerance_;
     JetSet single_, tangent_;
     std::vector<double> parameters_, parameter_lanes_, seeds_, sums_, next_, times_;
     std::vector<double> matrix_; ///< states x directions, row by row

@@ -1,17 +1,27 @@
 #include "trajectory/tangents.hpp"
 
+#include "graze/flow/tangent_reach.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace graze {
 
+namespace {
+
+/// What derivatives are allowed of the tolerance of the states: what is cut off is far smaller than the last terms.
+constexpr double allowance = 100;
+
+} // namespace
+
 Tangents::Tangents(const Simulation& simulation, std::span<const double> parameters, std::span<const double> seeds,
                    std::size_t directions)
     : states_(simulation.compiled().states()), parameter_count_(parameters.size()), directions_(directions),
-      jets_(simulation, LaneKind::tangent), lanes_(static_cast<std::size_t>(jets_.width()) - 1),
-      parameters_(parameters.begin(), parameters.end()), parameter_seeds_(parameter_count_ * directions),
-      matrix_(states_ * directions), next_(states_ * directions), seeds_(states_ * (lanes_ + 1)),
-      sums_(std::max<std::size_t>(states_, 1) * (lanes_ + 1)), parameter_lanes_(parameter_count_ * (lanes_ + 1)) {
+      tolerance_(allowance * simulation.options().tolerance), jets_(simulation, LaneKind::tangent),
+      lanes_(static_cast<std::size_t>(jets_.width()) - 1), parameters_(parameters.begin(), parameters.end()),
+      parameter_seeds_(parameter_count_ * directions), matrix_(states_ * directions), next_(states_ * directions),
+      seeds_(states_ * (lanes_ + 1)), sums_(std::max<std::size_t>(states_, 1) * (lanes_ + 1)),
+      parameter_lanes_(parameter_count_ * (lanes_ + 1)) {
     for (std::size_t d = 0; d < directions; ++d) {
         const auto seed = seeds.subspan(d * (states_ + parameter_count_), states_ + parameter_count_);
         for (std::size_t i = 0; i < states_; ++i)
@@ -36,24 +46,61 @@ void Tangents::fill(std::span<double> lanes, std::span<const double> values, std
 }
 
 template <class Use>
-void Tangents::for_each_pass(std::size_t mode, std::span<const double> state, Use use) {
+void Tangents::for_each_pass(std::size_t mode, std::span<const double> state, std::span<const double> matrix, Use use,
+                             bool computed) {
     Jet& jet = jets_(mode);
+    if (computed && directions_ <= lanes_)
+        return use(jet, 0, directions_);
     for (std::size_t first = 0; first < directions_; first += lanes_) {
         if (directions_ > lanes_) {
             fill(parameter_lanes_, parameters_, parameter_seeds_, first);
             jet.set_parameters(parameter_lanes_);
         }
-        fill(seeds_, state, matrix_, first);
+        fill(seeds_, state, matrix, first);
         jet.compute(seeds_);
         use(jet, first, std::min(lanes_, directions_ - first));
     }
 }
 
+double Tangents::reach(std::size_t mode, std::span<const double> state, std::span<const double> matrix, double s) {
+    double reach = s;
+    for_each_pass(mode, state, matrix, [&](const Jet& jet, std::size_t, std::size_t count) {
+        reach = std::min(reach, tangent_reach(jet, states_, count, tolerance_, reach));
+    });
+    return reach;
+}
+
 void Tangents::evaluate(std::size_t mode, std::span<const double> state, double s, std::span<double> matrix,
                         std::size_t series, std::span<double> row) {
     const std::size_t width = lanes_ + 1;
+    constexpr int most_parts = 10000;
+    std::span<const double> here = state, from = matrix_;
+    bool computed = false; // whether the jet holds what begins here
+    // Where derivatives are faster than the states, in parts.
+    for (int part = 0; part < most_parts && s > 0; ++part) {
+        const double step = reach(mode, here, from, s);
+        computed = !(step < s);
+        if (computed)
+            break;
+        times_.assign(width, step);
+        after_.resize(states_ * directions_);
+        std::vector<double> moved(states_);
+        const auto move = [&](const Jet& jet, std::size_t first, std::size_t count) {
+            jet.evaluate_states(times_, sums_);
+            for (std::size_t i = 0; i < states_; ++i) {
+                std::copy_n(&sums_[i * width + 1], count, &after_[i * directions_ + first]);
+                moved[i] = sums_[i * width];
+            }
+        };
+        for_each_pass(mode, here, from, move, true);
+        middle_.swap(after_);
+        between_ = std::move(moved);
+        from = middle_;
+        here = between_;
+        s -= step;
+    }
     times_.assign(width, s);
-    for_each_pass(mode, state, [&](const Jet& jet, std::size_t first, std::size_t count) {
+    const auto finish = [&](const Jet& jet, std::size_t first, std::size_t count) {
         if (!matrix.empty()) {
             jet.evaluate_states(times_, sums_);
             for (std::size_t i = 0; i < states_; ++i)
@@ -63,13 +110,14 @@ void Tangents::evaluate(std::size_t mode, std::span<const double> state, double 
             jet.evaluate_output(series, times_, sums_);
             std::copy_n(&sums_[1], count, &row[first]);
         }
-    });
+    };
+    for_each_pass(mode, here, from, finish, computed);
 }
 
 void Tangents::coefficient(std::size_t mode, std::span<const double> state, std::size_t series, int k,
                            std::span<double> row) {
     const std::size_t width = lanes_ + 1;
-    for_each_pass(mode, state, [&](const Jet& jet, std::size_t first, std::size_t count) {
+    for_each_pass(mode, state, matrix_, [&](const Jet& jet, std::size_t first, std::size_t count) {
         for (std::size_t l = 0; l < count; ++l)
             row[first + l] = jet.output(series)[static_cast<std::size_t>(k) * width + l + 1];
     });

@@ -50,12 +50,17 @@ private:
     void fill(std::span<double> lanes, std::span<const double> values, std::span<const double> tangents,
               std::size_t first) const;
     template <class Use>
-    void for_each_pass(std::size_t mode, std::span<const double> state, Use use);
+    void for_each_pass(std::size_t mode, std::span<const double> state, std::span<const double> matrix, Use use,
+                       bool computed = false);
+    /// How far derivatives may be followed at once, up to s.
+    double reach(std::size_t mode, std::span<const double> state, std::span<const double> matrix, double s);
 
     std::size_t states_, parameter_count_, directions_;
+    double tolerance_;
     JetSet jets_;
     std::size_t lanes_; ///< directions a pass
     std::vector<double> parameters_, parameter_seeds_, matrix_, next_, seeds_, sums_, times_, parameter_lanes_;
+    std::vector<double> middle_, after_, between_; ///< within arcs that are followed in parts
     bool valid_ = true;
 };
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace graze {
@@ -176,6 +177,28 @@ TEST(SolveOrbit, microactuator_without_impacts_holds_the_frame) {
     Orbit turning = solution.orbit;
     const Simulation simulation(model);
     EXPECT_EQ(to_string(model, parse_signature(model, "{J5}")), "J5");
+}
+
+TEST(SolveOrbit, slow_forcing_has_fast_derivatives) {
+    Model model = load_model("impact-oscillator");
+    model.set_parameter("sigma", 0.5);
+    model.set_parameter("amplitude", 0.1);
+    AttractorOptions settle;
+    settle.section = "phase0";
+    for (const double omega : {0.05, 0.1, 0.15, 0.2, 0.5}) {
+        model.set_parameter("omega", omega);
+        const OrbitSolution solution = find_orbit(model, settle);
+        ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << omega;
+        // The motion follows the force, its disturbances oscillate freely: a pair exp(-zeta T +- i sqrt(1 - zeta^2) T).
+        const double T = 2 * pi / omega, zeta = 0.02;
+        ASSERT_EQ(solution.multipliers.size(), 2u) << omega;
+        const std::complex<double> exact =
+            std::exp(std::complex<double>(-zeta * T, std::sqrt(1 - zeta * zeta) * T));
+        const std::complex<double> upper =
+            solution.multipliers[solution.multipliers[0].imag() * exact.imag() > 0 ? 0 : 1];
+        EXPECT_NEAR(std::abs(upper - exact), 0, 1e-11 * T) << omega;
+        EXPECT_TRUE(is_stable(solution)) << omega;
+    }
 }
 
 TEST(SolveOrbit, says_what_is_wrong) {

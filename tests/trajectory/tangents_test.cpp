@@ -142,6 +142,29 @@ TEST(Tangents, LinearImpactOscillatorInClosedForm) {
     EXPECT_LT(worst, 1e-10);
 }
 
+/// A motion that follows a slow force takes long steps, over which its disturbances oscillate several times.
+TEST(Tangents, OscillateWhereTheMotionIsSlow) {
+    Model model = load_model("impact-oscillator");
+    const double zeta = 0.02, omega = 0.02, amplitude = 0.1;
+    model.set_parameter("sigma", 0.5);
+    model.set_parameter("amplitude", amplitude);
+    model.set_parameter("omega", omega);
+    // On the particular solution A cos(theta) + B sin(theta).
+    const double detuning = 1 - omega * omega, damping = 2 * zeta * omega;
+    const double denominator = detuning * detuning + damping * damping;
+    const double A = amplitude * detuning / denominator, B = amplitude * damping / denominator;
+    for (const double time : {1.0, 20.0, 100.0}) {
+        const Differentiated run(model, {A, B * omega, 0}, 0, time, 1e-12);
+        const double d = std::sqrt(1 - zeta * zeta), decay = std::exp(-zeta * time);
+        const double c = std::cos(d * time), s = std::sin(d * time);
+        const double tolerance = 1e-11 * time;
+        EXPECT_NEAR(run(0, 0), decay * (c + zeta / d * s), tolerance) << time;
+        EXPECT_NEAR(run(0, 1), decay * s / d, tolerance) << time;
+        EXPECT_NEAR(run(1, 0), -decay * s / d, tolerance) << time;
+        EXPECT_NEAR(run(1, 1), decay * (c - zeta / d * s), tolerance) << time;
+    }
+}
+
 TEST(Tangents, TimeShiftsAlongAutonomousFlows) {
     // What starts a little later on the same trajectory is that much later for ever: through impacts, slips and rests.
     for (const auto& [name, end] : std::vector<std::pair<std::string, double>>{{"impact-oscillator", 40},

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "graze/tape/jet.hpp"
+
+#include <cstddef>
+
+namespace graze {
+
+/// How far the series of derivatives in a tangent jet may be followed: the last two terms of each must stay below a
+/// tolerance relative to its first three, as for the states themselves. A motion may be much slower than what
+/// disturbs it, such as an oscillation that follows a slow force: then steps that are right for the states are too
+/// long for their derivatives.
+/// @param states whose derivatives count; @param count lanes that are in use, after the first
+/// @param tolerance of the derivatives: the last two terms are some orders of magnitude larger than what is cut off
+/// @return the step itself, or less
+double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, double tolerance, double step);
+
+} // namespace graze
