@@ -105,8 +105,8 @@ bool BranchState::pieces_are_unfit() {
 void BranchState::renew_pieces(const BranchPoint& from) {
     const double length = continuation_->next_step();
     const std::vector<double> tangent = continuation_->point().tangent;
-    const std::unique_ptr<OrbitProblem> old = std::move(problem_);
-    arclength_ = from.arclength;
+    std::unique_ptr<OrbitProblem> old = std::move(problem_);
+    std::unique_ptr<Continuation> old_continuation = std::move(continuation_);
     make_problem(from.solution.orbit);
     if (problem_->shooting().pieces() <= old->shooting().pieces())
         growth_ *= 10; // nothing was gained: ask again later
@@ -120,7 +120,13 @@ void BranchState::renew_pieces(const BranchPoint& from) {
             weigh(problem_->shooting().start_of(problem_->shooting().first_piece(s)) + i,
                   old->shooting().start_of(old->shooting().first_piece(s)) + i);
     weigh(problem_->parameter_place(), old->parameter_place());
-    continuation_->start_at(unknowns_of(from.solution.orbit), row);
+    if (!continuation_->start_at(unknowns_of(from.solution.orbit), row)) {
+        growth_ *= 10; // as it was, for some time
+        problem_ = std::move(old);
+        continuation_ = std::move(old_continuation);
+        return;
+    }
+    arclength_ = from.arclength;
     continuation_->set_next_step(length);
 }
 

@@ -150,10 +150,31 @@ bool Continuation::start(std::span<const double> u, std::size_t unknown, int dir
         return false;
     outcome_ = ContinuationOutcome::no_convergence;
     if (!correct(point.u, row, far, point.iterations))
-        return false;
+        return start_across(u, unknown, direction);
     outcome_ = ContinuationOutcome::singular;
     row[unknown] = (direction < 0 ? -1 : 1) / problem_->scales()[unknown];
     return find_tangent(point, row) && begin(std::move(point));
+}
+
+/// The same where the unknown cannot be held since the branch turns there: held across the branch instead.
+bool Continuation::start_across(std::span<const double> u, std::size_t unknown, int direction) {
+    ContinuationPoint point;
+    point.u.assign(u.begin(), u.end());
+    std::vector<double> row(u.size());
+    for (std::size_t i = 0; i < u.size(); ++i) // hardly orthogonal to any direction that comes from a problem
+        row[i] = std::cos(2.4 * static_cast<double>(i)) / problem_->scales()[i];
+    if (!problem_->evaluate(point.u) || !find_tangent(point, row))
+        return false;
+    std::vector<double> across;
+    weigh(point.tangent, across);
+    constexpr double near = 0.1;
+    if (!correct(point.u, across, near, point.iterations) || !problem_->evaluate(point.u))
+        return false;
+    outcome_ = ContinuationOutcome::singular;
+    if (point.tangent[unknown] * direction < 0)
+        for (double& entry : across)
+            entry = -entry;
+    return find_tangent(point, across) && begin(std::move(point));
 }
 
 bool Continuation::start_at(std::span<const double> u, std::span<const double> row) {

@@ -80,7 +80,6 @@ public:
             throw InputError("the direction does not fit the orbit", "give as many numbers as there are unknowns");
         if (distance != 0)
             return begin(state_.continuation().start_along(u, direction, distance));
-        begun_at_solution_ = true;
         return begin(state_.continuation().start_at(u, state_.row_of(direction)));
     }
 
@@ -173,9 +172,9 @@ private:
     /// A branch that begins at a special point of another has not found that point.
     void drop_origin(double length) {
         constexpr double same_place = 1e-6;
-        if (point.step == 1 && begun_at_solution_)
+        if (point.step == 1)
             std::erase_if(found, [&](const SpecialPoint& special) {
-                return rank(special) >= 0 && special.arclength < same_place * length;
+                return special.type != PointType::bound && special.arclength < same_place * length;
             });
     }
 
@@ -225,7 +224,7 @@ private:
     std::vector<BranchTest> tests_; ///< at the last point
     PointLocator locator_;
     std::size_t reorderings_ = 0;
-    bool ended_ = true, begun_at_solution_ = false;
+    bool ended_ = true;
 };
 
 OrbitBranch::OrbitBranch(const Model& model, const Orbit& candidate, const BranchSettings& settings)

@@ -137,6 +137,18 @@ void merge(std::vector<SpecialPoint>& found, double length) {
         }
 }
 
+void drop_crossings_of_nothing(std::vector<SpecialPoint>& found, double length) {
+    constexpr double near = 0.05; // share of the step: determinants are ill-conditioned there
+    const std::vector<SpecialPoint> all = found;
+    std::erase_if(found, [&](const SpecialPoint& one) {
+        return one.type == PointType::branch_point && std::any_of(all.begin(), all.end(), [&](const auto& other) {
+                   const bool contact_ends = other.type == PointType::vanishing ||
+                                             (other.type == PointType::grazing && other.at_end);
+                   return contact_ends && std::abs(one.arclength - other.arclength) < near * length;
+               });
+    });
+}
+
 void drop_folds_of_return(BranchState& state, std::vector<SpecialPoint>& found, double length) {
     constexpr double near = 0.05; // share of the step: both are located where they are ill-conditioned
     for (std::size_t i = 0; i < found.size(); ++i) {

@@ -23,6 +23,10 @@ bool is_degenerate(BranchState& state, const SpecialPoint& special);
 /// @param length of the step in which they were found
 void merge(std::vector<SpecialPoint>& found, double length);
 
+/// Where a contact vanishes, the orbit meets those on which it takes no time at all: solutions of the equations, but no
+/// branch of orbits.
+void drop_crossings_of_nothing(std::vector<SpecialPoint>& found, double length);
+
 /// Where a branch comes back to the one that it left, the parameter turns: no fold of its own.
 void drop_folds_of_return(BranchState& state, std::vector<SpecialPoint>& found, double length);
 

@@ -170,7 +170,8 @@ OrbitRecord read_row(const Statement& row, const Model& model, const RunRecord& 
     solution.iterations = index(at++);
     point.arclength = row.number(at++);
     point.located = row.integer(at++) != 0;
-    point.bracket = {row.number(at), row.number(at + 1)};
+    const auto number_or_nothing = [&](int column) { return row.is_null(column) ? nothing : row.number(column); };
+    point.bracket = {number_or_nothing(at), number_or_nothing(at + 1)};
     at += 2;
     if (const auto event = model.find_event(row.text(at)); event && !row.is_null(at)) {
         point.event = *event;

@@ -15,6 +15,8 @@ namespace graze {
 
 namespace {
 
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN(); ///< NULL in the file
+
 /// A branch, or half of one, that a run follows.
 struct Part {
     std::string name;
@@ -223,7 +225,7 @@ SpecialPoint regular_point(const BranchPoint& point) {
     result.solution = point.solution;
     result.solution.iterations = point.iterations;
     result.parameter = point.parameter;
-    result.bracket = {point.parameter, point.parameter};
+    result.bracket = {unknown, unknown};
     result.arclength = point.arclength;
     result.step = point.step;
     result.tangent = point.tangent;
@@ -241,7 +243,7 @@ SpecialPoint failed_start(const Part& part, const StudyRun& run, const std::stri
     point.solution.certificate.admissible = false;
     point.solution.certificate.reason = "no orbit was found";
     point.parameter = part.orbit.parameters[run.branch.settings.parameter];
-    point.bracket = {point.parameter, point.parameter};
+    point.bracket = {unknown, unknown};
     return point;
 }
 
@@ -297,7 +299,7 @@ bool compute_orbit(const Study& study, const StudyRun& run, const ResultFile& fi
         point.solution.certificate.reason = "no orbit was found";
     }
     point.parameter = orbit.parameters.empty() ? 0 : orbit.parameters[run.branch.settings.parameter];
-    point.bracket = {point.parameter, point.parameter};
+    point.bracket = {unknown, unknown};
     writer.add("", point, is_stable(point.solution));
     writer.end("");
     return true;

@@ -241,6 +241,7 @@ TEST(NormalForms, pairs_within_one_step_are_found) {
         const std::vector<double> start = flips ? std::vector<double>{1, 0, 0} : std::vector<double>{1, 0};
         BranchSettings settings;
         settings.greatest = 0.5;
+        settings.continuation.largest_step = 0.1;
         const Branch branch = follow_branch(model, orbit_from(model, start, 2 * pi), settings);
         ASSERT_EQ(names(branch), flips ? "PD PD BD" : "BP BP BD");
         EXPECT_EQ(branch.special[0].step, branch.special[1].step);

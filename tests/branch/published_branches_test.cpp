@@ -107,12 +107,12 @@ TEST(PublishedBranches, microactuator_loses_its_contact_where_it_was_gained) {
     const Microactuator one(0.9189);
     const Branch before = one.without_contact();
     Branch branch = follow(one.model, branches_at(one.model, before.special.back(), one.settings).at(0), one.settings);
-    ASSERT_GT(branch.points.size(), 200U);
-    ASSERT_GT(branch.points[190].parameter, 0.65);
+    ASSERT_GT(branch.points.size(), 400U);
+    ASSERT_GT(branch.points[380].parameter, 0.65);
     // Back from far away, towards vanishing speed.
     BranchSettings back = one.settings;
     back.direction = -1;
-    const Branch returned = follow_branch(one.model, branch.points[190].solution.orbit, back);
+    const Branch returned = follow_branch(one.model, branch.points[380].solution.orbit, back);
     ASSERT_EQ(names(returned), "GR");
     const SpecialPoint& lost = returned.special[0];
     EXPECT_TRUE(lost.at_end);
@@ -232,7 +232,7 @@ TEST(PublishedBranches, microbeam_touches_its_stop) {
     expect_touch(model, branch.special[0], 0.01);
     const auto starts = branches_at(model, branch.special[0], settings);
     ASSERT_EQ(starts.size(), 1U);
-    settings.steps = 40;
+    settings.steps = 60;
     const Branch deeper = follow(model, starts[0], settings);
     const auto folds = of_type(deeper, PointType::fold);
     ASSERT_EQ(folds.size(), 2U);

@@ -62,7 +62,7 @@ struct ContinuationPoint {
 struct ContinuationOptions {
     double first_step = 0.01;    ///< arclength, in units of the scales
     double smallest_step = 1e-8; ///< below which it gives up
-    double largest_step = 0.1;
+    double largest_step = 0.05;
     double accuracy = 1e-10;     ///< last correction, in units of the scales
     double largest_angle = 0.35; ///< between tangents of successive points, in radians
     std::size_t iterations = 7;  ///< of Newton's method, for each point
@@ -116,6 +116,7 @@ private:
     bool correct(std::vector<double>& u, std::span<const double> row, double allowed, std::size_t& iterations);
     bool find_tangent(ContinuationPoint& point, std::span<const double> row);
     bool begin(ContinuationPoint point);
+    bool start_across(std::span<const double> u, std::size_t unknown, int direction);
     bool closes();
     void weigh(std::span<const double> direction, std::vector<double>& row) const;
 

@@ -17,7 +17,7 @@ namespace graze {
 struct BranchSettings {
     std::size_t parameter = 0;             ///< that varies: its place among the model's independent ones
     int direction = 1;                     ///< in which it goes at first: up (1) or down (-1)
-    std::size_t steps = 300;               ///< at most
+    std::size_t steps = 1000;              ///< at most
     std::optional<double> least, greatest; ///< of the parameter, where the branch ends
     ContinuationOptions continuation;
     OrbitOptions orbit;
