@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace graze {
 
@@ -87,6 +88,29 @@ void BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std
     result.arclength = arclength(at.arclength);
     result.stable = is_stable(result.solution);
     tests = branch_tests(shooting, result.solution, at.tangent, at.determinant, result.monitors, settings_);
+}
+
+std::optional<double> BranchState::error_of(const Orbit& orbit, const std::vector<double>& tangent) {
+    if (!settings_.free.empty())
+        return std::nullopt;
+    if (!tighter_) {
+        SimulationOptions options = integration(settings_.orbit);
+        options.tolerance = std::max(0.01 * options.tolerance, smallest_tolerance);
+        tighter_.emplace(*model_, std::vector<Probe>(), std::vector<Expression>(), options);
+    }
+    OrbitProblem problem(*tighter_, orbit, settings_.parameter);
+    const Eigen::VectorXd unknowns = problem.shooting().unknowns_of(orbit);
+    std::vector<double> row(problem.unknowns(), 0.0), step(problem.unknowns());
+    if (tangent.size() != row.size() || !problem.shooting().evaluate(unknowns))
+        return std::nullopt;
+    for (std::size_t i = 0; i < row.size(); ++i)
+        row[i] = tangent[i] / (problem.scales()[i] * problem.scales()[i]);
+    if (!problem.solve(row, 0, false, step, nullptr))
+        return std::nullopt;
+    double error = 0;
+    for (std::size_t i = 0; i < step.size(); ++i)
+        error = std::max(error, std::abs(step[i]) / problem.scales()[i]);
+    return std::isfinite(error) ? std::optional(error) : std::nullopt;
 }
 
 bool BranchState::pieces_are_unfit() {

@@ -6,6 +6,7 @@
 #include "graze/branch/switching.hpp"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace graze {
@@ -29,6 +30,9 @@ public:
 
     /// What is known of a point of the branch.
     void describe(const ContinuationPoint& at, BranchPoint& result, std::vector<BranchTest>& tests);
+    /// By how much an orbit of the branch would change at a tolerance a hundred times smaller, relative to the size of
+    /// each unknown. None where that cannot be said: where another branch crosses, or monitors are held.
+    std::optional<double> error_of(const Orbit& orbit, const std::vector<double>& tangent);
     /// Whether derivatives have grown too much for their pieces, or the last piece of a segment, which alone has a
     /// duration that is free, has become too short for the others.
     bool pieces_are_unfit();
@@ -44,6 +48,7 @@ private:
     const Model* model_;
     BranchSettings settings_;
     Simulation simulation_;
+    std::optional<Simulation> tighter_; ///< once it has been asked for
     std::unique_ptr<OrbitMonitors> monitors_;
     std::unique_ptr<OrbitProblem> problem_;
     std::unique_ptr<Continuation> continuation_;

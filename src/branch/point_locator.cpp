@@ -26,6 +26,8 @@ std::vector<SpecialPoint> PointLocator::locate_all(const BranchPoint& before, co
                 special->bracket = std::minmax(before.parameter, point_->parameter);
                 special->step = point_->step;
                 accept_limit(*special, before.solution.certificate.admissible);
+                if (special->type != PointType::branch_point)
+                    special->solution.error = state_->error_of(special->solution.orbit, special->tangent);
                 found.push_back(std::move(*special));
             }
     older_ = tests;

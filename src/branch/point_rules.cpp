@@ -142,8 +142,8 @@ void drop_crossings_of_nothing(std::vector<SpecialPoint>& found, double length) 
     const std::vector<SpecialPoint> all = found;
     std::erase_if(found, [&](const SpecialPoint& one) {
         return one.type == PointType::branch_point && std::any_of(all.begin(), all.end(), [&](const auto& other) {
-                   const bool contact_ends = other.type == PointType::vanishing ||
-                                             (other.type == PointType::grazing && other.at_end);
+                   const bool contact_ends =
+                       other.type == PointType::vanishing || (other.type == PointType::grazing && other.at_end);
                    return contact_ends && std::abs(one.arclength - other.arclength) < near * length;
                });
     });
