@@ -1,6 +1,7 @@
 #include "graze/flow/tangent_reach.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace graze {
@@ -9,12 +10,10 @@ namespace {
 
 /// What is so small against anything a double can hold that nothing may be said of its relative accuracy.
 constexpr double nothing = 1e-200;
+constexpr std::size_t most_lanes = 32;
 
-/// Size of one series at a distance.
-double size_of(const double* c, std::size_t width, std::size_t order, double step) {
-    const double size = std::abs(c[0]) + step * (std::abs(c[width]) + step * std::abs(c[2 * width]));
-    if (size > 0)
-        return size;
+/// Size of a series whose first three terms are zero.
+double size_of_all(const double* c, std::size_t width, std::size_t order, double step) {
     double sum = 0;
     for (std::size_t k = order + 1; k-- > 0;)
         sum = sum * step + std::abs(c[k * width]);
@@ -33,14 +32,17 @@ double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, doub
         for (std::size_t k = 1; k < order; ++k)
             power *= reach;
         for (std::size_t i = 0; i < states; ++i) {
-            const double* series = jet.state(i) + 1;
-            for (std::size_t lane = 0; lane < count; ++lane) {
-                const double* c = series + lane;
-                const double last =
-                    power * std::max(std::abs(c[(order - 1) * width]), reach * std::abs(c[order * width]));
-                const double size = last > 0 ? size_of(c, width, order, reach) : 1;
-                if (last > worst * size && size > nothing)
-                    worst = last / size;
+            const double* c = jet.state(i) + 1;
+            std::array<double, most_lanes> sizes, lasts;
+            for (std::size_t l = 0; l < count; ++l) {
+                sizes[l] = std::abs(c[l]) + reach * (std::abs(c[width + l]) + reach * std::abs(c[2 * width + l]));
+                lasts[l] =
+                    power * std::max(std::abs(c[(order - 1) * width + l]), reach * std::abs(c[order * width + l]));
+            }
+            for (std::size_t l = 0; l < count; ++l) {
+                const double size = sizes[l] > 0 || lasts[l] == 0 ? sizes[l] : size_of_all(c + l, width, order, reach);
+                if (lasts[l] > worst * size && size > nothing)
+                    worst = lasts[l] / size;
             }
         }
         if (!(worst > tolerance))

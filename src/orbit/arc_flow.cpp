@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t most_steps = 100000;
 /// What derivatives are allowed of the tolerance of the states.
-constexpr double allowance = 10;
+constexpr double allowance = 50;
 /// Share of an arc below which a step means that the solution ceases to exist.
 constexpr double smallest_share = 1e-14;
 /// Share of an arc over which sizes are taken where the start alone does not show them.

@@ -22,12 +22,11 @@ Eigen::Index index(std::size_t i) {
 /// Follows the watched events along one segment.
 class ArcWatcher {
 public:
-    ArcWatcher(const Shooting& shooting, std::size_t segment)
+    ArcWatcher(const Shooting& shooting, std::size_t segment, RootFinder& roots)
         : shooting_(&shooting), segment_(segment),
-          mode_(&shooting.simulation().compiled().mode(shooting.signature()[segment].mode)),
-          roots_(shooting.simulation().order()), order_(static_cast<std::size_t>(shooting.simulation().order())),
-          sizes_(mode_->watched.size(), 0.0), falls_(mode_->watched.size(), std::numeric_limits<double>::infinity()),
-          starts_(mode_->watched.size(), 0.0) {
+          mode_(&shooting.simulation().compiled().mode(shooting.signature()[segment].mode)), roots_(&roots),
+          order_(static_cast<std::size_t>(shooting.simulation().order())), sizes_(mode_->watched.size(), 0.0),
+          falls_(mode_->watched.size(), std::numeric_limits<double>::infinity()), starts_(mode_->watched.size(), 0.0) {
         const CompiledModel& compiled = shooting.simulation().compiled();
         for (std::size_t w = 0; w < mode_->watched.size(); ++w)
             harmless_.push_back(is_harmless(compiled, mode_->transitions[w]));
@@ -54,8 +53,8 @@ public:
             if (std::isinf(falls_[w])) {
                 Root root;
                 const bool zero = std::abs(coefficients_[0]) <= on_surface * size;
-                if (roots_.first_falling(coefficients_, std::abs(length),
-                                         first && zero ? RootStart::deflate : RootStart::as_is, root))
+                if (roots_->first_falling(coefficients_, std::abs(length),
+                                          first && zero ? RootStart::deflate : RootStart::as_is, root))
                     falls_[w] = begin + time + sign * root.at;
             }
         }
@@ -95,7 +94,7 @@ private:
             derivative_.push_back(static_cast<double>(k) * coefficients_[k]);
         const double reach = std::abs(length), sign = length < 0 ? -1 : 1;
         const bool is_section = shooting_->model().events[mode_->watched[w]].kind == EventKind::section;
-        roots_.crossings(derivative_, reach, RootStart::as_is, found_);
+        roots_->crossings(derivative_, reach, RootStart::as_is, found_);
         for (const Root& root : found_) {
             const bool minimum = root.kind == RootKind::rising;
             if (!minimum && !is_section)
@@ -108,7 +107,7 @@ private:
     const Shooting* shooting_;
     std::size_t segment_;
     const CompiledModel::CompiledMode* mode_;
-    RootFinder roots_;
+    RootFinder* roots_;
     std::size_t order_;
     std::vector<double> sizes_, falls_, starts_, coefficients_, derivative_;
     std::vector<bool> harmless_;
@@ -159,10 +158,11 @@ Certificate certify(Shooting& shooting, const Eigen::VectorXd& unknowns) {
         }
     };
     const std::size_t segments = shooting.signature().size();
+    RootFinder roots(shooting.simulation().order());
     for (std::size_t s = 0; s < segments; ++s) {
         const Segment& segment = shooting.signature()[s];
         const auto& mode = compiled.mode(segment.mode);
-        ArcWatcher watcher(shooting, s);
+        ArcWatcher watcher(shooting, s, roots);
         double begin = 0;
         for (std::size_t k = shooting.first_piece(s); k <= shooting.last_piece(s); ++k) {
             const double* start = unknowns.data() + shooting.start_of(k);
