@@ -192,8 +192,7 @@ TEST(SolveOrbit, slow_forcing_has_fast_derivatives) {
         // The motion follows the force, its disturbances oscillate freely: a pair exp(-zeta T +- i sqrt(1 - zeta^2) T).
         const double T = 2 * pi / omega, zeta = 0.02;
         ASSERT_EQ(solution.multipliers.size(), 2u) << omega;
-        const std::complex<double> exact =
-            std::exp(std::complex<double>(-zeta * T, std::sqrt(1 - zeta * zeta) * T));
+        const std::complex<double> exact = std::exp(std::complex<double>(-zeta * T, std::sqrt(1 - zeta * zeta) * T));
         const std::complex<double> upper =
             solution.multipliers[solution.multipliers[0].imag() * exact.imag() > 0 ? 0 : 1];
         EXPECT_NEAR(std::abs(upper - exact), 0, 1e-11 * T) << omega;
