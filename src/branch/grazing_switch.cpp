@@ -307,7 +307,9 @@ BranchStart with_one_contact_fewer(const Model& model, const SpecialPoint& point
         if (branch.start_along(direction, 0) && branch.step() && branch.point().solution.certificate.admissible)
             break;
     }
-    return {solution.orbit, direction, 0, fmt::format("with one contact fewer at '{}'", name)};
+    // The first orbit is a little away from the one that touches, of which round-off would decide what it does.
+    constexpr double away = 1e-3;
+    return {solution.orbit, direction, away, fmt::format("with one contact fewer at '{}'", name)};
 }
 
 } // namespace graze

@@ -39,8 +39,13 @@ std::size_t segment_named(const Model& model, const Signature& signature, const 
     std::size_t wanted = 1;
     if (mark != std::string::npos)
         wanted = number(std::string_view(text).substr(mark + 1)).value_or(0);
+    const std::string name = text.substr(0, mark);
+    const auto is_named = [&](const Segment& segment) {
+        return end_name(model, segment) == name ||
+               (segment.end == SegmentEnd::event && model.events[model.transitions[segment.index].event].name == name);
+    };
     for (std::size_t s = 0; s < signature.size(); ++s)
-        if (end_name(model, signature[s]) == text.substr(0, mark) && wanted > 0 && --wanted == 0)
+        if (is_named(signature[s]) && wanted > 0 && --wanted == 0)
             return s;
     return fail();
 }

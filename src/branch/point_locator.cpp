@@ -144,6 +144,8 @@ std::optional<SpecialPoint> PointLocator::special_at(const ContinuationPoint& at
     special.event = here.event;
     special.time = here.time;
     special.at_end = here.at_end;
+    if (here.type == PointType::grazing && here.at_end) // their limits are infinite
+        special.solution.multipliers.clear();
     // A zero, not a jump: the value there must be small against those at the ends.
     special.located = std::abs(here.value) <= 1e-3 * size;
     return is_what_it_seems(*state_, special, here) ? std::optional(special) : std::nullopt;

@@ -49,7 +49,8 @@ public:
             const bool first = begin + time == 0;
             if (first)
                 starts_[w] = coefficients_[0];
-            look_for_extrema(w, begin + time, length);
+            const bool on_surface_here = first && std::abs(coefficients_[0]) <= on_surface * size;
+            look_for_extrema(w, begin + time, length, on_surface_here ? size : 0);
             if (std::isinf(falls_[w])) {
                 Root root;
                 const bool zero = std::abs(coefficients_[0]) <= on_surface * size;
@@ -88,7 +89,8 @@ public:
     bool is_harmless_here(std::size_t w) const { return harmless_[w]; }
 
 private:
-    void look_for_extrema(std::size_t w, double time, double length) {
+    /// @param begins_on_surface size of the function, if the segment begins where it is zero; otherwise 0
+    void look_for_extrema(std::size_t w, double time, double length, double begins_on_surface) {
         derivative_.clear();
         for (std::size_t k = 1; k < coefficients_.size(); ++k)
             derivative_.push_back(static_cast<double>(k) * coefficients_[k]);
@@ -100,6 +102,10 @@ private:
             if (!minimum && !is_section)
                 continue;
             const double value = evaluate_polynomial(coefficients_, root.at);
+            // A motion that leaves the surface without speed, as at the end of sticking, has its minimum at the start.
+            constexpr double at_start = 1e-4;
+            if (root.at <= at_start * reach && std::abs(value) <= on_surface * begins_on_surface)
+                continue;
             minima_.push_back({segment_, mode_->watched[w], time + sign * root.at, minimum ? value : -value});
         }
     }

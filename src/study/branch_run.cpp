@@ -247,7 +247,9 @@ SpecialPoint failed_start(const Part& part, const StudyRun& run, const std::stri
     return point;
 }
 
-bool follow_part(const StudyRun& run, const Part& part, PointWriter& writer, const RunnerOptions& options) {
+/// @return how the part ended, or nothing if it was interrupted
+std::optional<BranchOutcome> follow_part(const StudyRun& run, const Part& part, PointWriter& writer,
+                                         const RunnerOptions& options) {
     BranchSettings settings = run.branch.settings;
     settings.direction = part.direction;
     OrbitBranch branch = at_place(run.place, run, [&] { return OrbitBranch(run.model, part.orbit, settings); });
@@ -255,7 +257,7 @@ bool follow_part(const StudyRun& run, const Part& part, PointWriter& writer, con
     if (!going) {
         writer.add(part.name, failed_start(part, run, branch.detail()), false);
         writer.end("");
-        return true;
+        return branch.outcome();
     }
     bool last_is_special = false;
     while (going) {
@@ -269,7 +271,7 @@ bool follow_part(const StudyRun& run, const Part& part, PointWriter& writer, con
         if (!last_is_special)
             writer.add(part.name, regular_point(branch.point()), branch.point().stable);
         if (options.interrupted && options.interrupted())
-            return false;
+            return std::nullopt;
         going = branch.step();
     }
     const bool told = branch.outcome() != BranchOutcome::unphysical;
@@ -277,7 +279,7 @@ bool follow_part(const StudyRun& run, const Part& part, PointWriter& writer, con
     if (!why.empty() && !branch.detail().empty())
         why += ": " + branch.detail();
     writer.end(why);
-    return true;
+    return branch.outcome();
 }
 
 bool compute_orbit(const Study& study, const StudyRun& run, const ResultFile& file, PointWriter& writer) {
@@ -359,9 +361,13 @@ bool run_branch(const Study& study, const StudyRun& run, ResultFile& file, const
     report.points = 0;
     if (run.kind == RunKind::orbit)
         return compute_orbit(study, run, file, writer);
-    for (const Part& part : parts_of(study, run, file))
-        if (!follow_part(run, part, writer, options))
+    for (const Part& part : parts_of(study, run, file)) {
+        const auto outcome = follow_part(run, part, writer, options);
+        if (!outcome)
             return false;
+        if (*outcome == BranchOutcome::closed)
+            break; // the other way round is the same
+    }
     return true;
 }
 

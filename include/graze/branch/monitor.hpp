@@ -24,7 +24,8 @@ struct Monitor {
     std::string name, unit;
     Kind kind = Kind::duration;
     Expression expression; ///< in states and independent parameters; not of durations
-    /// Which segment: its number (from 1), or the name of what ends it, as "J1", with "#2" for the second of that name.
+    /// Which segment: its number (from 1), or the name of what ends it, as "J1" or its event, with "#2" for the second
+    /// of that name.
     /// Empty: the whole orbit; of values at ends and starts the first segment.
     std::string segment;
 
