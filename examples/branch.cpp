@@ -1,0 +1,36 @@
+// Periodic orbits of an impact oscillator: from a motion without impacts to where it grazes the stop, and on with one.
+
+#include <graze/branch/switching.hpp>
+#include <graze/model/catalogue.hpp>
+
+#include <cstdio>
+
+using namespace graze;
+
+int main() {
+    Model model = load_model("impact-oscillator");
+    model.set_parameter("sigma", 0.5);
+    model.set_parameter("omega", 1.2);
+    model.set_parameter("amplitude", 0.1);
+
+    AttractorOptions settle;
+    settle.section = "phase0";
+    const OrbitSolution orbit = find_orbit(model, settle);
+
+    BranchSettings settings;
+    settings.parameter = 2; // amplitude, among the independent parameters
+    settings.greatest = 1;
+    const Branch free = follow_branch(model, orbit.orbit, settings);
+    const SpecialPoint& grazing = free.special.back();
+    std::printf("%s at amplitude %.12f\n", name_of(grazing.type).data(), grazing.parameter);
+
+    // An iterator, which one can stop and look at after every step.
+    const BranchStart start = branches_at(model, grazing, settings).front();
+    OrbitBranch branch(model, start.orbit, settings);
+    for (bool going = branch.start_along(start.direction, start.distance); going; going = branch.step())
+        for (const SpecialPoint& special : branch.found())
+            std::printf("%s %s: amplitude %.12f, %s\n", start.how.c_str(), short_name(special.type).data(),
+                        special.parameter, is_stable(branch.point().solution) ? "stable beyond" : "not stable beyond");
+    std::printf("%s\n", name_of(branch.outcome()).data());
+    return 0;
+}
