@@ -14,7 +14,7 @@ namespace graze {
 namespace {
 
 constexpr int most_halvings = 8;
-constexpr double nothing = 1e-9; ///< share of the candidate's period
+constexpr double no_time = 1e-9; ///< share of the candidate's period
 
 double largest(const Eigen::VectorXd& step, const Eigen::VectorXd& scales) {
     return step.cwiseQuotient(scales).cwiseAbs().maxCoeff();
@@ -130,7 +130,7 @@ OrbitSolution solve_orbit(const Model& model, const Orbit& candidate, const Orbi
     solution.outcome = solve_shooting(shooting, unknowns, options, solution.iterations, solution.detail);
     solution.orbit = shooting.orbit_of(unknowns);
     solution.residual = shooting.residual();
-    if (solution.outcome == OrbitOutcome::converged && !(solution.orbit.period() > nothing * candidate.period())) {
+    if (solution.outcome == OrbitOutcome::converged && !(solution.orbit.period() > no_time * candidate.period())) {
         solution.outcome = OrbitOutcome::not_converged;
         solution.detail = "Newton's method has gone to an orbit that takes no time";
     }
