@@ -45,82 +45,76 @@ void Tangents::fill(std::span<double> lanes, std::span<const double> values, std
     }
 }
 
-template <class Use>
-void Tangents::for_each_pass(std::size_t mode, std::span<const double> state, std::span<const double> matrix, Use use,
-                             bool computed) {
+const Jet& Tangents::compute(std::size_t mode, std::span<const double> state, std::span<const double> matrix,
+                             std::size_t first) {
     Jet& jet = jets_(mode);
-    if (computed && directions_ <= lanes_)
-        return use(jet, 0, directions_);
-    for (std::size_t first = 0; first < directions_; first += lanes_) {
-        if (directions_ > lanes_) {
-            fill(parameter_lanes_, parameters_, parameter_seeds_, first);
-            jet.set_parameters(parameter_lanes_);
-        }
-        fill(seeds_, state, matrix, first);
-        jet.compute(seeds_);
-        use(jet, first, std::min(lanes_, directions_ - first));
+    if (directions_ > lanes_) {
+        fill(parameter_lanes_, parameters_, parameter_seeds_, first);
+        jet.set_parameters(parameter_lanes_);
     }
+    fill(seeds_, state, matrix, first);
+    jet.compute(seeds_);
+    return jet;
 }
 
-double Tangents::reach(std::size_t mode, std::span<const double> state, std::span<const double> matrix, double s) {
-    double reach = s;
-    for_each_pass(mode, state, matrix, [&](const Jet& jet, std::size_t, std::size_t count) {
-        reach = std::min(reach, tangent_reach(jet, states_, count, tolerance_, reach));
-    });
-    return reach;
-}
-
-void Tangents::evaluate(std::size_t mode, std::span<const double> state, double s, std::span<double> matrix,
-                        std::size_t series, std::span<double> row) {
+double Tangents::step(std::size_t mode, std::span<const double> state, std::span<const double> matrix, double s,
+                      std::size_t series, std::span<double> row) {
     const std::size_t width = lanes_ + 1;
-    constexpr int most_parts = 10000;
-    std::span<const double> here = state, from = matrix_;
-    bool computed = false; // whether the jet holds what begins here
-    // Where derivatives are faster than the states, in parts.
-    for (int part = 0; part < most_parts && s > 0; ++part) {
-        const double step = reach(mode, here, from, s);
-        computed = !(step < s);
-        if (computed)
-            break;
-        times_.assign(width, step);
-        after_.resize(states_ * directions_);
-        std::vector<double> moved(states_);
-        const auto move = [&](const Jet& jet, std::size_t first, std::size_t count) {
-            jet.evaluate_states(times_, sums_);
-            for (std::size_t i = 0; i < states_; ++i) {
-                std::copy_n(&sums_[i * width + 1], count, &after_[i * directions_ + first]);
-                moved[i] = sums_[i * width];
+    after_.resize(states_ * directions_);
+    moved_.resize(states_);
+    double step = s;
+    for (std::size_t first = 0; first < directions_;) {
+        const Jet& jet = compute(mode, state, matrix, first);
+        const std::size_t count = std::min(lanes_, directions_ - first);
+        const double reach = tangent_reach(jet, states_, count, tolerance_, step);
+        if (reach < step) {
+            step = reach;
+            if (first > 0) { // directions that are done already need the shorter step as well
+                first = 0;
+                continue;
             }
-        };
-        for_each_pass(mode, here, from, move, true);
-        middle_.swap(after_);
-        between_ = std::move(moved);
-        from = middle_;
-        here = between_;
-        s -= step;
-    }
-    times_.assign(width, s);
-    const auto finish = [&](const Jet& jet, std::size_t first, std::size_t count) {
-        if (!matrix.empty()) {
-            jet.evaluate_states(times_, sums_);
-            for (std::size_t i = 0; i < states_; ++i)
-                std::copy_n(&sums_[i * width + 1], count, &matrix[i * directions_ + first]);
+        }
+        times_.assign(width, step);
+        jet.evaluate_states(times_, sums_);
+        for (std::size_t i = 0; i < states_; ++i) {
+            std::copy_n(&sums_[i * width + 1], count, &after_[i * directions_ + first]);
+            moved_[i] = sums_[i * width];
         }
         if (!row.empty()) {
             jet.evaluate_output(series, times_, sums_);
             std::copy_n(&sums_[1], count, &row[first]);
         }
-    };
-    for_each_pass(mode, here, from, finish, computed);
+        first += lanes_;
+    }
+    return step;
+}
+
+void Tangents::evaluate(std::size_t mode, std::span<const double> state, double s, std::span<double> matrix,
+                        std::size_t series, std::span<double> row) {
+    constexpr int most_parts = 10000;
+    std::span<const double> here = state, from = matrix_;
+    // In parts, where derivatives are faster than the states.
+    for (int part = 0; part < most_parts; ++part) {
+        const double length = step(mode, here, from, s, series, row);
+        if (!(length < s))
+            break;
+        s -= length;
+        middle_.swap(after_);
+        between_.swap(moved_);
+        from = middle_;
+        here = between_;
+    }
+    std::copy_n(after_.begin(), matrix.size(), matrix.begin());
 }
 
 void Tangents::coefficient(std::size_t mode, std::span<const double> state, std::size_t series, int k,
                            std::span<double> row) {
     const std::size_t width = lanes_ + 1;
-    for_each_pass(mode, state, matrix_, [&](const Jet& jet, std::size_t first, std::size_t count) {
-        for (std::size_t l = 0; l < count; ++l)
+    for (std::size_t first = 0; first < directions_; first += lanes_) {
+        const Jet& jet = compute(mode, state, matrix_, first);
+        for (std::size_t l = 0; l < std::min(lanes_, directions_ - first); ++l)
             row[first + l] = jet.output(series)[static_cast<std::size_t>(k) * width + l + 1];
-    });
+    }
 }
 
 void Tangents::advance(std::size_t mode, std::span<const double> state, double s, std::size_t series,

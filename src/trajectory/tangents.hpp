@@ -49,18 +49,20 @@ private:
     /// Values and the directions from `first` on, for a jet.
     void fill(std::span<double> lanes, std::span<const double> values, std::span<const double> tangents,
               std::size_t first) const;
-    template <class Use>
-    void for_each_pass(std::size_t mode, std::span<const double> state, std::span<const double> matrix, Use use,
-                       bool computed = false);
-    /// How far derivatives may be followed at once, up to s.
-    double reach(std::size_t mode, std::span<const double> state, std::span<const double> matrix, double s);
+    /// The jet with the directions from `first` on.
+    const Jet& compute(std::size_t mode, std::span<const double> state, std::span<const double> matrix,
+                       std::size_t first);
+    /// Moves derivatives as far as they may be moved at once, up to s, into `after_`, and the state into `moved_`.
+    /// @return how far
+    double step(std::size_t mode, std::span<const double> state, std::span<const double> matrix, double s,
+                std::size_t series, std::span<double> row);
 
     std::size_t states_, parameter_count_, directions_;
     double tolerance_;
     JetSet jets_;
     std::size_t lanes_; ///< directions a pass
     std::vector<double> parameters_, parameter_seeds_, matrix_, next_, seeds_, sums_, times_, parameter_lanes_;
-    std::vector<double> middle_, after_, between_; ///< within arcs that are followed in parts
+    std::vector<double> middle_, after_, between_, moved_; ///< within arcs that are followed in parts
     bool valid_ = true;
 };
 
