@@ -65,10 +65,10 @@ TEST(ProductEigenvalues, equal_those_of_the_product_when_that_is_harmless) {
 }
 
 TEST(ProductEigenvalues, complex_pairs_and_zeros) {
-    Eigen::MatrixXd turn(3, 3), squash(3, 3);
-    turn << 0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, 1;
-    squash << 2, 0, 0, 0, 2, 0, 0, 0, 0;
-    const auto found = product_eigenvalues({turn, squash});
+    std::vector<Eigen::MatrixXd> factors(2, Eigen::MatrixXd::Zero(3, 3));
+    factors[0] << 0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, 1; // a turn
+    factors[1] << 2, 0, 0, 0, 2, 0, 0, 0, 0;
+    const auto found = product_eigenvalues(factors);
     EXPECT_NEAR(std::abs(found[0]), 2, 1e-14);
     EXPECT_NEAR(std::abs(found[0].imag()), 1.6, 1e-14);
     EXPECT_NEAR(std::abs(found[2]), 0, 1e-300);
