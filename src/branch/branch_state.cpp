@@ -15,16 +15,10 @@ namespace {
 /// Growth of derivatives over one piece at which the segments are split anew.
 constexpr double too_much_growth = 1e6;
 
-SimulationOptions integration(const OrbitOptions& options) {
-    SimulationOptions result;
-    result.tolerance = options.tolerance;
-    return result;
-}
-
 } // namespace
 
 BranchState::BranchState(const Model& model, const Orbit& candidate, const BranchSettings& settings)
-    : model_(&model), settings_(settings), simulation_(model, {}, {}, integration(settings.orbit)) {
+    : model_(&model), settings_(settings), simulation_(model, {}, {}, integration(settings.orbit.tolerance)) {
     settings_.validate(model);
     validate_orbit(model, candidate);
     if (is_outside(candidate.parameters[settings.parameter]))
@@ -62,13 +56,6 @@ std::vector<double> BranchState::unknowns_of(const Orbit& orbit) {
     return {unknowns.begin(), unknowns.end()};
 }
 
-std::vector<double> BranchState::row_of(const std::vector<double>& direction) {
-    std::vector<double> row = direction;
-    for (std::size_t i = 0; i < row.size(); ++i)
-        row[i] /= problem_->scales()[i] * problem_->scales()[i];
-    return row;
-}
-
 bool BranchState::is_outside(double parameter) const {
     return (settings_.least && parameter < *settings_.least) || (settings_.greatest && parameter > *settings_.greatest);
 }
@@ -94,18 +81,14 @@ std::optional<double> BranchState::error_of(const Orbit& orbit, const std::vecto
     if (!settings_.free.empty())
         return std::nullopt;
     if (!tighter_) {
-        SimulationOptions options = integration(settings_.orbit);
-        options.tolerance = std::max(0.01 * options.tolerance, smallest_tolerance);
-        tighter_.emplace(*model_, std::vector<Probe>(), std::vector<Expression>(), options);
+        tighter_.emplace(*model_, std::vector<Probe>(), std::vector<Expression>(),
+                         integration(0.01 * settings_.orbit.tolerance));
     }
     OrbitProblem problem(*tighter_, orbit, settings_.parameter);
     const Eigen::VectorXd unknowns = problem.shooting().unknowns_of(orbit);
-    std::vector<double> row(problem.unknowns(), 0.0), step(problem.unknowns());
-    if (tangent.size() != row.size() || !problem.shooting().evaluate(unknowns))
-        return std::nullopt;
-    for (std::size_t i = 0; i < row.size(); ++i)
-        row[i] = tangent[i] / (problem.scales()[i] * problem.scales()[i]);
-    if (!problem.solve(row, 0, false, step, nullptr))
+    std::vector<double> step(problem.unknowns());
+    if (tangent.size() != step.size() || !problem.shooting().evaluate(unknowns) ||
+        !problem.solve(problem.row_of(tangent), 0, false, step, nullptr))
         return std::nullopt;
     double error = 0;
     for (std::size_t i = 0; i < step.size(); ++i)
@@ -162,7 +145,7 @@ void BranchState::go_on(const BranchStart& start, double arclength) {
     arclength_ = arclength;
     make_problem(start.orbit);
     const std::vector<double> u = unknowns_of(start.orbit);
-    if (!continuation_->start_at(u, row_of(start.direction)))
+    if (!continuation_->start_at(u, problem_->row_of(start.direction)))
         throw InputError("the continuation does not start there", "choose another point");
     continuation_->set_next_step(length);
 }

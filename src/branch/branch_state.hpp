@@ -22,8 +22,6 @@ public:
     OrbitProblem& problem() { return *problem_; }
     Continuation& continuation() { return *continuation_; }
     std::vector<double> unknowns_of(const Orbit& orbit);
-    /// A vector that is to be multiplied with directions, from a direction.
-    std::vector<double> row_of(const std::vector<double>& direction);
     /// Arclength on the branch of one in the present continuation, which may not have begun where the branch did.
     double arclength(double in_continuation) const { return arclength_ + in_continuation; }
     bool is_outside(double parameter) const;

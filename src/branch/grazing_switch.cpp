@@ -7,6 +7,8 @@
 #include "orbit/arc_flow.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/close_at_section.hpp"
+#include "orbit/eigen_index.hpp"
+#include "orbit/newton.hpp"
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -24,16 +26,6 @@ constexpr double speeds[] = {1e-3, 1e-4, 1e-2, 1e-5};
 /// Share of the period at whose end the touch comes again: what happens there is the new contact itself.
 constexpr double before_next_touch = 1e-4;
 constexpr int most_iterations = 20;
-
-Eigen::Index index(std::size_t i) {
-    return static_cast<Eigen::Index>(i);
-}
-
-SimulationOptions integration(const OrbitOptions& options) {
-    SimulationOptions result;
-    result.tolerance = options.tolerance;
-    return result;
-}
 
 /// Rate of an event's function along the flow of a mode.
 Expression rate_of(const Model& model, std::size_t mode, std::size_t event) {
@@ -168,7 +160,7 @@ std::optional<Orbit> followed_after_contact(const Simulation& simulation, const 
                                             const std::vector<double>& after, std::size_t mode, const Segment& last,
                                             std::string& why) {
     const Orbit& grazing = point.solution.orbit;
-    const double round = sum(grazing.durations);
+    const double round = grazing.round();
     const FollowedMotion motion =
         follow_motion(simulation, grazing.parameters, after, mode, (1 - before_next_touch) * round);
     if (!motion.problem.empty()) {
@@ -186,22 +178,10 @@ std::optional<Orbit> followed_after_contact(const Simulation& simulation, const 
     return orbit;
 }
 
-bool is_admissible(const Simulation& simulation, const Orbit& orbit, std::string& why) {
-    Shooting shooting(simulation, orbit, {});
-    const Eigen::VectorXd unknowns = shooting.unknowns_of(orbit);
-    if (!shooting.evaluate(unknowns))
-        return false;
-    const Certificate certificate = certify(shooting, unknowns);
-    const bool forward = std::all_of(orbit.durations.begin(), orbit.durations.end(), [](double t) { return t > 0; });
-    if (!certificate.admissible)
-        why = certificate.reason;
-    return forward && certificate.admissible;
-}
-
 } // namespace
 
 BranchStart with_one_more_contact(const Model& model, const SpecialPoint& point, const BranchSettings& settings) {
-    const Simulation simulation(model, {}, {}, integration(settings.orbit));
+    const Simulation simulation(model, {}, {}, integration(settings.orbit.tolerance));
     const CompiledModel& compiled = simulation.compiled();
     const Orbit& grazing = point.solution.orbit;
     const Touch touch(simulation, point);
@@ -266,11 +246,11 @@ void leave_out_return(const Model& model, FollowedMotion& motion, const Orbit& o
 
 BranchStart with_one_contact_fewer(const Model& model, const SpecialPoint& point, const BranchSettings& settings) {
     constexpr double clearance = 1e-6; // share of the greatest gap by which the contact is missed
-    const Simulation simulation(model, {}, {}, integration(settings.orbit));
+    const Simulation simulation(model, {}, {}, integration(settings.orbit.tolerance));
     const Orbit& old = point.solution.orbit;
     const Touch touch(simulation, point);
     const std::string& name = model.events[touch.event()].name;
-    const double round = sum(old.durations);
+    const double round = old.round();
     const std::vector<double> state = touch.displaced(clearance * touch.greatest_value(), 0);
     FollowedMotion motion =
         follow_motion(simulation, old.parameters, state, touch.mode(), (1 - before_next_touch) * round);
@@ -295,7 +275,7 @@ BranchStart with_one_contact_fewer(const Model& model, const SpecialPoint& point
     trial.stop_when_unphysical = false;
     std::vector<double> direction;
     for (const int sign : {1, -1}) {
-        const Simulation here(model, {}, {}, integration(settings.orbit));
+        const Simulation here(model, {}, {}, integration(settings.orbit.tolerance));
         OrbitProblem problem(here, solution.orbit, settings.parameter);
         const Eigen::VectorXd unknowns = problem.shooting().unknowns_of(solution.orbit);
         std::vector<double> row(problem.unknowns(), 0.0);

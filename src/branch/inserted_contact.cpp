@@ -3,7 +3,6 @@
 #include "graze/orbit/solve.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace graze {
 
@@ -20,12 +19,7 @@ std::vector<Entry> two_rounds(const Model& model, const Orbit& orbit) {
     std::vector<Entry> entries;
     for (std::size_t k = 0; k < orbit.segments(); ++k)
         entries.push_back({orbit.signature[k], orbit.starts[k], orbit.durations[k]});
-    std::vector<Expression> inputs = model.state_symbols();
-    const auto parameters = model.parameter_symbols();
-    inputs.insert(inputs.end(), parameters.begin(), parameters.end());
-    Function map;
-    if (orbit.symmetry)
-        map = Function(inputs, model.expand(model.symmetries[*orbit.symmetry].map));
+    const Function map = orbit.symmetry ? symmetry_map(model, *orbit.symmetry) : Function();
     for (std::size_t k = 0; k < orbit.segments(); ++k) {
         Entry entry = entries[k];
         if (orbit.symmetry) {
@@ -69,8 +63,7 @@ std::optional<Orbit> with_contact_inserted(const Simulation& simulation, const S
     std::vector<Entry> entries;
     std::vector<double> start = after;
     if (mode != grazing.signature[touching].mode) {
-        const double round = std::accumulate(grazing.durations.begin(), grazing.durations.end(), 0.0);
-        const FollowedMotion motion = follow_motion(simulation, grazing.parameters, after, mode, round);
+        const FollowedMotion motion = follow_motion(simulation, grazing.parameters, after, mode, grazing.round());
         std::size_t back = 1;
         while (back < motion.segments.size() && motion.segments[back].mode != grazing.signature[touching].mode)
             ++back;

@@ -80,7 +80,7 @@ public:
             throw InputError("the direction does not fit the orbit", "give as many numbers as there are unknowns");
         if (distance != 0)
             return begin(state_.continuation().start_along(u, direction, distance));
-        return begin(state_.continuation().start_at(u, state_.row_of(direction)));
+        return begin(state_.continuation().start_at(u, state_.problem().row_of(direction)));
     }
 
     bool step() {

@@ -1,4 +1,5 @@
 #include "branch/orbit_problem.hpp"
+#include "orbit/eigen_index.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +7,6 @@
 namespace graze {
 
 namespace {
-
-Eigen::Index index(std::size_t i) {
-    return static_cast<Eigen::Index>(i);
-}
 
 std::vector<std::size_t> both(std::size_t parameter, std::vector<std::size_t> free) {
     free.insert(free.begin(), parameter);
@@ -23,18 +20,22 @@ OrbitProblem::OrbitProblem(const Simulation& simulation, const Orbit& orbit, std
     : shooting_(simulation, orbit, both(parameter, free)), monitors_(monitors) {
     if (!monitors)
         return;
-    std::vector<double> values;
     for (std::size_t m = 0; m < monitors->monitors().size(); ++m) {
         const Monitor& monitor = monitors->monitors()[m];
         if (!monitor.fixed)
             continue;
-        if (values.empty())
-            values = (*monitors)(orbit);
-        Held held{m, monitor.held.value_or(values[m]), std::nullopt};
+        Held held{m, monitor.held.value(), std::nullopt};
         if (monitor.kind == Monitor::Kind::value)
             held.at_end = shooting_.with_gradient(monitor.expression);
         held_.push_back(std::move(held));
     }
+}
+
+std::vector<double> OrbitProblem::row_of(std::span<const double> direction) const {
+    std::vector<double> row(direction.begin(), direction.end());
+    for (std::size_t i = 0; i < row.size(); ++i)
+        row[i] /= scales()[i] * scales()[i];
+    return row;
 }
 
 bool OrbitProblem::evaluate(std::span<const double> u) {

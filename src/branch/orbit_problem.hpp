@@ -20,7 +20,7 @@ class OrbitProblem : public ContinuationProblem {
 public:
     OrbitProblem(const Simulation& simulation, const Orbit& orbit, std::size_t parameter)
         : shooting_(simulation, orbit, {parameter}) {}
-    /// @param monitors those that are held count; must outlive this; may be null
+    /// @param monitors those that are fixed count, and say at which value; must outlive this; may be null
     OrbitProblem(const Simulation& simulation, const Orbit& orbit, std::size_t parameter,
                  const std::vector<std::size_t>& free, OrbitMonitors* monitors);
 
@@ -32,6 +32,8 @@ public:
     std::span<const double> scales() const override {
         return {shooting_.scales().data(), static_cast<std::size_t>(shooting_.scales().size())};
     }
+    /// The row whose product with vectors is that with a direction, in units of the scales.
+    std::vector<double> row_of(std::span<const double> direction) const;
     bool evaluate(std::span<const double> u) override;
     bool solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
                double* determinant) override;

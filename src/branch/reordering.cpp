@@ -5,12 +5,12 @@
 #include "graze/symbolic/input_error.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/close_at_section.hpp"
+#include "orbit/newton.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 namespace graze {
@@ -20,15 +20,9 @@ namespace {
 /// How far beyond the point the model's motion is looked at, in units of the scales.
 constexpr double distances[] = {1e-4, 1e-5, 1e-3, 1e-6};
 
-SimulationOptions integration(const OrbitOptions& options) {
-    SimulationOptions result;
-    result.tolerance = options.tolerance;
-    return result;
-}
-
 /// What the model does for one round from the middle of an orbit's longest segment, as an orbit.
 std::optional<Orbit> followed(const Simulation& simulation, const Orbit& orbit, std::string& why) {
-    const double round = std::accumulate(orbit.durations.begin(), orbit.durations.end(), 0.0);
+    const double round = orbit.round();
     const auto longest = static_cast<std::size_t>(std::max_element(orbit.durations.begin(), orbit.durations.end()) -
                                                   orbit.durations.begin());
     std::vector<double> state = orbit.starts[longest];
@@ -62,21 +56,10 @@ bool are_alike(const Orbit& one, const Orbit& other) {
     return false;
 }
 
-bool is_sound(const Simulation& simulation, const Orbit& orbit, std::string& why) {
-    Shooting shooting(simulation, orbit, {});
-    const Eigen::VectorXd unknowns = shooting.unknowns_of(orbit);
-    if (!shooting.evaluate(unknowns))
-        return false;
-    const Certificate certificate = certify(shooting, unknowns);
-    why = certificate.reason;
-    return certificate.admissible &&
-           std::all_of(orbit.durations.begin(), orbit.durations.end(), [](double duration) { return duration > 0; });
-}
-
 } // namespace
 
 BranchStart with_events_reordered(const Model& model, const SpecialPoint& point, const BranchSettings& settings) {
-    const Simulation simulation(model, {}, {}, integration(settings.orbit));
+    const Simulation simulation(model, {}, {}, integration(settings.orbit.tolerance));
     const Orbit& orbit = point.solution.orbit;
     std::string why = "the branch's direction is not known";
     OrbitProblem problem(simulation, orbit, settings.parameter);
@@ -102,7 +85,7 @@ BranchStart with_events_reordered(const Model& model, const SpecialPoint& point,
                     why = solution.detail;
                     continue;
                 }
-                if (!is_sound(simulation, solution.orbit, why))
+                if (!is_admissible(simulation, solution.orbit, why))
                     continue;
                 OrbitProblem next(simulation, solution.orbit, settings.parameter);
                 std::vector<double> row(next.unknowns(), 0.0), direction(next.unknowns());

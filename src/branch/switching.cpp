@@ -5,6 +5,7 @@
 #include "branch/reordering.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "orbit/certify.hpp"
+#include "orbit/newton.hpp"
 
 #include <fmt/format.h>
 
@@ -19,12 +20,6 @@ constexpr double first_distance = 1e-2;
 /// How close to -1 a multiplier of a located point is.
 constexpr double near_flip = 1e-4;
 
-SimulationOptions integration(const OrbitOptions& options) {
-    SimulationOptions result;
-    result.tolerance = options.tolerance;
-    return result;
-}
-
 Orbit twice(const Orbit& orbit) {
     Orbit result = orbit;
     result.signature.insert(result.signature.end(), orbit.signature.begin(), orbit.signature.end());
@@ -36,17 +31,14 @@ Orbit twice(const Orbit& orbit) {
 /// Both ways along the null vector of an orbit's equations that is orthogonal to a row.
 std::vector<BranchStart> both_ways(const Model& model, const Orbit& orbit, const BranchSettings& settings,
                                    const std::vector<double>& along, const std::string& how, bool second) {
-    const Simulation simulation(model, {}, {}, integration(settings.orbit));
+    const Simulation simulation(model, {}, {}, integration(settings.orbit.tolerance));
     OrbitProblem problem(simulation, orbit, settings.parameter);
     Shooting& shooting = problem.shooting();
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(problem.unknowns()));
-    if (along.size() == problem.unknowns()) {
-        for (std::size_t i = 0; i < along.size(); ++i)
-            row[static_cast<Eigen::Index>(i)] = along[i] / (problem.scales()[i] * problem.scales()[i]);
-    } else {
-        row[static_cast<Eigen::Index>(problem.parameter_place())] =
-            1; // orbits of the new kind appear at a turning point
-    }
+    if (along.size() == problem.unknowns())
+        row = OrbitProblem::vector_of(problem.row_of(along)).transpose();
+    else // orbits of the new kind appear at a turning point
+        row[static_cast<Eigen::Index>(problem.parameter_place())] = 1;
     Eigen::VectorXd direction;
     if (!shooting.evaluate(shooting.unknowns_of(orbit)) || !shooting.null_vector(row, direction))
         throw InputError("the direction of the other branch could not be found", "try another point");
@@ -59,7 +51,7 @@ std::vector<BranchStart> both_ways(const Model& model, const Orbit& orbit, const
 
 /// Whether the map over half an orbit has the multiplier -1, rather than the branch meeting another of such orbits.
 bool loses_symmetry(const Model& model, const Orbit& half, const BranchSettings& settings) {
-    const Simulation simulation(model, {}, {}, integration(settings.orbit));
+    const Simulation simulation(model, {}, {}, integration(settings.orbit.tolerance));
     Shooting shooting(simulation, half, {});
     const Eigen::VectorXd unknowns = shooting.unknowns_of(half);
     if (!shooting.evaluate(unknowns))

@@ -1,6 +1,7 @@
 #include "orbit/certify.hpp"
 
 #include "graze/flow/roots.hpp"
+#include "orbit/eigen_index.hpp"
 
 #include <fmt/format.h>
 
@@ -14,10 +15,6 @@ namespace {
 
 /// Values of event functions below this share of their size along the arc count as zero.
 constexpr double on_surface = 1e-9;
-
-Eigen::Index index(std::size_t i) {
-    return static_cast<Eigen::Index>(i);
-}
 
 /// Follows the watched events along one segment.
 class ArcWatcher {
@@ -230,6 +227,18 @@ Certificate certify(Shooting& shooting, const Eigen::VectorXd& unknowns) {
                                              .dot(Eigen::Map<const Eigen::VectorXd>(field.data(), index(states))));
     }
     return certificate;
+}
+
+bool is_admissible(const Simulation& simulation, const Orbit& orbit, std::string& why) {
+    Shooting shooting(simulation, orbit, {});
+    const Eigen::VectorXd unknowns = shooting.unknowns_of(orbit);
+    if (!shooting.evaluate(unknowns))
+        return false;
+    const Certificate certificate = certify(shooting, unknowns);
+    if (!certificate.admissible)
+        why = certificate.reason;
+    return certificate.admissible &&
+           std::all_of(orbit.durations.begin(), orbit.durations.end(), [](double duration) { return duration > 0; });
 }
 
 } // namespace graze

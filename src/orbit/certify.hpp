@@ -17,6 +17,9 @@ bool is_harmless(const CompiledModel& model, std::size_t transition);
 /// evaluated at the unknowns.
 Certificate certify(Shooting& shooting, const Eigen::VectorXd& unknowns);
 
+/// Whether the model would follow an orbit, all of whose segments take time. @param why not, if it is known
+bool is_admissible(const Simulation& simulation, const Orbit& orbit, std::string& why);
+
 /// Floquet multipliers of the section map at the start of the first segment, largest first: of the half orbit for one
 /// that is given by its half. Without those that drifting or unchanged states, and shifts along the flow, would add.
 /// Empty where an event is reached without speed. `shooting` must have been evaluated at the unknowns.

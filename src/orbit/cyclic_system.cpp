@@ -1,4 +1,5 @@
 #include "orbit/cyclic_system.hpp"
+#include "orbit/eigen_index.hpp"
 
 #include <Eigen/Dense>
 
@@ -7,10 +8,6 @@
 namespace graze {
 
 namespace {
-
-Eigen::Index index(std::size_t i) {
-    return static_cast<Eigen::Index>(i);
-}
 
 /// Makes the first columns of [a | b] upper triangular by reflections. @return the sign of their determinant
 double reflect(Eigen::MatrixXd& a, Eigen::MatrixXd& b) {

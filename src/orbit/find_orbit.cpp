@@ -72,7 +72,7 @@ bool cut_in_half(const Model& model, Orbit& orbit, const Symmetry& symmetry) {
     const std::size_t mode = orbit.signature[0].mode, count = orbit.segments() / 2 + 1;
     if (orbit.segments() % 2 == 0 || symmetry.modes[mode] != mode)
         return false;
-    double left = 0.5 * std::accumulate(orbit.durations.begin(), orbit.durations.end(), 0.0);
+    double left = 0.5 * orbit.round();
     orbit.signature.resize(count);
     orbit.starts.resize(count);
     orbit.durations.resize(count);
@@ -134,12 +134,9 @@ std::optional<Orbit> half_orbit(const Model& model, const Orbit& orbit, double t
     const CompiledModel compiled(model);
     std::vector<double> periods(model.states.size()), work(compiled.workspace());
     compiled.periods().evaluate(orbit.parameters, periods, work);
-    std::vector<Expression> inputs = model.state_symbols();
-    const auto parameters = model.parameter_symbols();
-    inputs.insert(inputs.end(), parameters.begin(), parameters.end());
     for (std::size_t index = 0; index < model.symmetries.size(); ++index) {
         const Symmetry& symmetry = model.symmetries[index];
-        const Function map(inputs, model.expand(symmetry.map));
+        const Function map = symmetry_map(model, index);
         const auto image = [&](std::vector<double> state) {
             state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
             return map(state);

@@ -1,4 +1,5 @@
 #include "orbit/certify.hpp"
+#include "orbit/eigen_index.hpp"
 #include "orbit/product_eigenvalues.hpp"
 
 #include <Eigen/Dense>
@@ -8,10 +9,6 @@
 namespace graze {
 
 namespace {
-
-Eigen::Index index(std::size_t i) {
-    return static_cast<Eigen::Index>(i);
-}
 
 /// Derivatives of the start of the next piece with respect to that of this one, where the end condition and not the
 /// time says when it ends (saltation: Aizerman and Gantmakher 1958). Empty when the condition is met without speed.

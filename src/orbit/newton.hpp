@@ -5,6 +5,8 @@
 
 namespace graze {
 
+/// How orbits are integrated. @param tolerance raised to the smallest that makes sense
+SimulationOptions integration(double tolerance);
 /// Newton's method for a shooting problem without free parameters. The equations are left evaluated at `unknowns`.
 OrbitOutcome solve_shooting(Shooting& shooting, Eigen::VectorXd& unknowns, const OrbitOptions& options,
                             std::size_t& iterations, std::string& detail);

@@ -1,6 +1,5 @@
 #include "graze/orbit/orbit.hpp"
 
-#include "graze/symbolic/function.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "orbit/close_at_section.hpp"
 
@@ -13,31 +12,41 @@
 
 namespace graze {
 
+double Orbit::round() const {
+    return std::accumulate(durations.begin(), durations.end(), 0.0);
+}
+
 double Orbit::period() const {
-    return std::accumulate(durations.begin(), durations.end(), 0.0) * (symmetry ? 2 : 1);
+    return round() * (symmetry ? 2 : 1);
 }
 
 namespace {
 
-/// The symmetry's map, of states followed by parameters.
-Function map_of(const Model& model, std::size_t symmetry) {
+/// What functions of a state are functions of: states, then parameters.
+std::vector<Expression> inputs_of(const Model& model) {
     std::vector<Expression> inputs = model.state_symbols();
     const auto parameters = model.parameter_symbols();
     inputs.insert(inputs.end(), parameters.begin(), parameters.end());
-    return {inputs, model.expand(model.symmetries[symmetry].map)};
+    return inputs;
 }
+
+} // namespace
+
+Function symmetry_map(const Model& model, std::size_t symmetry) {
+    return {inputs_of(model), model.expand(model.symmetries[symmetry].map)};
+}
+
+namespace {
 
 /// The image of a segment that an event ends: in the image of its mode, the transition whose event function is the
 /// image of its own, which is judged by values at states of the orbit.
 std::size_t image_of_transition(const Model& model, const Function& symmetry, std::size_t mode, std::size_t transition,
                                 const Orbit& orbit) {
-    const auto inputs_of = [&](std::vector<double> state) {
+    const auto at = [&](std::vector<double> state) {
         state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
         return state;
     };
-    std::vector<Expression> symbols = model.state_symbols();
-    const auto parameters = model.parameter_symbols();
-    symbols.insert(symbols.end(), parameters.begin(), parameters.end());
+    const std::vector<Expression> symbols = inputs_of(model);
     const auto function_of = [&](std::size_t index) {
         const Expression expanded = model.expand(model.events[model.transitions[index].event].function);
         return Function(symbols, std::span(&expanded, 1));
@@ -55,7 +64,7 @@ std::size_t image_of_transition(const Model& model, const Function& symmetry, st
                 std::vector<double> state = start;
                 for (std::size_t i = 0; i < state.size(); ++i)
                     state[i] += displacement * (1 + std::abs(state[i])) / static_cast<double>(i + 2);
-                const double value = own(inputs_of(state))[0], image = other(inputs_of(symmetry(inputs_of(state))))[0];
+                const double value = own(at(state))[0], image = other(at(symmetry(at(state))))[0];
                 same = same && std::isfinite(value) == std::isfinite(image);
                 if (std::isfinite(value) && std::isfinite(image)) {
                     size = std::max({size, std::abs(value), std::abs(image)});
@@ -77,7 +86,7 @@ Segment image_of(const Model& model, std::size_t symmetry, const Segment& segmen
     Segment image = segment;
     image.mode = model.symmetries[symmetry].modes[segment.mode];
     if (segment.end == SegmentEnd::event)
-        image.index = image_of_transition(model, map_of(model, symmetry), image.mode, segment.index, orbit);
+        image.index = image_of_transition(model, symmetry_map(model, symmetry), image.mode, segment.index, orbit);
     return image;
 }
 
@@ -90,7 +99,7 @@ Orbit whole_orbit(const Model& model, const Orbit& orbit) {
         if (auto whole = close_at_section(model, orbit.parameters, orbit.starts.front(), last.mode, orbit.period(),
                                           model.sections[last.index].name, std::nullopt))
             return *whole;
-    const Function map = map_of(model, *orbit.symmetry);
+    const Function map = symmetry_map(model, *orbit.symmetry);
     Orbit whole = orbit;
     whole.symmetry.reset();
     for (std::size_t k = 0; k < orbit.segments(); ++k) {

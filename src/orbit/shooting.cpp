@@ -1,6 +1,7 @@
 #include "orbit/shooting.hpp"
 
 #include "graze/symbolic/transform.hpp"
+#include "orbit/eigen_index.hpp"
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -16,10 +17,6 @@ namespace {
 /// Growth of derivatives over one piece above which a segment is split.
 constexpr double most_growth = 1e3;
 constexpr std::size_t most_splits = 64;
-
-Eigen::Index index(std::size_t i) {
-    return static_cast<Eigen::Index>(i);
-}
 
 } // namespace
 

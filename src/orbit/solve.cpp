@@ -20,13 +20,13 @@ double largest(const Eigen::VectorXd& step, const Eigen::VectorXd& scales) {
     return step.cwiseQuotient(scales).cwiseAbs().maxCoeff();
 }
 
+} // namespace
+
 SimulationOptions integration(double tolerance) {
     SimulationOptions options;
     options.tolerance = std::max(tolerance, smallest_tolerance);
     return options;
 }
-
-} // namespace
 
 void OrbitOptions::validate() const {
     if (!(tolerance >= smallest_tolerance && tolerance <= largest_tolerance))

@@ -34,10 +34,10 @@ public:
     void update(const std::string& run, std::size_t done, std::size_t all) {
         if (first_ == 0)
             first_ = done;
-        const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-        const double left =
-            elapsed * static_cast<double>(all - done) / static_cast<double>(std::max<std::size_t>(done - first_, 1));
         show([&] {
+            const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+            const double left = elapsed * static_cast<double>(all - done) /
+                                static_cast<double>(std::max<std::size_t>(done - first_, 1));
             return fmt::format("{}: {} of {} points, {:.0f} %, {:.0f} s left", run, done, all,
                                100.0 * static_cast<double>(done) / static_cast<double>(all), left);
         });

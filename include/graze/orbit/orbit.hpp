@@ -2,6 +2,7 @@
 
 #include "graze/model/model.hpp"
 #include "graze/orbit/signature.hpp"
+#include "graze/symbolic/function.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -21,9 +22,14 @@ struct Orbit {
     std::optional<std::size_t> symmetry;
 
     std::size_t segments() const { return signature.size(); }
+    /// Sum of the durations: time after which the start, or its image, comes again.
+    double round() const;
     /// Time after which everything repeats: twice the sum of durations for a half orbit.
     double period() const;
 };
+
+/// The map of a symmetry, of states followed by parameters.
+Function symmetry_map(const Model& model, std::size_t symmetry);
 
 /// The whole of an orbit that is given by its half: segments of the second half are images of those of the first.
 /// Others are returned as they are.
