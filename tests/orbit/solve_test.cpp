@@ -173,9 +173,6 @@ TEST(SolveOrbit, microactuator_without_impacts_holds_the_frame) {
     EXPECT_EQ(solution.multipliers.size(), 2u);
     // Dissipation alone: the product of multipliers is that of the damping.
     EXPECT_NEAR(std::abs(solution.multipliers[0] * solution.multipliers[1]), std::exp(-0.04 * pi / 0.9189), 1e-10);
-    // The same orbit from event to event.
-    Orbit turning = solution.orbit;
-    const Simulation simulation(model);
     EXPECT_EQ(to_string(model, parse_signature(model, "{J5}")), "J5");
 }
 
