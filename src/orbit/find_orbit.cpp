@@ -5,6 +5,7 @@
 #include "orbit/arc_flow.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/close_at_section.hpp"
+#include "orbit/shooting.hpp"
 
 #include <fmt/format.h>
 
@@ -44,19 +45,16 @@ private:
     double last_ = 0;
 };
 
-double distance(std::span<const double> a, std::span<const double> b, std::span<const double> periods,
-                const Model& model) {
+/// The largest difference of two states, in units of how far each state goes along the orbit.
+double distance(std::span<const double> a, std::span<const double> b, const Shooting& shooting) {
     double result = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        if (model.states[i].drifting)
+        if (shooting.model().states[i].drifting)
             continue;
-        double difference = a[i] - b[i], size = std::max(std::abs(a[i]), std::abs(b[i]));
-        if (periods[i] > 0) {
-            difference -= std::round(difference / periods[i]) * periods[i];
-            size = periods[i];
-        }
-        if (difference != 0)
-            result = std::max(result, std::abs(difference) / size);
+        double difference = a[i] - b[i];
+        if (const double period = shooting.periods()[i]; period > 0)
+            difference -= std::round(difference / period) * period;
+        result = std::max(result, std::abs(difference) / shooting.scales()[static_cast<Eigen::Index>(i)]);
     }
     return result;
 }
@@ -128,43 +126,54 @@ FollowedMotion follow_motion(const Simulation& simulation, std::span<const doubl
     return motion;
 }
 
+namespace {
+
+/// Whether the second half of an orbit's segments is the image of the first.
+bool repeats_as_image(const Orbit& orbit, const Symmetry& symmetry, const Function& map, const Shooting& shooting,
+                      double tolerance) {
+    const std::size_t half = orbit.segments() / 2;
+    if (orbit.segments() % 2 != 0)
+        return false;
+    for (std::size_t k = 0; k < half; ++k) {
+        std::vector<double> state = orbit.starts[k + half];
+        state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
+        if (symmetry.modes[orbit.signature[k].mode] != orbit.signature[k + half].mode ||
+            orbit.signature[k].end != orbit.signature[k + half].end ||
+            (orbit.signature[k].end == SegmentEnd::section &&
+             orbit.signature[k].index != orbit.signature[k + half].index) ||
+            std::abs(orbit.durations[k] - orbit.durations[k + half]) > tolerance * orbit.period() ||
+            distance(map(state), orbit.starts[k], shooting) > tolerance)
+            return false;
+    }
+    return true;
+}
+
+} // namespace
+
 std::optional<Orbit> half_orbit(const Model& model, const Orbit& orbit, double tolerance) {
     if (model.symmetries.empty() || orbit.symmetry)
         return std::nullopt;
-    const CompiledModel compiled(model);
-    std::vector<double> periods(model.states.size()), work(compiled.workspace());
-    compiled.periods().evaluate(orbit.parameters, periods, work);
+    const Simulation simulation(model);
+    const Shooting shooting(simulation, orbit, {});
     for (std::size_t index = 0; index < model.symmetries.size(); ++index) {
         const Symmetry& symmetry = model.symmetries[index];
         const Function map = symmetry_map(model, index);
-        const auto image = [&](std::vector<double> state) {
-            state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
-            return map(state);
-        };
         Orbit half = orbit;
         half.symmetry = index;
-        const std::size_t count = orbit.segments();
-        if (is_smooth(orbit)) {
-            if (cut_in_half(model, half, symmetry) &&
-                distance(image(half.starts.back()), orbit.starts[0], periods, model) < tolerance) {
+        if (repeats_as_image(orbit, symmetry, map, shooting, tolerance)) {
+            half.signature.resize(orbit.segments() / 2);
+            half.starts.resize(orbit.segments() / 2);
+            half.durations.resize(orbit.segments() / 2);
+            return half;
+        }
+        if (is_smooth(orbit) && cut_in_half(model, half, symmetry)) {
+            std::vector<double> state = half.starts.back();
+            state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
+            if (distance(map(state), orbit.starts[0], shooting) < tolerance) {
                 half.starts.pop_back();
                 return half;
             }
-            continue;
         }
-        if (count % 2 != 0)
-            continue;
-        bool same = true;
-        for (std::size_t k = 0; k < count / 2 && same; ++k)
-            same = symmetry.modes[orbit.signature[k].mode] == orbit.signature[k + count / 2].mode &&
-                   std::abs(orbit.durations[k] - orbit.durations[k + count / 2]) < tolerance * orbit.period() &&
-                   distance(image(orbit.starts[k + count / 2]), orbit.starts[k], periods, model) < tolerance;
-        if (!same)
-            continue;
-        half.signature.resize(count / 2);
-        half.starts.resize(count / 2);
-        half.durations.resize(count / 2);
-        return half;
     }
     return std::nullopt;
 }

@@ -52,6 +52,12 @@ std::size_t image_of_transition(const Model& model, const Function& symmetry, st
         return Function(symbols, std::span(&expanded, 1));
     };
     const Function own = function_of(transition);
+    std::vector<double> sizes(model.states.size(), 0.0);
+    for (const std::vector<double>& start : orbit.starts)
+        for (std::size_t i = 0; i < start.size(); ++i)
+            sizes[i] = std::max(sizes[i], std::abs(start[i]));
+    for (double& size : sizes)
+        size = size > 0 ? size : 1;
     for (std::size_t candidate = 0; candidate < model.transitions.size(); ++candidate) {
         if (model.transitions[candidate].mode != mode)
             continue;
@@ -63,7 +69,7 @@ std::size_t image_of_transition(const Model& model, const Function& symmetry, st
             for (const double displacement : {0.0, 0.37, -0.61}) {
                 std::vector<double> state = start;
                 for (std::size_t i = 0; i < state.size(); ++i)
-                    state[i] += displacement * (1 + std::abs(state[i])) / static_cast<double>(i + 2);
+                    state[i] += displacement * sizes[i] / static_cast<double>(i + 2);
                 const double value = own(at(state))[0], image = other(at(symmetry(at(state))))[0];
                 same = same && std::isfinite(value) == std::isfinite(image);
                 if (std::isfinite(value) && std::isfinite(image)) {

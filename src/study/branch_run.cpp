@@ -37,33 +37,28 @@ auto at_place(const Place& place, const StudyRun& run, const Work& work) {
     }
 }
 
-/// A candidate with the signature that is asked for: the first motion from the initial state that has it.
-Orbit guess_with_signature(const StudyRun& run) {
+/// An orbit with the signature that is asked for. None when interrupted.
+std::optional<Orbit> orbit_asked_for(const StudyRun& run, const RunnerOptions& options) {
     const Signature wanted = parse_signature(run.model, run.branch.signature, run.branch.signature_place);
-    const Simulation simulation(run.model, {}, {}, run.simulation);
-    constexpr double first_time = 1e-6, longest_time = 1e9;
-    for (double time = first_time; time < longest_time; time *= 4) {
-        const FollowedMotion motion = follow_motion(simulation, run.model.parameter_values(), run.model.initial_state(),
-                                                    run.model.initial_mode, time);
-        for (std::size_t first = 0; first + wanted.size() <= motion.segments.size(); ++first)
-            if (std::equal(wanted.begin(), wanted.end(),
-                           motion.segments.begin() + static_cast<std::ptrdiff_t>(first))) {
-                const auto from = static_cast<std::ptrdiff_t>(first),
-                           to = from + static_cast<std::ptrdiff_t>(wanted.size());
-                return {wanted,
-                        run.model.parameter_values(),
-                        {motion.starts.begin() + from, motion.starts.begin() + to},
-                        {motion.durations.begin() + from, motion.durations.begin() + to},
-                        std::nullopt};
-            }
-        constexpr std::size_t enough = 1000;
-        if (!motion.problem.empty() || motion.segments.size() > enough + wanted.size())
-            break;
-    }
-    throw InputError(
-        run.branch.signature_place,
-        fmt::format("the motion from the initial state does not have the signature '{}'", run.branch.signature),
-        "begin elsewhere by `from` and `mode`, or give a table of the motion");
+    SignatureSearchOptions search;
+    search.unphysical = !run.branch.settings.stop_when_unphysical;
+    search.interrupted = options.interrupted;
+    const auto solution = at_place(run.branch.signature_place, run, [&] {
+        return orbit_with_signature(run.model, wanted, run.branch.settings.orbit, run.simulation, search);
+    });
+    return solution ? std::optional(solution->orbit) : std::nullopt;
+}
+
+/// A candidate from a table: given by its half if it leads to an orbit that is its own image.
+Orbit orbit_of_table(const StudyRun& run) {
+    const Orbit candidate = read_orbit_table(run.model, run.branch.table, run.branch.signature);
+    if (run.model.symmetries.empty())
+        return candidate;
+    return at_place(run.place, run, [&] {
+        const OrbitSolution solution = solve_orbit(run.model, candidate, run.branch.settings.orbit);
+        const bool converged = solution.outcome == OrbitOutcome::converged;
+        return (converged ? half_orbit(run.model, solution.orbit) : std::nullopt).value_or(candidate);
+    });
 }
 
 /// What simulation settles on, from the model's initial state.
@@ -156,7 +151,9 @@ std::vector<Part> parts_from_orbit(const StudyRun& run, const StudyRun& parent, 
     return parts;
 }
 
-std::vector<Part> parts_of(const Study& study, const StudyRun& run, const ResultFile& file) {
+/// @return none when interrupted
+std::vector<Part> parts_of(const Study& study, const StudyRun& run, const ResultFile& file,
+                           const RunnerOptions& options) {
     const BranchRequest& branch = run.branch;
     if (run.start) {
         const StudyRun& parent = run_named(study, run.start->run);
@@ -166,9 +163,11 @@ std::vector<Part> parts_of(const Study& study, const StudyRun& run, const Result
         return both_directions(run, settled(run, model_at(run, parent, point)).orbit);
     }
     if (!branch.table.empty())
-        return both_directions(run, read_orbit_table(run.model, branch.table, branch.signature));
-    if (!branch.signature.empty())
-        return both_directions(run, guess_with_signature(run));
+        return both_directions(run, orbit_of_table(run));
+    if (!branch.signature.empty()) {
+        const auto orbit = orbit_asked_for(run, options);
+        return orbit ? both_directions(run, *orbit) : std::vector<Part>();
+    }
     return both_directions(run, settled(run, run.model).orbit);
 }
 
@@ -282,8 +281,11 @@ std::optional<BranchOutcome> follow_part(const StudyRun& run, const Part& part, 
     return branch.outcome();
 }
 
-bool compute_orbit(const Study& study, const StudyRun& run, const ResultFile& file, PointWriter& writer) {
-    const std::vector<Part> parts = parts_of(study, run, file);
+bool compute_orbit(const Study& study, const StudyRun& run, const ResultFile& file, const RunnerOptions& options,
+                   PointWriter& writer) {
+    const std::vector<Part> parts = parts_of(study, run, file, options);
+    if (parts.empty())
+        return false;
     const Part& part = parts.front();
     SpecialPoint point;
     point.type = PointType::end;
@@ -360,8 +362,11 @@ bool run_branch(const Study& study, const StudyRun& run, ResultFile& file, const
     PointWriter writer(run, file, options, report);
     report.points = 0;
     if (run.kind == RunKind::orbit)
-        return compute_orbit(study, run, file, writer);
-    for (const Part& part : parts_of(study, run, file)) {
+        return compute_orbit(study, run, file, options, writer);
+    const std::vector<Part> parts = parts_of(study, run, file, options);
+    if (parts.empty())
+        return false;
+    for (const Part& part : parts) {
         const auto outcome = follow_part(run, part, writer, options);
         if (!outcome)
             return false;

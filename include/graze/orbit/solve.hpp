@@ -6,6 +6,7 @@
 #include "graze/trajectory/simulation.hpp"
 
 #include <complex>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -62,6 +63,24 @@ OrbitSolution solve_orbit(const Model& model, const Orbit& candidate, const Orbi
 ///         it does instead
 OrbitSolution find_orbit(const Model& model, const AttractorOptions& settle, const OrbitOptions& options = {},
                          const SimulationOptions& simulation = {});
+
+struct SignatureSearchOptions {
+    std::size_t steps = 1'000'000; ///< of the motion that is followed
+    std::size_t segments = 2000;   ///< of it that are looked at
+    std::size_t trials = 20;       ///< pieces of it from which Newton's method is begun
+    bool unphysical = false;       ///< an orbit that is not admissible will do
+    std::function<bool()> interrupted;
+};
+
+/// An orbit with a signature: the motion from the model's initial state is followed, and each piece of it with these
+/// segments is a first guess, until one leads to an admissible orbit. Transitions that change nothing, and sections,
+/// count if the signature names them. Given by its half if it is its own image under a symmetry of the model.
+/// @return not converged when no piece has led to an orbit: then its orbit is the first guess; none when interrupted
+/// @throws InputError when the motion has no such piece, or all that was found is not admissible
+std::optional<OrbitSolution> orbit_with_signature(const Model& model, const Signature& signature,
+                                                  const OrbitOptions& options = {},
+                                                  const SimulationOptions& simulation = {},
+                                                  const SignatureSearchOptions& search = {});
 
 /// The half of an orbit that is its own image under a symmetry of the model, or none if it is not.
 std::optional<Orbit> half_orbit(const Model& model, const Orbit& orbit, double tolerance = 1e-6);

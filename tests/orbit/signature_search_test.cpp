@@ -1,0 +1,100 @@
+// Orbits that are asked for by their signature, and their symmetry.
+
+#include "graze/model/catalogue.hpp"
+#include "graze/model/model_file.hpp"
+#include "graze/orbit/solve.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace graze {
+namespace {
+
+std::string refusal(const Model& model, const std::string& signature, const SignatureSearchOptions& search = {}) {
+    try {
+        orbit_with_signature(model, parse_signature(model, signature), {}, {}, search);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(OrbitWithSignature, transitions_that_change_nothing_and_sections_count_where_they_are_named) {
+    Model model = load_model("impact-microactuator");
+    model.set_parameter("V", 0.2);
+    OrbitSolution at_section;
+    for (const char* signature : {"J5", "phase0", "longest", "J5 phase0"}) {
+        const auto found = orbit_with_signature(model, parse_signature(model, signature));
+        ASSERT_TRUE(found) << signature;
+        ASSERT_EQ(found->outcome, OrbitOutcome::converged) << signature << ' ' << found->detail;
+        EXPECT_EQ(to_string(model, found->orbit.signature), signature);
+        EXPECT_TRUE(found->certificate.admissible) << found->certificate.reason;
+        if (at_section.orbit.starts.empty())
+            at_section = *found;
+        EXPECT_NEAR(found->orbit.period(), at_section.orbit.period(), 1e-9);
+        ASSERT_EQ(found->multipliers.size(), at_section.multipliers.size());
+        EXPECT_NEAR(std::abs(found->multipliers[0]), std::abs(at_section.multipliers[0]), 1e-9);
+    }
+}
+
+TEST(OrbitWithSignature, work_is_bounded_and_can_be_interrupted) {
+    Model model = load_model("impact-microactuator");
+    model.set_parameter("V", 0.2); // no impacts
+    SignatureSearchOptions search;
+    search.steps = 20000;
+    EXPECT_NE(refusal(model, "J1 J8", search).find("does not have the signature 'J1 J8'"), std::string::npos);
+    search.steps = 100'000'000;
+    int asked = 0;
+    search.interrupted = [&] { return ++asked > 20; };
+    EXPECT_FALSE(orbit_with_signature(model, parse_signature(model, "J1 J8"), {}, {}, search));
+}
+
+Model lorenz(double r) {
+    return parse_model("[parameters]\ns = 10\nb = \"8/3\"\nr = " + std::to_string(r) + R"toml(
+[states]
+x = 50
+y = 50
+z = 349
+[modes.m]
+rates = { x = "s*(y - x)", y = "r*x - y - x*z", z = "x*y - b*z" }
+[sections.level]
+function = "z - r + 1"
+direction = "rising"
+[sections.side]
+function = "x"
+direction = "rising"
+[symmetries.mirror]
+map = { x = "-x", y = "-y" }
+)toml",
+                       "lorenz.toml");
+}
+
+TEST(OrbitWithSignature, is_given_by_its_half_where_it_is_its_own_image) {
+    Model model = lorenz(350);
+    double period = 0;
+    for (const char* signature : {"level^2", "side"}) {
+        const auto found = orbit_with_signature(model, parse_signature(model, signature));
+        ASSERT_TRUE(found);
+        ASSERT_EQ(found->outcome, OrbitOutcome::converged) << found->detail;
+        ASSERT_TRUE(found->orbit.symmetry) << signature;
+        EXPECT_EQ(found->orbit.segments(), 1U);
+        if (period > 0)
+            EXPECT_NEAR(found->orbit.period(), period, 1e-11);
+        period = found->orbit.period();
+        for (std::size_t i = 0; i < 3; ++i)
+            model.set_initial(model.states[i].name, found->orbit.starts[0][i]);
+        // The whole is the same orbit: contraction of volume is known.
+        const OrbitSolution whole = solve_orbit(model, whole_orbit(model, found->orbit));
+        ASSERT_EQ(whole.outcome, OrbitOutcome::converged) << whole.detail;
+        EXPECT_NEAR(whole.orbit.period(), period, 1e-11);
+        EXPECT_NEAR(std::abs(whole.multipliers[0] - found->multipliers[0]), 0, 1e-8);
+        EXPECT_NEAR(std::abs(whole.multipliers[0] * whole.multipliers[1]) / std::exp(-(10 + 1 + 8.0 / 3) * period), 1,
+                    1e-8);
+    }
+}
+
+} // namespace
+} // namespace graze
