@@ -13,6 +13,8 @@ namespace {
 /// Enough to separate eigenvalues whose moduli differ by a factor of six.
 constexpr int sweeps = 16;
 constexpr double separated = 1e-13;
+/// What a factor takes to this share of its size or less it takes to zero, as a jump that sets a speed to zero does.
+constexpr double round_off = 4e-16;
 
 } // namespace
 
@@ -41,7 +43,10 @@ std::vector<std::complex<double>> product_eigenvalues(const std::vector<Eigen::M
         const Eigen::Index size = end - begin;
         Eigen::MatrixXd block = Eigen::MatrixXd::Identity(size, size);
         double exponent = 0;
+        bool vanishes = false;
         for (const Eigen::MatrixXd& triangle : triangles) {
+            vanishes = vanishes || (size == 1 && std::abs(triangle(begin, begin)) <=
+                                                     round_off * static_cast<double>(n) * triangle.norm());
             block = triangle.block(begin, begin, size, size) * block;
             const double norm = block.norm();
             if (norm > 0 && std::isfinite(norm)) {
@@ -50,7 +55,7 @@ std::vector<std::complex<double>> product_eigenvalues(const std::vector<Eigen::M
             }
         }
         block = turn.block(begin, begin, size, size) * block;
-        const double factor = std::exp(exponent);
+        const double factor = vanishes ? 0 : std::exp(exponent);
         if (!block.allFinite() || !std::isfinite(factor)) {
             result.insert(result.end(), static_cast<std::size_t>(size), std::numeric_limits<double>::infinity());
         } else {

@@ -20,10 +20,13 @@ constexpr std::size_t most_splits = 64;
 
 } // namespace
 
-Shooting::Shooting(const Simulation& simulation, const Orbit& orbit, std::vector<std::size_t> free)
+Shooting::Shooting(const Simulation& simulation, const Orbit& orbit, std::vector<std::size_t> free,
+                   std::vector<double> ranges)
     : simulation_(&simulation), signature_(orbit.signature), symmetry_(orbit.symmetry), free_(std::move(free)),
       n_(simulation.compiled().states()), flow_(simulation, free_), system_(n_, free_.size()),
-      parameters_(orbit.parameters), periods_(n_), reference_(orbit.starts.front()), state_scales_(n_) {
+      parameters_(orbit.parameters), periods_(n_), reference_(orbit.starts.front()), state_scales_(n_),
+      ranges_(std::move(ranges)) {
+    ranges_.resize(free_.size(), 0.0);
     validate_orbit(simulation.model(), orbit);
     inputs_.resize(n_ + parameters_.size());
     compile_ends();
@@ -32,7 +35,11 @@ Shooting::Shooting(const Simulation& simulation, const Orbit& orbit, std::vector
     split(orbit);
     system_.resize(pieces_.size());
     largest_parameters_.resize(free_.size());
-    set_scales(unknowns_of(orbit));
+    effects_.assign(free_.size(), 0.0);
+    const Eigen::VectorXd unknowns = unknowns_of(orbit);
+    set_scales(unknowns);
+    if (!free_.empty() && evaluate(unknowns)) // only now is known what the parameters do
+        set_scales(unknowns);
 }
 
 Function Shooting::with_gradient(const Expression& expression) const {
@@ -218,14 +225,23 @@ void Shooting::set_scales(const Eigen::VectorXd& unknowns) {
         std::copy(chosen.begin(), chosen.end(), scales_.data() + start_of(k));
     for (std::size_t k = 0; k < pieces_.size(); ++k)
         scales_[index(duration_of(k))] = time > 0 ? time : 1;
-    for (std::size_t f = 0; f < free_.size(); ++f) {
-        // Near zero a parameter says nothing of its own size.
-        constexpr double smallest = 1e-2;
-        const double usual = std::abs(model().parameter_values()[free_[f]]);
-        double& largest = largest_parameters_[f];
-        largest = std::max({largest, std::abs(unknowns[index(place_of_parameter(f))]), smallest * usual});
-        scales_[index(place_of_parameter(f))] = largest > 0 ? largest : 1;
-    }
+    for (std::size_t f = 0; f < free_.size(); ++f)
+        scales_[index(place_of_parameter(f))] = parameter_scale(f, unknowns[index(place_of_parameter(f))]);
+}
+
+/// Near zero a parameter says nothing of its own size. What is said instead by the range in which it is looked at must
+/// agree with what it does to the orbit: the one may be given without thought, the other may be nothing.
+double Shooting::parameter_scale(std::size_t f, double value) {
+    constexpr double smallest = 1e-2, nothing = 1e-12;
+    const double usual = std::abs(model().parameter_values()[free_[f]]);
+    double& largest = largest_parameters_[f];
+    largest = std::max({largest, std::abs(value), smallest * usual});
+    double scale = largest;
+    if (effects_[f] > nothing && ranges_[f] == 0 && usual == 0)
+        scale = std::max(scale, smallest / effects_[f]);
+    if (effects_[f] > 0 && ranges_[f] > 0)
+        scale = std::max(scale, smallest * std::min(ranges_[f], 1 / effects_[f]));
+    return scale > 0 && std::isfinite(scale) ? scale : 1;
 }
 
 void Shooting::set_parameters(const Eigen::VectorXd& unknowns) {
@@ -352,6 +368,11 @@ void Shooting::assemble(const Eigen::VectorXd& unknowns) {
     const auto n = index(n_), q = index(free_.size());
     const Eigen::VectorXd state_scales = scales_.head(n), parameter_scales = scales_.tail(q);
     neutral_.assign(n_, true);
+    effects_.assign(free_.size(), 0.0);
+    const auto note_effects = [&](const Eigen::MatrixXd& changes) {
+        for (std::size_t f = 0; f < free_.size(); ++f)
+            effects_[f] = std::max(effects_[f], changes.col(index(f)).cwiseAbs().maxCoeff());
+    };
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
         const Piece& piece = pieces_[k];
         CyclicSystem::Block& block = system_.block(k);
@@ -369,11 +390,13 @@ void Shooting::assemble(const Eigen::VectorXd& unknowns) {
             Eigen::RowVectorXd row(n + 1 + q);
             row.head(n) = gradient * piece.flow.leftCols(n) * state_scales.asDiagonal();
             row[n] = gradient.dot(piece.field) * time_scale;
-            row.tail(q) = (gradient * piece.flow.rightCols(q) + piece.condition.tail(q).transpose()) *
-                          parameter_scales.asDiagonal();
+            const Eigen::RowVectorXd by_parameter =
+                gradient * piece.flow.rightCols(q) + piece.condition.tail(q).transpose();
+            row.tail(q) = by_parameter * parameter_scales.asDiagonal();
             // Event functions have units of their own: measured by how much they change along the scales.
             const double size = gradient.cwiseAbs() * state_scales;
             const double unit = size > 0 ? size : 1;
+            note_effects(Eigen::MatrixXd(by_parameter / unit));
             block.own.row(0) = row.head(n + 1) / unit;
             block.parameters.row(0) = row.tail(q) / unit;
             block.right[0] = -piece.condition_value / unit;
@@ -400,6 +423,7 @@ void Shooting::assemble(const Eigen::VectorXd& unknowns) {
             neutral_[i] = neutral_[i] && unchanged;
         }
         const Eigen::VectorXd units = state_scales.cwiseInverse();
+        note_effects(Eigen::MatrixXd(units.asDiagonal() * by_parameters));
         block.own.block(1, 0, n, n) = -(units.asDiagonal() * by_start * state_scales.asDiagonal());
         block.own.block(1, n, n, 1) = -units.cwiseProduct(by_time) * time_scale;
         block.parameters.bottomRows(n) = -(units.asDiagonal() * by_parameters * parameter_scales.asDiagonal());
@@ -459,6 +483,14 @@ Eigen::RowVectorXd Shooting::row_at_end(std::size_t k, const Eigen::VectorXd& gr
 double Shooting::rate_at_end(std::size_t segment) const {
     const Piece& piece = pieces_[last_piece(segment)];
     return piece.condition.head(index(n_)).dot(piece.field);
+}
+
+double Shooting::usual_rate(std::size_t segment) const {
+    const std::size_t k = last_piece(segment);
+    double change = 0;
+    for (const std::size_t i : active_)
+        change += std::abs(pieces_[k].condition[index(i)]) * scales_[index(i)];
+    return change / scales_[index(duration_of(k))];
 }
 
 } // namespace graze

@@ -15,6 +15,9 @@
 
 namespace graze {
 
+/// Rates of end conditions below this share of their usual size are round-off.
+inline constexpr double least_rate = 1e-11;
+
 /// The equations of a periodic orbit, by multiple shooting: each piece of a segment flows from its start x_k for a time
 /// T_k (whatever events it passes) onto the surface that ends it, and the jump takes it to the start of the next. Long
 /// or expanding segments are split into several pieces, of which all but the last have a fixed duration.
@@ -26,7 +29,9 @@ class Shooting {
 public:
     /// @param simulation whose model the orbit belongs to; must outlive this
     /// @param free parameters that are unknown
-    Shooting(const Simulation& simulation, const Orbit& orbit, std::vector<std::size_t> free);
+    /// @param ranges in which they are looked at, where that is known; 0 where it is not
+    Shooting(const Simulation& simulation, const Orbit& orbit, std::vector<std::size_t> free,
+             std::vector<double> ranges = {});
 
     const Model& model() const { return simulation_->model(); }
     std::size_t states() const { return n_; }
@@ -44,7 +49,8 @@ public:
     Eigen::VectorXd unknowns_of(const Orbit& orbit);
     Orbit orbit_of(const Eigen::VectorXd& unknowns) const;
     /// Sizes of the unknowns, by which residuals and steps are measured: extents of the states along the orbit, the
-    /// period, the parameters. Those of the parameters never shrink, those of the states only so far.
+    /// period, the parameters. Those of the parameters never shrink, those of the states only so far. A parameter that
+    /// is small or zero is measured by what it does to the orbit.
     const Eigen::VectorXd& scales() const { return scales_; }
     void set_scales(const Eigen::VectorXd& unknowns);
 
@@ -84,6 +90,8 @@ public:
     Eigen::RowVectorXd row_at_end(std::size_t piece, const Eigen::VectorXd& gradient) const;
     /// The rate at which the end condition of a segment changes along the flow at its end: the negative approach speed.
     double rate_at_end(std::size_t segment) const;
+    /// Size of such rates: how much the end condition changes along the scales of the states, in the time of the orbit.
+    double usual_rate(std::size_t segment) const;
     /// States that are neither drifting nor unchanged by everything.
     const std::vector<std::size_t>& active() const { return active_; }
     ArcFlow& flow() { return flow_; }
@@ -108,6 +116,7 @@ private:
     void assemble(const Eigen::VectorXd& unknowns);
     void pin(const Eigen::VectorXd& unknowns);
     void set_parameters(const Eigen::VectorXd& unknowns);
+    double parameter_scale(std::size_t f, double value);
     void clear_remnants(Eigen::VectorXd& unknowns) const;
 
     const Simulation* simulation_;
@@ -128,6 +137,8 @@ private:
     StateScales state_scales_;
     Eigen::VectorXd scales_;
     std::vector<double> largest_parameters_; ///< of the free ones, since the beginning
+    std::vector<double> ranges_;             ///< of the free ones, 0 where not known
+    std::vector<double> effects_;            ///< of the free ones on the equations, in units of the states' scales
     std::vector<bool> neutral_;              ///< states that every piece leaves exactly as they are
     std::vector<std::size_t> active_;
     Eigen::VectorXd evaluated_; ///< where the equations have been evaluated last; empty: nowhere
