@@ -2,6 +2,7 @@
 
 #include "orbit/certify.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,17 +12,28 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-/// Product over pairs of multipliers of mu_i mu_j - 1, which vanishes where two of them are inverse to one another.
-double torus_test(const std::vector<std::complex<double>>& multipliers) {
-    if (multipliers.size() < 2)
-        return nothing;
+/// Signs of less are round-off: of a parameter's share in the direction of a branch, of the product of a pair of
+/// multipliers less one.
+constexpr double least_rise = 1e-8, least_growth = 1e-9;
+
+/// Product over pairs of multipliers of mu_i mu_j - 1, which vanishes where two of them are inverse to one another: on
+/// whole branches of conservative models.
+void add_torus_test(const std::vector<std::complex<double>>& multipliers, std::vector<BranchTest>& tests) {
+    BranchTest test{PointType::torus, 0, 0, nothing, 0, false, 0, std::nullopt, 0};
     std::complex<double> product = 1;
+    double smallest = 1, others = 1;
     for (std::size_t i = 0; i < multipliers.size(); ++i)
         for (std::size_t j = i + 1; j < multipliers.size(); ++j) {
-            const std::complex<double> both = multipliers[i] * multipliers[j];
-            product *= (both - 1.0) / (1 + std::abs(both));
+            const std::complex<double> both = multipliers[i] * multipliers[j],
+                                       factor = (both - 1.0) / (1 + std::abs(both));
+            product *= factor;
+            others *= std::max(std::abs(factor), smallest);
+            smallest = std::min(std::abs(factor), smallest);
         }
-    return product.real();
+    if (multipliers.size() >= 2 && std::isfinite(product.real()))
+        test.value = product.real();
+    test.noise = least_growth * others;
+    tests.push_back(test);
 }
 
 void add_arc_tests(const Shooting& shooting, const Certificate& certificate, std::vector<BranchTest>& tests) {
@@ -33,6 +45,7 @@ void add_arc_tests(const Shooting& shooting, const Certificate& certificate, std
             for (const OrbitMinimum& minimum : certificate.minima)
                 if (minimum.segment == s && minimum.event == test.event && !(minimum.value >= test.value)) {
                     test.value = minimum.value;
+                    test.noise = smallest_clearance * minimum.size;
                     test.time = minimum.time;
                 }
             tests.push_back(test);
@@ -79,14 +92,15 @@ std::vector<BranchTest> branch_tests(const Shooting& shooting, const OrbitSoluti
     add(PointType::bound, settings.least ? parameter - *settings.least : nothing);
     add(PointType::bound, settings.greatest ? *settings.greatest - parameter : nothing);
     // Where monitors are held, the parameter may turn although no multiplier is 1.
-    add(PointType::fold,
-        settings.free.empty() ? tangent[shooting.place_of_parameter(0)] : shooting.system().periodic_determinant());
+    const std::size_t place = shooting.place_of_parameter(0);
+    add(PointType::fold, settings.free.empty() ? tangent[place] : shooting.system().periodic_determinant());
+    tests.back().noise = settings.free.empty() ? least_rise * shooting.scales()[static_cast<Eigen::Index>(place)]
+                                               : shooting.system().periodic_noise();
     // The half of a symmetric orbit that changes into its image loses the symmetry instead of doubling its period.
     add(shooting.symmetry() ? PointType::branch_point : PointType::flip, shooting.system().antiperiodic_determinant());
     add(PointType::branch_point, determinant);
     tests.back().singular = true;
-    add(PointType::torus,
-        torus_test(solution.half_multipliers.empty() ? solution.multipliers : solution.half_multipliers));
+    add_torus_test(solution.half_multipliers.empty() ? solution.multipliers : solution.half_multipliers, tests);
     const Certificate& certificate = solution.certificate;
     for (std::size_t s = 0; s < shooting.signature().size(); ++s) {
         const Segment& segment = shooting.signature()[s];
@@ -94,6 +108,7 @@ std::vector<BranchTest> branch_tests(const Shooting& shooting, const OrbitSoluti
         const std::size_t index = event ? shooting.model().transitions[segment.index].event : 0;
         tests.push_back({PointType::grazing, s, index, event ? certificate.approach_speeds[s] : nothing,
                          solution.orbit.durations[s], true, 0, std::nullopt, 0});
+        tests.back().noise = least_rate * shooting.usual_rate(s);
         add(PointType::vanishing, solution.orbit.durations[s], s, index);
         const double margin = certificate.guard_margins[s];
         add(PointType::guard, std::isfinite(margin) ? margin : nothing, s, index);

@@ -21,6 +21,7 @@ struct BranchTest {
     std::optional<std::size_t> monitor;
     std::size_t crossing = 0;
     bool singular = false; ///< the equations cannot be solved where it is zero
+    double noise = 0;      ///< up to which its sign says nothing, since on whole branches it may be zero
 };
 
 /// All of them at a point, always in the same order for one signature.

@@ -35,7 +35,7 @@ std::vector<SpecialPoint> PointLocator::locate_all(const BranchPoint& before, co
     std::stable_sort(found.begin(), found.end(),
                      [](const SpecialPoint& a, const SpecialPoint& b) { return a.arclength < b.arclength; });
     merge(found, length);
-    drop_crossings_of_nothing(found, length);
+    drop_crossings_of_nothing(*state_, found, length);
     drop_folds_of_return(*state_, found, length);
     state_->problem().evaluate(state_->continuation().point().u);
     return found;
@@ -55,8 +55,11 @@ void PointLocator::accept_limit(SpecialPoint& special, bool was_admissible) cons
 std::vector<std::pair<TestValue, TestValue>> PointLocator::brackets_of(std::size_t test, double before) {
     const TestValue low{0, before}, high{1, (*tests_)[test].value};
     const bool grazing = (*tests_)[test].type == PointType::grazing;
-    const bool appeared = grazing && std::isnan(low.value) && high.value < 0;
-    const bool vanished = grazing && std::isnan(high.value) && low.value < 0;
+    const double noise = (*tests_)[test].noise;
+    const bool appeared = grazing && std::isnan(low.value) && high.value < -noise;
+    const bool vanished = grazing && std::isnan(high.value) && low.value < -noise;
+    if (std::abs(low.value) <= noise && std::abs(high.value) <= noise && noise > 0)
+        return {};
     if (low.value * high.value < 0 || appeared || vanished || (high.value == 0 && low.value != 0))
         return {{low, high}};
     if (older_.size() != tests_->size() || !(low.value * high.value > 0))

@@ -98,12 +98,10 @@ bool is_what_it_seems(BranchState& state, SpecialPoint& special, const BranchTes
     }
 }
 
-bool is_degenerate(BranchState& state, const SpecialPoint& special) {
+bool is_degenerate(BranchState& state, const Orbit& orbit, double same) {
     const Model& model = state.model();
-    if (special.type != PointType::branch_point || state.problem().shooting().symmetry())
+    if (orbit.symmetry)
         return false;
-    constexpr double same = 1e-3;
-    const Orbit& orbit = special.solution.orbit;
     if (half_orbit(model, orbit, same))
         return true;
     const std::size_t half = orbit.segments() / 2;
@@ -118,6 +116,11 @@ bool is_degenerate(BranchState& state, const SpecialPoint& special) {
                 return false;
     }
     return true;
+}
+
+bool is_degenerate(BranchState& state, const SpecialPoint& special) {
+    constexpr double same = 1e-3;
+    return special.type == PointType::branch_point && is_degenerate(state, special.solution.orbit, same);
 }
 
 void merge(std::vector<SpecialPoint>& found, double length) {
@@ -137,14 +140,33 @@ void merge(std::vector<SpecialPoint>& found, double length) {
         }
 }
 
-void drop_crossings_of_nothing(std::vector<SpecialPoint>& found, double length) {
+namespace {
+
+/// Whether the equations are singular at a point of the last step, as they are where a contact vanishes by taking no
+/// time: known from their determinant there, against those at the ends of the step.
+bool is_singular_at(BranchState& state, const SpecialPoint& point) {
+    constexpr double zero = 1e-3; // share of what it is at the ends
+    Continuation& continuation = state.continuation();
+    const double from = state.arclength(continuation.previous().arclength),
+                 length = state.arclength(continuation.point().arclength) - from;
+    const double usual =
+        std::max(std::abs(continuation.previous().determinant), std::abs(continuation.point().determinant));
+    ContinuationPoint there;
+    return !continuation.between((point.arclength - from) / length, there) ||
+           std::abs(there.determinant) < zero * usual;
+}
+
+} // namespace
+
+void drop_crossings_of_nothing(BranchState& state, std::vector<SpecialPoint>& found, double length) {
     constexpr double near = 0.05; // share of the step: determinants are ill-conditioned there
     const std::vector<SpecialPoint> all = found;
     std::erase_if(found, [&](const SpecialPoint& one) {
         return one.type == PointType::branch_point && std::any_of(all.begin(), all.end(), [&](const auto& other) {
                    const bool contact_ends =
                        other.type == PointType::vanishing || (other.type == PointType::grazing && other.at_end);
-                   return contact_ends && std::abs(one.arclength - other.arclength) < near * length;
+                   return contact_ends && std::abs(one.arclength - other.arclength) < near * length &&
+                          is_singular_at(state, other);
                });
     });
 }

@@ -15,8 +15,10 @@ int rank(const SpecialPoint& point);
 /// Whether a located zero means what its test stands for; puts it into words.
 bool is_what_it_seems(BranchState& state, SpecialPoint& special, const BranchTest& test);
 
-/// Whether an orbit is that of a shorter period several times over, or one of its symmetry: where a branch of less
-/// regular orbits comes back to the one that it left.
+/// Whether an orbit is that of half the period twice over, or its own image under a symmetry.
+/// @param same differences below this, in units of the scales, do not count
+bool is_degenerate(BranchState& state, const Orbit& orbit, double same);
+/// Whether that is so at a branch point: there a branch of less regular orbits comes back to the one that it left.
 bool is_degenerate(BranchState& state, const SpecialPoint& special);
 
 /// Of several points at the same place that are consequences of one another, only the first in rank is kept.
@@ -24,8 +26,8 @@ bool is_degenerate(BranchState& state, const SpecialPoint& special);
 void merge(std::vector<SpecialPoint>& found, double length);
 
 /// Where a contact vanishes, the orbit meets those on which it takes no time at all: solutions of the equations, but no
-/// branch of orbits.
-void drop_crossings_of_nothing(std::vector<SpecialPoint>& found, double length);
+/// branch of orbits. A crossing near such a point is dropped if the equations are singular at that point itself.
+void drop_crossings_of_nothing(BranchState& state, std::vector<SpecialPoint>& found, double length);
 
 /// Where a branch comes back to the one that it left, the parameter turns: no fold of its own.
 void drop_folds_of_return(BranchState& state, std::vector<SpecialPoint>& found, double length);

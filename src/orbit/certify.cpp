@@ -23,7 +23,8 @@ public:
         : shooting_(&shooting), segment_(segment),
           mode_(&shooting.simulation().compiled().mode(shooting.signature()[segment].mode)), roots_(&roots),
           order_(static_cast<std::size_t>(shooting.simulation().order())), sizes_(mode_->watched.size(), 0.0),
-          falls_(mode_->watched.size(), std::numeric_limits<double>::infinity()), starts_(mode_->watched.size(), 0.0) {
+          falls_(mode_->watched.size(), std::numeric_limits<double>::infinity()), starts_(mode_->watched.size(), 0.0),
+          lowest_(mode_->watched.size(), std::numeric_limits<double>::infinity()), lows_(mode_->watched.size(), 0.0) {
         const CompiledModel& compiled = shooting.simulation().compiled();
         for (std::size_t w = 0; w < mode_->watched.size(); ++w)
             harmless_.push_back(is_harmless(compiled, mode_->transitions[w]));
@@ -46,7 +47,10 @@ public:
             const bool first = begin + time == 0;
             if (first)
                 starts_[w] = coefficients_[0];
+            lowest_[w] = std::min(lowest_[w], evaluate_polynomial(coefficients_, std::abs(length)));
             const bool on_surface_here = first && std::abs(coefficients_[0]) <= on_surface * size;
+            if (first)
+                lows_[w] = on_surface_here ? 0 : coefficients_[0];
             look_for_extrema(w, begin + time, length, on_surface_here ? size : 0);
             if (std::isinf(falls_[w])) {
                 Root root;
@@ -71,14 +75,23 @@ public:
             const double late = std::abs(duration) * 1e-9;
             if (event.kind == EventKind::barrier && starts_[w] < -zero)
                 return fmt::format("segment {} begins beyond event '{}'", segment_ + 1, event.name);
-            if (falls_[w] < duration - late)
+            // What only touches the surface, as an orbit that is held there, does so on either side of it.
+            const bool beyond = lowest_[w] < -smallest_clearance * sizes_[w];
+            if (falls_[w] < duration - late && beyond)
                 return fmt::format("event '{}' comes within segment {}", event.name, segment_ + 1);
             if (!is_own(w) && event.kind == EventKind::barrier && ends[w] < -zero)
                 return fmt::format("segment {} ends beyond event '{}'", segment_ + 1, event.name);
         }
         return {};
     }
-    const std::vector<OrbitMinimum>& minima() const { return minima_; }
+    std::vector<OrbitMinimum> minima() const {
+        std::vector<OrbitMinimum> result = minima_;
+        for (OrbitMinimum& minimum : result)
+            for (std::size_t w = 0; w < mode_->watched.size(); ++w)
+                if (mode_->watched[w] == minimum.event)
+                    minimum.size = sizes_[w];
+        return result;
+    }
     bool is_own(std::size_t w) const {
         const Segment& segment = shooting_->signature()[segment_];
         return segment.end == SegmentEnd::event && mode_->transitions[w] == segment.index;
@@ -99,11 +112,17 @@ private:
             if (!minimum && !is_section)
                 continue;
             const double value = evaluate_polynomial(coefficients_, root.at);
+            if (minimum) {
+                lowest_[w] = std::min(lowest_[w], value);
+                lows_[w] = value;
+            } else if (!(lows_[w] < 0)) {
+                continue; // on the side on which only least values matter
+            }
             // A motion that leaves the surface without speed, as at the end of sticking, has its minimum at the start.
             constexpr double at_start = 1e-4;
             if (root.at <= at_start * reach && std::abs(value) <= on_surface * begins_on_surface)
                 continue;
-            minima_.push_back({segment_, mode_->watched[w], time + sign * root.at, minimum ? value : -value});
+            minima_.push_back({segment_, mode_->watched[w], time + sign * root.at, minimum ? value : -value, 0});
         }
     }
 
@@ -112,7 +131,8 @@ private:
     const CompiledModel::CompiledMode* mode_;
     RootFinder* roots_;
     std::size_t order_;
-    std::vector<double> sizes_, falls_, starts_, coefficients_, derivative_;
+    std::vector<double> sizes_, falls_, starts_, lowest_, coefficients_, derivative_;
+    std::vector<double> lows_; ///< least value since the last greatest one, or at the start
     std::vector<bool> harmless_;
     std::vector<Root> found_;
     std::vector<OrbitMinimum> minima_;
@@ -190,7 +210,8 @@ Certificate certify(Shooting& shooting, const Eigen::VectorXd& unknowns) {
             certificate.end_values.push_back({s, mode.watched[w], values[w], rate});
         }
         object(watcher.verdict(begin, values));
-        certificate.minima.insert(certificate.minima.end(), watcher.minima().begin(), watcher.minima().end());
+        for (const OrbitMinimum& minimum : watcher.minima())
+            certificate.minima.push_back(minimum);
         const double rate = shooting.rate_at_end(s);
         if (segment.end == SegmentEnd::section) {
             certificate.approach_speeds.push_back(std::abs(rate));

@@ -92,6 +92,14 @@ double CyclicSystem::antiperiodic_determinant() const {
     return sign_ * (final_.leftCols(n) - final_.middleCols(n, n)).determinant();
 }
 
+double CyclicSystem::periodic_noise() const {
+    constexpr double round_off = 1e-9; // of derivatives, which are integrated
+    const Eigen::Index n = index(n_);
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(final_.leftCols(n) + final_.middleCols(n, n));
+    const Eigen::VectorXd& values = svd.singularValues();
+    return n == 0 ? 0 : round_off * values[0] * values.head(n - 1).prod();
+}
+
 CyclicSystem::Condensed CyclicSystem::condense(const Eigen::MatrixXd& borders, const Eigen::VectorXd& right,
                                                bool homogeneous) const {
     const Eigen::Index n = index(n_), q = index(q_);

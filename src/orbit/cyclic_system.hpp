@@ -40,6 +40,8 @@ public:
     /// zero where one is -1. To be called after `factor`.
     double periodic_determinant() const;
     double antiperiodic_determinant() const;
+    /// Value of the periodic one below which its sign is round-off.
+    double periodic_noise() const;
 
     /// Solves with q further equations. Unknowns are (x_0, T_0, x_1, T_1, ..., p).
     /// @param borders q x unknowns(); @param right of them

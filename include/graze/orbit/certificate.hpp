@@ -12,7 +12,12 @@ struct OrbitMinimum {
     std::size_t segment = 0, event = 0;
     double time = 0; ///< since the segment's start
     double value = 0;
+    double size = 0; ///< of the function along the arc, by which round-off is to be measured
 };
+
+/// Least value of an event function, as a share of its size, that round-off and the accuracy of an orbit cannot tell
+/// from zero.
+inline constexpr double smallest_clearance = 1e-11;
 
 /// Value of a watched event's function, which is not the segment's own, at its end.
 struct EndValue {
