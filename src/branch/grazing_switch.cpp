@@ -7,6 +7,7 @@
 #include "orbit/arc_flow.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/close_at_section.hpp"
+#include "orbit/drift.hpp"
 #include "orbit/eigen_index.hpp"
 #include "orbit/newton.hpp"
 
@@ -210,6 +211,7 @@ BranchStart with_one_more_contact(const Model& model, const SpecialPoint& point,
                                   : followed_after_contact(simulation, point, state, *mode, last, why);
             if (!orbit)
                 continue;
+            join_drifts(simulation, *orbit);
             const std::vector<double> direction = meet_at_speed(simulation, *orbit, rate, speed, settings);
             if (!direction.empty() && is_admissible(simulation, *orbit, why))
                 return {*orbit, direction, 0, fmt::format("with one more contact at '{}'", name)};

@@ -14,6 +14,9 @@ namespace graze {
 
 namespace {
 
+/// Differences that a solution and its repetition, or its image, may have by round-off, in units of the scales.
+constexpr double same_orbit = 1e-6;
+
 bool is_among(PointType type, const std::vector<PointType>& types) {
     return std::find(types.begin(), types.end(), type) != types.end();
 }
@@ -79,7 +82,7 @@ public:
         if (direction.size() != u.size())
             throw InputError("the direction does not fit the orbit", "give as many numbers as there are unknowns");
         if (distance != 0)
-            return begin(state_.continuation().start_along(u, direction, distance));
+            return start_on_other(u, direction, distance);
         return begin(state_.continuation().start_at(u, state_.problem().row_of(direction)));
     }
 
@@ -118,6 +121,49 @@ public:
     std::string detail;
 
 private:
+    /// Newton's method may come back to the branch that is to be left: then it is asked again, nearer and farther off.
+    bool start_on_other(const std::vector<double>& u, const std::vector<double>& direction, double distance) {
+        constexpr double factors[] = {1, 0.1, 4, 0.01};
+        const bool regular = is_degenerate(state_, candidate_, same_orbit);
+        bool came_back = false;
+        for (const double factor : factors) {
+            if (!state_.continuation().start_along(u, direction, factor * distance))
+                continue;
+            const bool is_old = regular ? is_degenerate(state_, orbit_here(), 0.01 * std::abs(factor * distance))
+                                        : bends_back(u, direction, factor * distance);
+            if (!is_old)
+                return begin(true);
+            came_back = true;
+        }
+        begin(false);
+        if (came_back)
+            detail = "Newton's method comes back to the branch that was to be left";
+        return false;
+    }
+    Orbit orbit_here() {
+        return state_.problem().shooting().orbit_of(OrbitProblem::vector_of(state_.continuation().point().u));
+    }
+    double distance_from(const std::vector<double>& u) {
+        double sum = 0;
+        for (std::size_t i = 0; i < u.size(); ++i) {
+            const double one = (state_.continuation().point().u[i] - u[i]) / state_.problem().scales()[i];
+            sum += one * one;
+        }
+        return std::sqrt(sum);
+    }
+    /// Whether the point that has been found lies on the branch that is left, which bends towards the other one's
+    /// direction: going there it is far off, by the root of the distance. What crosses is far off in proportion.
+    bool bends_back(const std::vector<double>& u, const std::vector<double>& direction, double distance) {
+        constexpr double far = 5, nearer = 0.25, between_root_and_proportion = 0.36;
+        const double off = distance_from(u);
+        if (off < far * std::abs(distance))
+            return false;
+        Continuation& continuation = state_.continuation();
+        const bool bends = continuation.start_along(u, direction, nearer * distance) &&
+                           distance_from(u) > between_root_and_proportion * off;
+        return bends || !continuation.start_along(u, direction, distance);
+    }
+
     void describe_here() { state_.describe(state_.continuation().point(), point, tests_); }
 
     bool begin(bool begun) {

@@ -5,6 +5,7 @@
 #include "branch/reordering.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "orbit/certify.hpp"
+#include "orbit/drift.hpp"
 #include "orbit/newton.hpp"
 
 #include <fmt/format.h>
@@ -29,9 +30,10 @@ Orbit twice(const Orbit& orbit) {
 }
 
 /// Both ways along the null vector of an orbit's equations that is orthogonal to a row.
-std::vector<BranchStart> both_ways(const Model& model, const Orbit& orbit, const BranchSettings& settings,
+std::vector<BranchStart> both_ways(const Model& model, Orbit orbit, const BranchSettings& settings,
                                    const std::vector<double>& along, const std::string& how, bool second) {
     const Simulation simulation(model, {}, {}, integration(settings.orbit.tolerance));
+    join_drifts(simulation, orbit);
     OrbitProblem problem(simulation, orbit, settings.parameter);
     Shooting& shooting = problem.shooting();
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(problem.unknowns()));

@@ -1,0 +1,119 @@
+// Models in which a state drifts: where it is does not matter, so that nothing that does may change.
+
+#include "follow.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+/// An impact oscillator that a frame carries along: how far and how fast does not act back on it.
+Model carried_oscillator(double zeta, double e, double drift, double by_place, double by_speed, double by_impact) {
+    return model_from(fmt::format(R"toml(
+[parameters]
+zeta = {:.17g}
+omega = 2.4
+sigma = 0.02
+e = {:.17g}
+[states]
+x = -1
+v = 0
+theta = {{ initial = 0, period = "2*pi" }}
+s = {{ initial = 3, drifting = true }}
+[modes.free]
+rates = {{ x = "v", v = "cos(theta) - 2*zeta*v - x", theta = "omega", s = "{:.17g} + {:.17g}*x + {:.17g}*v^2" }}
+watch = ["stop"]
+[events]
+stop = "sigma - x"
+[jumps.impact]
+v = "-e*v"
+s = "s + {:.17g}*v"
+[[transitions]]
+mode = "free"
+event = "stop"
+label = "impact"
+jump = "impact"
+next = "free"
+[sections.phase0]
+state = "theta"
+value = 0
+)toml",
+                                  zeta, e, drift, by_place, by_speed, by_impact));
+}
+
+/// The branch of doubled orbits from the first flip as the stop is moved away.
+Branch doubled(const Model& model, SpecialPoint& flip) {
+    BranchSettings settings;
+    settings.parameter = parameter_place(model, "sigma");
+    settings.least = -1;
+    settings.greatest = 1;
+    settings.stop_at = {PointType::flip};
+    const Branch branch = follow_branch(model, settled(model, "phase0", 400).orbit, settings);
+    if (branch.special.empty() || branch.special.back().type != PointType::flip)
+        return {};
+    flip = branch.special.back();
+    settings.stop_at = {PointType::flip, PointType::fold};
+    settings.steps = 60;
+    return follow(model, branches_at(model, flip, settings).at(0), settings);
+}
+
+TEST(Drifting, orbits_of_twice_the_period_are_those_without_the_drift) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> coefficient(-1, 1), damping(0.04, 0.06), restitution(0.68, 0.72),
+        decades(-3, 3);
+    for (int trial = 0; trial < 6; ++trial) {
+        const double zeta = damping(random), e = restitution(random), size = std::pow(10, decades(random));
+        SpecialPoint flip, plain_flip;
+        const Branch plain = doubled(carried_oscillator(zeta, e, 0, 0, 0, 0), plain_flip);
+        const Branch branch =
+            doubled(carried_oscillator(zeta, e, size * coefficient(random), size * coefficient(random),
+                                       size * coefficient(random), size * coefficient(random)),
+                    flip);
+        ASSERT_GT(plain.points.size(), 5U);
+        ASSERT_GT(branch.points.size(), 5U) << name_of(branch.outcome) << ' ' << branch.detail;
+        EXPECT_NEAR(flip.parameter, plain_flip.parameter, 1e-11);
+        EXPECT_NE(branch.outcome, BranchOutcome::returned) << branch.detail;
+        ASSERT_EQ(names(branch), names(plain));
+        for (std::size_t i = 0; i < branch.special.size(); ++i)
+            EXPECT_NEAR(branch.special[i].parameter, plain.special[i].parameter, 1e-10);
+        // It leaves the flip, and impacts are alternately hard and soft.
+        for (std::size_t k = 1; k < branch.points.size(); ++k) {
+            const Orbit& orbit = branch.points[k].solution.orbit;
+            ASSERT_EQ(orbit.segments(), 2U);
+            EXPECT_GT(std::abs(orbit.starts[0][1] - orbit.starts[1][1]), 1e-3) << k;
+        }
+        EXPECT_EQ(branch.points.back().solution.multipliers.size(), 2U);
+    }
+}
+
+TEST(Drifting, the_microactuator_goes_on_from_the_flip_with_one_impact) {
+    Model model = load_model("impact-microactuator");
+    model.set_parameter("V", 0.2);
+    BranchSettings settings;
+    settings.parameter = parameter_place(model, "V");
+    settings.stop_at = {PointType::grazing};
+    const Branch none = follow_branch(model, settled(model, "phase0").orbit, settings);
+    ASSERT_EQ(none.outcome, BranchOutcome::stopped) << names(none);
+    settings.stop_at = {PointType::flip};
+    const Branch one = follow(model, branches_at(model, none.special.back(), settings).at(0), settings);
+    ASSERT_EQ(one.outcome, BranchOutcome::stopped) << names(one);
+    EXPECT_NEAR(one.special.back().parameter, 0.85823, 5e-6);
+    settings.stop_at = {};
+    settings.steps = 40;
+    const Branch two = follow(model, branches_at(model, one.special.back(), settings).at(0), settings);
+    ASSERT_GT(two.points.size(), 10U) << two.detail;
+    EXPECT_NE(two.outcome, BranchOutcome::returned);
+    EXPECT_EQ(to_string(model, two.points[1].solution.orbit.signature), "(J8 J1)^2");
+    for (std::size_t k = 1; k < 10; ++k) {
+        const Orbit& orbit = two.points[k].solution.orbit;
+        EXPECT_GT(std::abs(orbit.durations[0] - orbit.durations[2]), 1e-4);
+    }
+}
+
+} // namespace
+} // namespace graze
