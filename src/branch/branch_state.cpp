@@ -46,7 +46,7 @@ void BranchState::hold(const Orbit& candidate) {
 }
 
 void BranchState::make_problem(const Orbit& orbit) {
-    problem_ = std::make_unique<OrbitProblem>(simulation_, orbit, settings_.parameter, settings_.free,
+    problem_ = std::make_unique<OrbitProblem>(simulation_, orbit, settings_,
                                               settings_.free.empty() ? nullptr : monitors_.get());
     continuation_ = std::make_unique<Continuation>(*problem_, settings_.continuation);
 }

@@ -149,21 +149,33 @@ bool Continuation::start(std::span<const double> u, std::size_t unknown, int dir
     if (!problem_->evaluate(point.u))
         return false;
     outcome_ = ContinuationOutcome::no_convergence;
-    if (!correct(point.u, row, far, point.iterations))
+    // Where the branch does not move in the unknown, round-off would decide at which of its points that is held.
+    if (stands_still(point, unknown) || !correct(point.u, row, far, point.iterations))
         return start_across(u, unknown, direction);
     outcome_ = ContinuationOutcome::singular;
     row[unknown] = (direction < 0 ? -1 : 1) / problem_->scales()[unknown];
     return find_tangent(point, row) && begin(std::move(point));
 }
 
+/// A row that is hardly orthogonal to any direction that comes from a problem.
+std::vector<double> Continuation::any_row() const {
+    std::vector<double> row(problem_->unknowns());
+    for (std::size_t i = 0; i < row.size(); ++i)
+        row[i] = std::cos(2.4 * static_cast<double>(i)) / problem_->scales()[i];
+    return row;
+}
+
+bool Continuation::stands_still(ContinuationPoint point, std::size_t unknown) {
+    constexpr double still = 1e-7;
+    return problem_->evaluate(point.u) && find_tangent(point, any_row()) &&
+           std::abs(point.tangent[unknown]) < still * problem_->scales()[unknown];
+}
+
 /// The same where the unknown cannot be held since the branch turns there: held across the branch instead.
 bool Continuation::start_across(std::span<const double> u, std::size_t unknown, int direction) {
     ContinuationPoint point;
     point.u.assign(u.begin(), u.end());
-    std::vector<double> row(u.size());
-    for (std::size_t i = 0; i < u.size(); ++i) // hardly orthogonal to any direction that comes from a problem
-        row[i] = std::cos(2.4 * static_cast<double>(i)) / problem_->scales()[i];
-    if (!problem_->evaluate(point.u) || !find_tangent(point, row))
+    if (!problem_->evaluate(point.u) || !find_tangent(point, any_row()))
         return false;
     std::vector<double> across;
     weigh(point.tangent, across);
@@ -171,7 +183,8 @@ bool Continuation::start_across(std::span<const double> u, std::size_t unknown, 
     if (!correct(point.u, across, near, point.iterations) || !problem_->evaluate(point.u))
         return false;
     outcome_ = ContinuationOutcome::singular;
-    if (point.tangent[unknown] * direction < 0)
+    const double rise = point.tangent[unknown] * direction;
+    if (rise < 0 || (rise == 0 && direction < 0)) // where the branch does not move in it, the two ways are opposite
         for (double& entry : across)
             entry = -entry;
     return find_tangent(point, across) && begin(std::move(point));

@@ -1,14 +1,16 @@
 #pragma once
 
+#include "branch/monitor_function.hpp"
 #include "graze/branch/continuation.hpp"
 #include "graze/branch/monitor.hpp"
+#include "graze/branch/orbit_branch.hpp"
 #include "orbit/shooting.hpp"
 
 #include <Eigen/Core>
 
 #include <cmath>
 #include <cstddef>
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,9 +22,9 @@ class OrbitProblem : public ContinuationProblem {
 public:
     OrbitProblem(const Simulation& simulation, const Orbit& orbit, std::size_t parameter)
         : shooting_(simulation, orbit, {parameter}) {}
-    /// @param monitors those that are fixed count, and say at which value; must outlive this; may be null
-    OrbitProblem(const Simulation& simulation, const Orbit& orbit, std::size_t parameter,
-                 const std::vector<std::size_t>& free, OrbitMonitors* monitors);
+    /// @param monitors those that are fixed count, and say at which value; may be null
+    OrbitProblem(const Simulation& simulation, const Orbit& orbit, const BranchSettings& settings,
+                 const OrbitMonitors* monitors);
 
     Shooting& shooting() { return shooting_; }
     const Shooting& shooting() const { return shooting_; }
@@ -61,15 +63,12 @@ public:
 private:
     /// A monitor that is held, and the value at which it is.
     struct Held {
-        std::size_t monitor;
         double value;
-        std::optional<Function> at_end; ///< with its gradient, where that is known
+        std::unique_ptr<MonitorFunction> function;
     };
     bool evaluate_held(const Eigen::VectorXd& u);
-    Eigen::RowVectorXd row_by_differences(std::size_t monitor, const Eigen::VectorXd& u);
 
     Shooting shooting_;
-    OrbitMonitors* monitors_ = nullptr;
     std::vector<Held> held_;
     Eigen::MatrixXd rows_;      ///< gradients of the monitors that are held
     Eigen::VectorXd residuals_; ///< how far they are off

@@ -116,6 +116,8 @@ private:
     bool correct(std::vector<double>& u, std::span<const double> row, double allowed, std::size_t& iterations);
     bool find_tangent(ContinuationPoint& point, std::span<const double> row);
     bool begin(ContinuationPoint point);
+    std::vector<double> any_row() const;
+    bool stands_still(ContinuationPoint point, std::size_t unknown);
     bool start_across(std::span<const double> u, std::size_t unknown, int direction);
     bool closes();
     void weigh(std::span<const double> direction, std::vector<double>& row) const;

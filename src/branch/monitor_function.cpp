@@ -1,0 +1,247 @@
+#include "branch/monitor_function.hpp"
+
+#include "graze/symbolic/transform.hpp"
+#include "orbit/eigen_index.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+/// Nodes and weights of Gauss's rule with eight points on [0, 1].
+constexpr std::array<std::pair<double, double>, 8> gauss{{{0.019855071751231884, 0.05061426814518813},
+                                                          {0.10166676129318664, 0.11119051722668724},
+                                                          {0.2372337950418355, 0.15685332293894363},
+                                                          {0.4082826787521751, 0.1813418916891810},
+                                                          {0.5917173212478249, 0.1813418916891810},
+                                                          {0.7627662049581645, 0.15685332293894363},
+                                                          {0.8983332387068134, 0.11119051722668724},
+                                                          {0.9801449282487681, 0.05061426814518813}}};
+
+/// The monitor's expression and, for the second half of a symmetric orbit, the same of the image.
+std::vector<Expression> expressions_of(const Shooting& shooting, const Monitor& monitor, bool whole) {
+    const Model& model = shooting.model();
+    if (monitor.kind == Monitor::Kind::duration)
+        return {};
+    const Expression own = model.expand(monitor.kind == Monitor::Kind::norm ? monitor.expression * monitor.expression
+                                                                            : monitor.expression);
+    std::vector<Expression> result{own};
+    if (whole && shooting.symmetry()) {
+        const auto states = model.state_symbols();
+        const auto map = model.expand(model.symmetries[*shooting.symmetry()].map);
+        std::vector<Replacement> replacements;
+        for (std::size_t i = 0; i < states.size(); ++i)
+            replacements.emplace_back(states[i], map[i]);
+        result.push_back(substitute(own, replacements));
+    }
+    return result;
+}
+
+} // namespace
+
+MonitorFunction::MonitorFunction(const Shooting& shooting, const Monitor& monitor, std::optional<std::size_t> segment)
+    : kind_(monitor.kind), segment_(segment),
+      simulation_(shooting.model(), {}, expressions_of(shooting, monitor, !segment), shooting.simulation().options()),
+      flow_(simulation_, shooting.free()), roots_(simulation_.order()) {
+    for (const Expression& expression : expressions_of(shooting, monitor, !segment))
+        watched_.push_back({shooting.with_gradient(expression), watched_.size()});
+}
+
+bool MonitorFunction::evaluate(const Shooting& shooting, const Eigen::VectorXd& unknowns) {
+    gradient_ = Eigen::RowVectorXd::Zero(unknowns.size());
+    flow_.set_parameters(shooting.parameters());
+    bool defined = false;
+    switch (kind_) {
+    case Monitor::Kind::value:
+        defined = at_end(shooting);
+        break;
+    case Monitor::Kind::start:
+        defined = at_start(shooting, unknowns);
+        break;
+    case Monitor::Kind::duration:
+        defined = duration(shooting, unknowns);
+        break;
+    case Monitor::Kind::maximum:
+    case Monitor::Kind::minimum:
+        defined = extremum(shooting, unknowns);
+        break;
+    case Monitor::Kind::mean:
+    case Monitor::Kind::norm:
+        defined = mean(shooting, unknowns);
+        break;
+    }
+    return defined && std::isfinite(value_) && gradient_.allFinite();
+}
+
+std::vector<std::size_t> MonitorFunction::pieces(const Shooting& shooting) const {
+    std::vector<std::size_t> result;
+    for (std::size_t s = 0; s < shooting.signature().size(); ++s)
+        if (is_whole() || *segment_ == s)
+            for (std::size_t k = shooting.first_piece(s); k <= shooting.last_piece(s); ++k)
+                result.push_back(k);
+    return result;
+}
+
+std::vector<double> MonitorFunction::inputs(const Shooting& shooting, std::vector<double> state) const {
+    state.insert(state.end(), shooting.parameters().begin(), shooting.parameters().end());
+    return state;
+}
+
+/// With respect to states, then free parameters.
+Eigen::VectorXd MonitorFunction::gradient_at(const Watched& watched, const std::vector<double>& inputs,
+                                             double& value) const {
+    const std::vector<double> all = watched.function(inputs);
+    value = all[0];
+    return Eigen::Map<const Eigen::VectorXd>(&all[1], index(all.size() - 1));
+}
+
+bool MonitorFunction::at_end(const Shooting& shooting) {
+    const std::size_t piece = shooting.last_piece(segment_.value_or(0));
+    const Eigen::VectorXd by_all = gradient_at(watched_[0], inputs(shooting, shooting.piece(piece).end), value_);
+    gradient_ = shooting.row_at_end(piece, by_all);
+    return true;
+}
+
+bool MonitorFunction::at_start(const Shooting& shooting, const Eigen::VectorXd& unknowns) {
+    const auto n = index(shooting.states());
+    const Eigen::Index place = index(shooting.start_of(shooting.first_piece(segment_.value_or(0))));
+    const std::vector<double> state(unknowns.data() + place, unknowns.data() + place + n);
+    const Eigen::VectorXd by_all = gradient_at(watched_[0], inputs(shooting, state), value_);
+    gradient_.segment(place, n) = by_all.head(n).transpose();
+    gradient_.tail(by_all.size() - n) = by_all.tail(by_all.size() - n).transpose();
+    return true;
+}
+
+bool MonitorFunction::duration(const Shooting& shooting, const Eigen::VectorXd& unknowns) {
+    value_ = 0;
+    const double times = is_whole() && shooting.symmetry() ? 2 : 1;
+    for (const std::size_t k : pieces(shooting)) {
+        value_ += times * unknowns[index(shooting.duration_of(k))];
+        gradient_[index(shooting.duration_of(k))] = times;
+    }
+    return true;
+}
+
+std::optional<MonitorFunction::Place> MonitorFunction::find_extremum(const Shooting& shooting,
+                                                                     const Eigen::VectorXd& unknowns) {
+    const double sign = kind_ == Monitor::Kind::maximum ? 1 : -1;
+    const std::size_t n = shooting.states();
+    std::optional<Place> best;
+    std::vector<double> coefficients, derivative;
+    std::vector<Root> found;
+    for (const std::size_t k : pieces(shooting)) {
+        const auto note = [&](std::size_t watched, double time, bool at_end, double value) {
+            if (std::isfinite(value) && (!best || sign * value > sign * best->value))
+                best = Place{watched, k, time, at_end, value};
+        };
+        const double* start = unknowns.data() + shooting.start_of(k);
+        std::vector<double> state(start, start + n);
+        const std::size_t mode = shooting.signature()[shooting.piece(k).segment].mode;
+        const std::size_t events = simulation_.compiled().mode(mode).watched.size();
+        const double duration = unknowns[index(shooting.duration_of(k))];
+        flow_.run(mode, state, duration, [&](const Jet& jet, double time, double length) {
+            for (const Watched& watched : watched_) {
+                const double* series = jet.output(events + watched.series);
+                coefficients.assign(series, series + simulation_.order() + 1);
+                derivative.clear();
+                for (std::size_t i = 1; i < coefficients.size(); ++i)
+                    derivative.push_back(static_cast<double>(i) * coefficients[i]);
+                note(watched.series, time, false, coefficients[0]);
+                note(watched.series, time + length, time + length == duration,
+                     evaluate_polynomial(coefficients, length));
+                if (length < 0)
+                    continue; // of a segment that has no meaning, the ends are enough
+                roots_.crossings(derivative, length, RootStart::as_is, found);
+                for (const Root& root : found)
+                    note(watched.series, time + root.at, false, evaluate_polynomial(coefficients, root.at));
+            }
+        });
+    }
+    return best;
+}
+
+bool MonitorFunction::extremum(const Shooting& shooting, const Eigen::VectorXd& unknowns) {
+    const auto place = find_extremum(shooting, unknowns);
+    if (!place)
+        return false;
+    const auto n = index(shooting.states()), q = index(shooting.free().size());
+    const Watched& watched = watched_[place->watched];
+    if (place->at_end) { // ends with its segment, however long that takes
+        const Eigen::VectorXd by_all = gradient_at(watched, inputs(shooting, shooting.piece(place->piece).end), value_);
+        gradient_ = shooting.row_at_end(place->piece, by_all);
+        return true;
+    }
+    const double* start = unknowns.data() + shooting.start_of(place->piece);
+    std::vector<double> state(start, start + n);
+    Eigen::MatrixXd flow;
+    if (flow_.run(shooting.signature()[shooting.piece(place->piece).segment].mode, state, place->time, flow) !=
+        ArcFlow::Ending::done)
+        return false;
+    const Eigen::VectorXd by_all = gradient_at(watched, inputs(shooting, state), value_);
+    value_ = place->value;
+    const Eigen::RowVectorXd by_state = by_all.head(n).transpose();
+    gradient_.segment(index(shooting.start_of(place->piece)), n) = by_state * flow.leftCols(n);
+    gradient_.tail(q) = by_state * flow.rightCols(q) + by_all.tail(q).transpose();
+    return true;
+}
+
+/// Integrals of the function and of its changes, by Gauss's rule on each Taylor step.
+bool MonitorFunction::mean(const Shooting& shooting, const Eigen::VectorXd& unknowns) {
+    const auto n = index(shooting.states()), q = index(shooting.free().size());
+    double integral = 0, time = 0;
+    const double share = 1.0 / static_cast<double>(watched_.size());
+    for (const std::size_t k : pieces(shooting)) {
+        const double* start = unknowns.data() + shooting.start_of(k);
+        const std::size_t mode = shooting.signature()[shooting.piece(k).segment].mode;
+        const double duration = unknowns[index(shooting.duration_of(k))];
+        std::vector<double> state(start, start + n);
+        std::vector<std::pair<double, double>> steps;
+        flow_.run(mode, state, duration,
+                  [&](const Jet&, double begin, double length) { steps.emplace_back(begin, length); });
+        state.assign(start, start + n);
+        double now = 0;
+        Eigen::MatrixXd flow = Eigen::MatrixXd::Identity(n, n + q), part;
+        for (const auto& [begin, length] : steps)
+            for (const auto& [node, weight] : gauss) {
+                const double next = begin + node * length;
+                if (flow_.run(mode, state, next - now, part) != ArcFlow::Ending::done)
+                    return false;
+                now = next;
+                flow = Eigen::MatrixXd(part.leftCols(n) * flow);
+                flow.rightCols(q) += part.rightCols(q);
+                for (const Watched& watched : watched_) {
+                    double value = 0;
+                    const Eigen::VectorXd by_all = gradient_at(watched, inputs(shooting, state), value);
+                    const Eigen::RowVectorXd by_state = by_all.head(n).transpose();
+                    const double here = share * weight * length;
+                    integral += here * value;
+                    gradient_.segment(index(shooting.start_of(k)), n) += here * (by_state * flow.leftCols(n));
+                    gradient_.tail(q) += here * (by_state * flow.rightCols(q) + by_all.tail(q).transpose());
+                }
+            }
+        for (const Watched& watched : watched_) {
+            double value = 0;
+            gradient_at(watched, inputs(shooting, shooting.piece(k).end), value);
+            gradient_[index(shooting.duration_of(k))] += share * value;
+        }
+        time += duration;
+    }
+    if (time == 0)
+        return false;
+    value_ = integral / time;
+    for (const std::size_t k : pieces(shooting))
+        gradient_[index(shooting.duration_of(k))] -= value_;
+    gradient_ /= time;
+    if (kind_ == Monitor::Kind::norm) {
+        if (!(value_ > 0))
+            return false;
+        value_ = std::sqrt(value_);
+        gradient_ /= 2 * value_;
+    }
+    return true;
+}
+
+} // namespace graze

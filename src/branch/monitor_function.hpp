@@ -1,0 +1,62 @@
+#pragma once
+
+#include "graze/branch/monitor.hpp"
+#include "graze/flow/roots.hpp"
+#include "orbit/shooting.hpp"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace graze {
+
+/// A monitor as a function of the unknowns of a shooting problem, with its exact gradient: what it takes to hold it.
+/// An extremum changes as the function's value at its time does, since that is where its time does not matter; a mean
+/// as the mean of those changes.
+class MonitorFunction {
+public:
+    /// @param segment whose monitor it is; none: of the whole orbit
+    MonitorFunction(const Shooting& shooting, const Monitor& monitor, std::optional<std::size_t> segment);
+
+    /// Value and gradient, at unknowns at which the equations have been evaluated. @return false where not defined
+    bool evaluate(const Shooting& shooting, const Eigen::VectorXd& unknowns);
+    double value() const { return value_; }
+    const Eigen::RowVectorXd& gradient() const { return gradient_; }
+
+private:
+    /// An expression along the orbit: the monitor's own or, for the second half of a symmetric orbit, its image.
+    struct Watched {
+        Function function; ///< with gradient
+        std::size_t series;
+    };
+    /// Where an extremum is.
+    struct Place {
+        std::size_t watched = 0, piece = 0;
+        double time = 0; ///< since the piece's start
+        bool at_end = false;
+        double value = 0;
+    };
+    bool is_whole() const { return !segment_; }
+    std::vector<std::size_t> pieces(const Shooting& shooting) const;
+    bool at_end(const Shooting& shooting);
+    bool at_start(const Shooting& shooting, const Eigen::VectorXd& unknowns);
+    bool duration(const Shooting& shooting, const Eigen::VectorXd& unknowns);
+    bool extremum(const Shooting& shooting, const Eigen::VectorXd& unknowns);
+    std::optional<Place> find_extremum(const Shooting& shooting, const Eigen::VectorXd& unknowns);
+    bool mean(const Shooting& shooting, const Eigen::VectorXd& unknowns);
+    std::vector<double> inputs(const Shooting& shooting, std::vector<double> state) const;
+    Eigen::VectorXd gradient_at(const Watched& watched, const std::vector<double>& inputs, double& value) const;
+
+    Monitor::Kind kind_;
+    std::optional<std::size_t> segment_;
+    Simulation simulation_;
+    ArcFlow flow_;
+    RootFinder roots_;
+    std::vector<Watched> watched_;
+    double value_ = 0;
+    Eigen::RowVectorXd gradient_;
+};
+
+} // namespace graze

@@ -1,0 +1,166 @@
+// Families of orbits of conservative models, which are branches once a damping is free that then stays zero; and
+// parameters that pass through zero.
+
+#include "follow.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+constexpr double pi = std::numbers::pi;
+
+/// Period of a pendulum of length 1 under gravity 1 with an amplitude: the arithmetic-geometric mean of 1 and
+/// cos(amplitude / 2) (C. F. Gauss).
+double pendulum_period(double amplitude) {
+    double a = 1, b = std::cos(amplitude / 2);
+    for (int i = 0; i < 8; ++i) {
+        const double mean = 0.5 * (a + b);
+        b = std::sqrt(a * b);
+        a = mean;
+    }
+    return 2 * pi / a;
+}
+
+/// A pendulum in units of time and angle of its own.
+Model pendulum(double time, double angle) {
+    return model_from(fmt::format(R"toml(
+[parameters]
+damping = 0
+T = {:.17g}
+A = {:.17g}
+[states]
+phi = "1*A"
+w = 0
+[modes.swing]
+rates = {{ phi = "w", w = "-damping*w - A/T^2*sin(phi/A)" }}
+[sections.turn]
+function = "w"
+direction = "falling"
+)toml",
+                                  time, angle));
+}
+
+TEST(Conservative, pendulum_swings_up_to_the_top_in_any_units) {
+    for (const auto& [time, angle] : {std::pair{1.0, 1.0}, {1e-9, 1e-6}, {1e6, 1e9}, {1e-3, 1e9}}) {
+        const Model model = pendulum(time, angle);
+        const Orbit start{parse_signature(model, "turn"),
+                          model.parameter_values(),
+                          {{0.5 * angle, 0}},
+                          {pendulum_period(0.5) * time},
+                          {}};
+        BranchSettings settings;
+        settings.parameter = parameter_place(model, "damping");
+        settings.steps = 400;
+        settings.monitors = {
+            {"reach", "", Monitor::Kind::maximum, model.symbol("phi"), "", false, {}, {}, {}, 3.0 * angle}};
+        std::size_t reached = 0;
+        for (const int direction : {1, -1}) {
+            settings.direction = direction;
+            const Branch branch = follow_branch(model, start, settings);
+            ASSERT_GT(branch.points.size(), 10U) << name_of(branch.outcome) << ' ' << branch.detail << ' ' << time;
+            for (const BranchPoint& point : branch.points) {
+                const double amplitude = point.solution.orbit.starts[0][0] / angle;
+                EXPECT_NEAR(point.solution.orbit.period() / time, pendulum_period(amplitude),
+                            1e-9 * pendulum_period(amplitude));
+                EXPECT_LT(std::abs(point.parameter * time), 1e-11);
+            }
+            EXPECT_TRUE(of_type(branch, PointType::fold).empty()) << names(branch);
+            EXPECT_TRUE(of_type(branch, PointType::torus).empty()) << names(branch);
+            reached += of_type(branch, PointType::bound).size();
+        }
+        EXPECT_EQ(reached, 2U); // either way: at rest the one side becomes the other
+    }
+}
+
+/// Duffing's oscillator x'' = -x - x^3 - damping x', in units of its own.
+Model duffing(double time, double length, const char* more = "") {
+    return model_from(fmt::format(R"toml(
+[parameters]
+damping = 0
+T = {:.17g}
+A = {:.17g}
+push = 0
+[states]
+x = "A"
+v = 0
+[modes.m]
+rates = {{ x = "v", v = "-damping*v - (x + x^3/A^2)/T^2 + push*A/T^2" }}
+[sections.turn]
+function = "v"
+direction = "falling"
+{}
+)toml",
+                                  time, length, more));
+}
+
+TEST(Conservative, damping_stays_zero_while_amplitude_is_held_and_the_push_passes_zero) {
+    for (const auto& [time, length] : {std::pair{1.0, 1.0}, {1e-9, 1e-9}, {1e6, 1e3}}) {
+        const Model model = duffing(time, length);
+        // Energy h = x^2/2 + x^4/4 at x = 1 gives the period; Newton's method finds it from near.
+        const Orbit start{parse_signature(model, "turn"), model.parameter_values(), {{length, 0}}, {4.77 * time}, {}};
+        BranchSettings settings;
+        settings.parameter = parameter_place(model, "push");
+        settings.least = -0.4;
+        settings.greatest = 0.4;
+        settings.free = {parameter_place(model, "damping")};
+        settings.monitors = {{"reach", "", Monitor::Kind::start, model.symbol("x"), "", true, length, {}, {}, {}}};
+        double at_zero = 0;
+        for (const int direction : {1, -1}) {
+            settings.direction = direction;
+            const Branch branch = follow_branch(model, start, settings);
+            ASSERT_EQ(branch.outcome, BranchOutcome::bound) << branch.detail << ' ' << names(branch);
+            EXPECT_EQ(names(branch), "BD");
+            for (const BranchPoint& point : branch.points) {
+                EXPECT_LT(std::abs(point.solution.orbit.parameters[settings.free[0]] * time), 1e-11);
+                EXPECT_NEAR(point.solution.orbit.starts[0][0], length, 1e-11 * length);
+            }
+            // From the one end to the other, across zero.
+            Orbit end = branch.points.back().solution.orbit;
+            BranchSettings back = settings;
+            back.direction = -direction;
+            const Branch across = follow_branch(model, end, back);
+            EXPECT_EQ(across.outcome, BranchOutcome::bound) << across.detail;
+            EXPECT_EQ(across.points.back().parameter, -0.4 * direction);
+            at_zero = branch.points.front().solution.orbit.period() / time;
+            EXPECT_NEAR(at_zero, 4.768022, 1e-5);
+        }
+    }
+}
+
+TEST(Conservative, forced_oscillator_without_damping_has_no_torus_points) {
+    const Model model = model_from(R"toml(
+[parameters]
+damping = 0
+omega = 3
+force = 0.3
+[states]
+x = 0
+v = 0
+theta = { initial = 0, period = "2*pi" }
+[modes.m]
+rates = { x = "v", v = "-damping*v - x - x^3 + force*cos(theta)", theta = "omega" }
+[sections.phase0]
+state = "theta"
+value = 0
+)toml");
+    Orbit start{parse_signature(model, "phase0"), model.parameter_values(), {{0.3 / (1 - 9), 0, 0}}, {2 * pi / 3}, {}};
+    BranchSettings settings;
+    settings.parameter = parameter_place(model, "force");
+    settings.least = -0.5;
+    settings.greatest = 0.5;
+    settings.direction = -1;
+    const Branch branch = follow_branch(model, start, settings);
+    EXPECT_EQ(names(branch), "BD") << branch.detail;
+    ASSERT_FALSE(branch.points.empty());
+    EXPECT_EQ(branch.points.back().parameter, -0.5);
+    // What can be seen from either end is the same.
+    EXPECT_NEAR(branch.points.front().solution.orbit.starts[0][0], 0.3 / (1 - 9), 1e-3);
+}
+
+} // namespace
+} // namespace graze

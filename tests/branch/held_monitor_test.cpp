@@ -1,0 +1,111 @@
+// Branches along which an extremum or a mean is held, wherever on the orbit it is: curves with closed forms.
+
+#include "graze/model/named_value.hpp"
+
+#include "follow.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+Monitor held(const Model& model, Monitor::Kind kind, const std::string& expression, double value) {
+    Monitor result;
+    result.name = "held";
+    result.kind = kind;
+    result.expression = named_value(model, expression, {}).value;
+    result.fixed = true;
+    result.held = value;
+    return result;
+}
+
+/// x'' + 2 zeta x' + x = F cos(theta), with orbits that begin at a phase.
+Model linear(double phase) {
+    return model_from(fmt::format(R"toml(
+[parameters]
+zeta = 0.1
+omega = 1.7
+F = 0.8
+[states]
+x = 0
+v = 0
+theta = {{ initial = 0, period = "2*pi" }}
+[modes.all]
+rates = {{ x = "v", v = "F*cos(theta) - 2*zeta*v - x", theta = "omega" }}
+[sections.phase]
+state = "theta"
+value = {:.17g}
+)toml",
+                                  phase));
+}
+
+double response(double zeta, double omega) {
+    return 1 / std::hypot(1 - omega * omega, 2 * zeta * omega);
+}
+
+TEST(HeldMonitors, an_extremum_passes_the_end_of_the_orbit) {
+    // The phase of the response goes from 0 to pi: near resonance the maximum passes the section, at other frequencies
+    // the minimum does.
+    for (const double phase : {0.5, 0.5 * std::numbers::pi, 2.5, 4.0}) {
+        const Model model = linear(phase);
+        const Orbit orbit = settled(model, "phase").orbit;
+        for (const auto& [kind, expression, value] : {std::tuple{Monitor::Kind::maximum, "x", 0.3},
+                                                      {Monitor::Kind::minimum, "2*x", -0.6},
+                                                      {Monitor::Kind::mean, "x^2", 0.045},
+                                                      {Monitor::Kind::maximum, "-x", 0.3}}) {
+            BranchSettings settings;
+            settings.parameter = parameter_place(model, "omega");
+            settings.free = {parameter_place(model, "F")};
+            settings.direction = -1;
+            settings.least = 0.4;
+            settings.monitors = {held(model, kind, expression, value)};
+            const Branch branch = follow_branch(model, orbit, settings);
+            ASSERT_EQ(branch.outcome, BranchOutcome::bound) << branch.detail << ' ' << branch.points.size();
+            EXPECT_LT(branch.points.size(), 150U) << phase << ' ' << expression;
+            EXPECT_EQ(names(branch), "BD");
+            for (const BranchPoint& point : branch.points)
+                EXPECT_NEAR(point.solution.orbit.parameters[settings.free[0]] * response(0.1, point.parameter), 0.3,
+                            1e-9);
+        }
+    }
+}
+
+TEST(HeldMonitors, a_touch_can_be_held) {
+    // The force that just makes an oscillator touch its stop, at all frequencies.
+    Model model = load_model("impact-oscillator");
+    model.set_parameter("sigma", 0.5);
+    model.set_parameter("zeta", 0.1);
+    model.set_parameter("omega", 1.7);
+    model.set_parameter("amplitude", 0.2);
+    BranchSettings settings;
+    settings.parameter = parameter_place(model, "amplitude");
+    settings.greatest = 3;
+    const Branch up = follow_branch(model, settled(model, "phase0").orbit, settings);
+    ASSERT_EQ(names(up), "GR");
+    const Orbit& grazing = up.special[0].solution.orbit;
+    for (const int direction : {1, -1}) {
+        settings = {};
+        settings.parameter = parameter_place(model, "omega");
+        settings.free = {parameter_place(model, "amplitude")};
+        settings.direction = direction;
+        settings.least = 0.4;
+        settings.greatest = 3;
+        settings.monitors = {held(model, Monitor::Kind::maximum, "x", 0.5)};
+        const Branch branch = follow_branch(model, grazing, settings);
+        ASSERT_EQ(branch.outcome, BranchOutcome::bound) << name_of(branch.outcome) << branch.detail << names(branch);
+        EXPECT_EQ(names(branch), "BD");
+        EXPECT_LT(branch.points.size(), 150U);
+        for (const BranchPoint& point : branch.points) {
+            EXPECT_NEAR(point.solution.orbit.parameters[settings.free[0]] * response(0.1, point.parameter), 0.5, 1e-9);
+            EXPECT_TRUE(point.solution.certificate.admissible) << point.solution.certificate.reason;
+        }
+    }
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,92 @@
+// A branch does not depend on the units in which its model is written.
+
+#include "follow.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+/// An oscillator between two stops, with the counter of a machine that it drives, in units of time and length.
+Model between_stops(double time, double length) {
+    return model_from(fmt::format(R"toml(
+[parameters]
+omega = {:.17g}
+T = {:.17g}
+A = {:.17g}
+[states]
+x = 0
+v = "1.2*A/T"
+theta = {{ initial = 0, period = "2*pi" }}
+s = {{ initial = 0, drifting = true }}
+[modes.free]
+rates = {{ x = "v", v = "(2*A*cos(theta) - x)/T^2 - 0.1*v/T", theta = "omega", s = "v^2/A*T" }}
+watch = ["right", "left"]
+[events]
+right = "A - x"
+left = "A + x"
+[jumps.back]
+v = "-0.8*v"
+[[transitions]]
+mode = "free"
+event = "right"
+label = "R"
+jump = "back"
+next = "free"
+[[transitions]]
+mode = "free"
+event = "left"
+label = "L"
+jump = "back"
+next = "free"
+[sections.phase0]
+state = "theta"
+value = 0
+[symmetries.mirror]
+map = {{ x = "-x", v = "-v", theta = "theta + pi" }}
+)toml",
+                                  1.5 / time, time, length));
+}
+
+TEST(Units, do_not_matter) {
+    Branch reference;
+    for (const auto& [time, length] :
+         {std::pair{1.0, 1.0}, {1e-9, 1e-9}, {1e6, 1e6}, {1e-9, 1e6}, {1e6, 1e-12}, {1e-3, 1e-12}}) {
+        const Model model = between_stops(time, length);
+        const auto found = orbit_with_signature(model, parse_signature(model, "R L"));
+        ASSERT_TRUE(found);
+        ASSERT_EQ(found->outcome, OrbitOutcome::converged) << found->detail;
+        ASSERT_TRUE(found->orbit.symmetry) << time << ' ' << length;
+        BranchSettings settings;
+        settings.parameter = parameter_place(model, "omega");
+        settings.least = 0.3 / time;
+        settings.greatest = 6 / time;
+        settings.orbit.tolerance = 1e-13;
+        const Branch branch = follow_branch(model, found->orbit, settings);
+        ASSERT_GT(branch.points.size(), 5U);
+        if (reference.points.empty())
+            reference = branch;
+        EXPECT_EQ(branch.outcome, reference.outcome) << branch.detail;
+        ASSERT_EQ(names(branch), names(reference)) << time << ' ' << length;
+        for (std::size_t i = 0; i < branch.special.size(); ++i)
+            EXPECT_NEAR(branch.special[i].parameter * time / reference.special[i].parameter, 1, 1e-9);
+        // Whatever is found is left for the same orbits.
+        for (std::size_t i = 0; i < branch.special.size(); ++i) {
+            if (branch.special[i].type != PointType::branch_point && branch.special[i].type != PointType::flip)
+                continue;
+            settings.steps = 5;
+            const Branch other = follow(model, branches_at(model, branch.special[i], settings).at(0), settings);
+            ASSERT_GT(other.points.size(), 1U) << other.detail;
+            EXPECT_NE(other.outcome, BranchOutcome::returned);
+            EXPECT_FALSE(half_orbit(model, other.points[1].solution.orbit, 1e-4));
+        }
+    }
+    EXPECT_FALSE(reference.special.empty());
+}
+
+} // namespace
+} // namespace graze
