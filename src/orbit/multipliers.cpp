@@ -121,7 +121,7 @@ private:
                 if (flow_->run(mode_, state, duration / static_cast<double>(count), flow) != ArcFlow::Ending::done)
                     return;
                 good = good && !contracts(flow);
-                finer.push_back(flow.leftCols(n));
+                finer.emplace_back(flow.leftCols(n));
             }
             flows = std::move(finer);
             starts = std::move(begins);
