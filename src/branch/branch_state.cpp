@@ -72,6 +72,8 @@ void BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std
     result.parameter = at.u[problem_->parameter_place()];
     result.tangent = at.tangent;
     result.monitors = monitors_ ? (*monitors_)(result.solution.orbit) : std::vector<double>();
+    if (monitors_)
+        measure_multipliers(settings_.monitors, result.solution.multipliers, result.monitors);
     result.arclength = arclength(at.arclength);
     result.stable = is_stable(result.solution);
     tests = branch_tests(shooting, result.solution, at.tangent, at.determinant, result.monitors, settings_);

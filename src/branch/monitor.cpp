@@ -215,6 +215,13 @@ private:
     std::vector<Root> found_;
 };
 
+void measure_multipliers(const std::vector<Monitor>& monitors, const std::vector<std::complex<double>>& multipliers,
+                         std::vector<double>& values) {
+    for (std::size_t m = 0; m < monitors.size(); ++m)
+        if (monitors[m].kind == Monitor::Kind::multiplier && monitors[m].place <= multipliers.size())
+            values[m] = std::abs(multipliers[monitors[m].place - 1]);
+}
+
 OrbitMonitors::OrbitMonitors(const Model& model, const Signature& signature, std::vector<Monitor> monitors,
                              double tolerance)
     : evaluator_(std::make_unique<Evaluator>(model, signature, std::move(monitors), tolerance)) {}

@@ -37,6 +37,17 @@ void BranchSettings::validate(const Model& model) const {
     if (held != free.size())
         throw InputError(fmt::format("{} monitors are fixed and {} further parameters are free", held, free.size()),
                          "free one parameter for each monitor that is fixed");
+    for (const Monitor& monitor : monitors) {
+        if (monitor.kind != Monitor::Kind::multiplier)
+            continue;
+        if (monitor.fixed)
+            throw InputError(fmt::format("monitor '{}' is a multiplier, which cannot be held", monitor.name),
+                             "report values of it, or give bounds at which the branch ends");
+        if (monitor.place < 1 || monitor.place >= model.states.size() + 1)
+            throw InputError(fmt::format("monitor '{}' is multiplier {}, and the model has {} states", monitor.name,
+                                         monitor.place, model.states.size()),
+                             "give 1 for the largest, 2 for the next, ...");
+    }
     for (const std::size_t one : free)
         if (one >= model.parameter_symbols().size() || one == parameter ||
             std::count(free.begin(), free.end(), one) > 1)

@@ -97,7 +97,7 @@ std::vector<BranchTest> branch_tests(const Shooting& shooting, const OrbitSoluti
     tests.back().noise = settings.free.empty() ? least_rise * shooting.scales()[static_cast<Eigen::Index>(place)]
                                                : shooting.system().periodic_noise();
     // The half of a symmetric orbit that changes into its image loses the symmetry instead of doubling its period.
-    add(shooting.symmetry() ? PointType::branch_point : PointType::flip, shooting.system().antiperiodic_determinant());
+    add(shooting.symmetry() ? PointType::asymmetry : PointType::flip, shooting.system().antiperiodic_determinant());
     add(PointType::branch_point, determinant);
     tests.back().singular = true;
     add_torus_test(solution.half_multipliers.empty() ? solution.multipliers : solution.half_multipliers, tests);

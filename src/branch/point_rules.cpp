@@ -55,9 +55,8 @@ bool is_what_it_seems(BranchState& state, SpecialPoint& special, const BranchTes
     }
     case PointType::fold:
     case PointType::flip:
-        return special.located;
+    case PointType::asymmetry:
     case PointType::branch_point:
-        special.detail = state.problem().shooting().symmetry() ? "symmetry" : "";
         return special.located;
     case PointType::grazing:
         special.detail = fmt::format("{}{}", events[special.event].name, special.at_end ? ", no approach speed" : "");
@@ -162,7 +161,8 @@ void drop_crossings_of_nothing(BranchState& state, std::vector<SpecialPoint>& fo
     constexpr double near = 0.05; // share of the step: determinants are ill-conditioned there
     const std::vector<SpecialPoint> all = found;
     std::erase_if(found, [&](const SpecialPoint& one) {
-        return one.type == PointType::branch_point && std::any_of(all.begin(), all.end(), [&](const auto& other) {
+        const bool crossing = one.type == PointType::branch_point || one.type == PointType::asymmetry;
+        return crossing && std::any_of(all.begin(), all.end(), [&](const auto& other) {
                    const bool contact_ends =
                        other.type == PointType::vanishing || (other.type == PointType::grazing && other.at_end);
                    return contact_ends && std::abs(one.arclength - other.arclength) < near * length &&

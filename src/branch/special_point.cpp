@@ -12,6 +12,8 @@ std::string_view short_name(PointType type) {
         return "NS";
     case PointType::branch_point:
         return "BP";
+    case PointType::asymmetry:
+        return "SB";
     case PointType::grazing:
         return "GR";
     case PointType::vanishing:
@@ -42,6 +44,8 @@ std::string_view name_of(PointType type) {
         return "torus";
     case PointType::branch_point:
         return "branch point";
+    case PointType::asymmetry:
+        return "loss of symmetry";
     case PointType::grazing:
         return "grazing";
     case PointType::vanishing:

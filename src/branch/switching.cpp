@@ -4,7 +4,6 @@
 #include "branch/orbit_problem.hpp"
 #include "branch/reordering.hpp"
 #include "graze/symbolic/input_error.hpp"
-#include "orbit/certify.hpp"
 #include "orbit/drift.hpp"
 #include "orbit/newton.hpp"
 
@@ -18,8 +17,6 @@ namespace {
 
 /// First distance onto another branch, in units of the scales.
 constexpr double first_distance = 1e-2;
-/// How close to -1 a multiplier of a located point is.
-constexpr double near_flip = 1e-4;
 
 Orbit twice(const Orbit& orbit) {
     Orbit result = orbit;
@@ -51,18 +48,6 @@ std::vector<BranchStart> both_ways(const Model& model, Orbit orbit, const Branch
     return result;
 }
 
-/// Whether the map over half an orbit has the multiplier -1, rather than the branch meeting another of such orbits.
-bool loses_symmetry(const Model& model, const Orbit& half, const BranchSettings& settings) {
-    const Simulation simulation(model, {}, {}, integration(settings.orbit.tolerance));
-    Shooting shooting(simulation, half, {});
-    const Eigen::VectorXd unknowns = shooting.unknowns_of(half);
-    if (!shooting.evaluate(unknowns))
-        return false;
-    const auto multipliers = floquet_multipliers(shooting, unknowns);
-    return std::any_of(multipliers.begin(), multipliers.end(),
-                       [](auto one) { return std::abs(one + 1.0) < near_flip; });
-}
-
 } // namespace
 
 std::vector<BranchStart> branches_at(const Model& model, const SpecialPoint& point, const BranchSettings& settings) {
@@ -71,9 +56,9 @@ std::vector<BranchStart> branches_at(const Model& model, const SpecialPoint& poi
     switch (point.type) {
     case PointType::flip:
         return both_ways(model, twice(orbit), settings, {}, "doubled", false);
+    case PointType::asymmetry:
+        return both_ways(model, whole_orbit(model, orbit), settings, {}, "without the symmetry", true);
     case PointType::branch_point:
-        if (orbit.symmetry && loses_symmetry(model, orbit, settings))
-            return both_ways(model, whole_orbit(model, orbit), settings, {}, "without the symmetry", true);
         return both_ways(model, orbit, settings, point.tangent, "other branch", true);
     case PointType::grazing:
         return {point.at_end ? with_one_contact_fewer(model, point, settings)
@@ -85,7 +70,7 @@ std::vector<BranchStart> branches_at(const Model& model, const SpecialPoint& poi
     default:
         throw InputError(fmt::format("no other branch leaves from a point of type {} ({})", short_name(point.type),
                                      name_of(point.type)),
-                         "choose one of type PD, BP, GR, DZ, EE or GU, or vary another parameter from it");
+                         "choose one of type PD, BP, SB, GR, DZ, EE or GU, or vary another parameter from it");
     }
 }
 

@@ -22,7 +22,7 @@ class Checker {
 public:
     explicit Checker(const Model& model) : model_(model) {}
 
-    std::vector<std::string> run() {
+    std::vector<ModelWarning> run() {
         check_symbols();
         check_events();
         check_modes();
@@ -30,14 +30,18 @@ public:
         check_transitions();
         check_start();
         for (std::string& warning : symmetry_warnings(model_))
-            warnings_.push_back(std::move(warning));
+            warnings_.push_back({"", std::move(warning)});
         return std::move(warnings_);
     }
 
 private:
     template <typename... Arguments>
     void warn(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-        warnings_.push_back(fmt::format(format, std::forward<Arguments>(arguments)...));
+        warn_of("", format, std::forward<Arguments>(arguments)...);
+    }
+    template <typename... Arguments>
+    void warn_of(const std::string& part, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+        warnings_.push_back({part, fmt::format(format, std::forward<Arguments>(arguments)...)});
     }
 
     void check_symbols() {
@@ -177,10 +181,12 @@ private:
         for (std::size_t i = 0; i < values.size(); ++i) {
             const Event& event = model_.events[mode.watched[i]];
             if (!std::isfinite(values[i]))
-                warn("in the initial state the event '{}' is {}", event.name, values[i]);
+                warn_of("events." + event.name, "in the initial state the event '{}' is {}", event.name, values[i]);
             else if (values[i] < 0 && event.kind == EventKind::barrier)
-                warn("in the initial state the barrier '{}' is {}: the motion starts on the wrong side of it",
-                     event.name, values[i]);
+                warn_of("events." + event.name,
+                        "in the initial state the barrier '{}' is {}: the motion starts on the wrong side of it; give "
+                        "the function the other sign, or begin where it is positive",
+                        event.name, values[i]);
         }
     }
 
@@ -216,7 +222,7 @@ private:
     }
 
     const Model& model_;
-    std::vector<std::string> warnings_;
+    std::vector<ModelWarning> warnings_;
 };
 
 /// A string of the Graphviz language.
@@ -232,8 +238,15 @@ std::string dot_string(const std::string& text) {
 
 } // namespace
 
-std::vector<std::string> model_warnings(const Model& model) {
+std::vector<ModelWarning> located_warnings(const Model& model) {
     return Checker(model).run();
+}
+
+std::vector<std::string> model_warnings(const Model& model) {
+    std::vector<std::string> texts;
+    for (ModelWarning& warning : located_warnings(model))
+        texts.push_back(std::move(warning.text));
+    return texts;
 }
 
 std::string connectivity_graph(const Model& model) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -76,7 +77,7 @@ public:
 
 private:
     enum ModeIndex : std::size_t { free_on, free_off, contact_on, contact_off };
-    enum EventIndex : std::size_t { touch, leave, pulse_end, pulse_start };
+    enum EventIndex : std::size_t { touch, leave, pulse_end, pulse_start, closure };
     enum JumpIndex : std::size_t { identity, switch_off, switch_on };
 
     static std::string numbered(const std::string& stem, int i) { return stem + std::to_string(i); }
@@ -110,7 +111,8 @@ private:
                                     : "the first " + std::to_string(count()) + " eigenmodes") +
                       " of the linear beam, and the electrostatic force is integrated by " + rule +
                       ". Nondimensional: lengths in units of the beam's length l, time in units of "
-                      "sqrt(rho b h l^4/(E I)). Closure of the gap to the electrode (snap-through) is singular.";
+                      "sqrt(rho b h l^4/(E I)). Closure of the gap to the electrode (snap-through) ends the motion: "
+                      "while the voltage is on it is singular, and while it is off an event.";
         model_.source = "B. E. Wilcox, On the use of impact-induced nonlinearities in limit switch design, chapter 3: "
                         "Eqs. (3.7)-(3.17), (3.22), (3.23) and (3.30); section 3.4 for the parameters. The damping "
                         "factor is not given there: 0.05 agrees with what is.";
@@ -246,6 +248,8 @@ private:
             {"leave", "the beam leaves the stop", -clearance, EventKind::barrier},
             {"pulse_end", "the voltage is switched off", pi - theta, EventKind::barrier},
             {"pulse_start", "the voltage is switched on", 2 * pi - theta, EventKind::barrier},
+            {"closure", "the beam meets the electrode at mid-span while the voltage is off",
+             symbol("g0") - partial_deflection(0.5, 1), EventKind::barrier},
         };
         const std::vector<Expression> states = model_.state_symbols();
         model_.jumps[identity].map = states;
@@ -281,14 +285,14 @@ private:
     void add_modes() {
         model_.modes = {
             {"free_on", "voltage on, beam clear of the stop", rates(true, false), {pulse_end, touch}},
-            {"free_off", "voltage off, beam clear of the stop", rates(false, false), {pulse_start, touch}},
+            {"free_off", "voltage off, beam clear of the stop", rates(false, false), {pulse_start, touch, closure}},
             {"contact_on", "voltage on, beam on the stop", rates(true, true), {pulse_end, leave}},
-            {"contact_off", "voltage off, beam on the stop", rates(false, true), {pulse_start, leave}},
+            {"contact_off", "voltage off, beam on the stop", rates(false, true), {pulse_start, leave, closure}},
         };
         model_.initial_mode = free_on;
     }
 
-    void add_transition(ModeIndex mode, EventIndex event, JumpIndex jump, ModeIndex next) {
+    void add_transition(ModeIndex mode, EventIndex event, JumpIndex jump, std::optional<std::size_t> next) {
         Transition transition;
         transition.label = model_.modes[mode].name + ":" + model_.events[event].name;
         transition.mode = mode;
@@ -303,10 +307,12 @@ private:
         add_transition(free_on, touch, identity, contact_on);
         add_transition(free_off, pulse_start, switch_on, free_on);
         add_transition(free_off, touch, identity, contact_off);
+        add_transition(free_off, closure, identity, std::nullopt);
         add_transition(contact_on, pulse_end, switch_off, contact_off);
         add_transition(contact_on, leave, identity, free_on);
         add_transition(contact_off, pulse_start, switch_on, contact_on);
         add_transition(contact_off, leave, identity, free_off);
+        add_transition(contact_off, closure, identity, std::nullopt);
     }
 
     void add_sections_and_quantities() {

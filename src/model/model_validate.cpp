@@ -277,6 +277,11 @@ private:
 
     /// Values that the parameters, as they stand, give.
     void check_values() const {
+        for (const State& state : model_.states)
+            if (state.period && state.drifting)
+                fail("states." + state.name + ".drifting",
+                     fmt::format("the state '{}' is both cyclic and drifting", state.name),
+                     "leave out `drifting` if it comes back after its period, or else the period");
         for (const Parameter& parameter : model_.parameters) {
             const std::string path = "parameters." + parameter.name;
             if (parameter.value.has_value() == parameter.expression.has_value())

@@ -39,13 +39,62 @@ std::vector<std::size_t> candidates(const Model& model, const std::string& prefe
     return result;
 }
 
+/// The smooth motion of the modes alone, in which what is only touched does not happen.
+Model without_events(Model model) {
+    for (Mode& mode : model.modes)
+        mode.watched.clear();
+    model.transitions.clear();
+    return model;
+}
+
+/// Whether the last passage is the first one again must not depend on round-off.
+constexpr double same_time = 1e-6;
+
 } // namespace
+
+Orbit cut_at_section(const Model& model, const Orbit& arcs, std::size_t section) {
+    const Model smooth = without_events(model);
+    SimulationOptions options;
+    options.tolerance = 1e-13; // as orbits are computed
+    const Simulation simulation(smooth, {section_probe(smooth, smooth.sections[section].name)}, {}, options);
+    JetSet jets(simulation, LaneKind::single);
+    const std::size_t mode = arcs.signature.front().mode;
+    const double period = arcs.round(), near = same_time * period;
+    Orbit orbit;
+    orbit.parameters = arcs.parameters;
+    double begun = 0, before = 0; // of the segment; of the arc
+    const auto cut = [&](double time, const std::vector<double>& state) {
+        orbit.durations.push_back(time - begun);
+        orbit.starts.push_back(state);
+        begun = time;
+    };
+    orbit.starts.push_back(arcs.starts.front());
+    for (std::size_t k = 0; k < arcs.segments(); ++k) {
+        const double duration = arcs.durations[k];
+        PassageRecorder recorder(mode);
+        Trajectory trajectory(simulation, arcs.parameters, recorder);
+        trajectory.start(arcs.starts[k], mode, 0, duration + near);
+        run(trajectory, jets);
+        for (std::size_t i = 0; i < recorder.times.size(); ++i) {
+            const double time = recorder.times[i];
+            if (time < near) // where the arc begins, which has been seen at the end of the one before
+                continue;
+            const bool at_end = time > duration - near;
+            if (!at_end)
+                cut(before + time, recorder.states[i]);
+            else if (k + 1 < arcs.segments()) // which is known better than by following the arc
+                cut(before + duration, arcs.starts[k + 1]);
+        }
+        before += duration;
+    }
+    orbit.durations.push_back(period - begun);
+    orbit.signature.assign(orbit.starts.size(), {mode, SegmentEnd::section, section});
+    return orbit;
+}
 
 std::optional<Orbit> close_at_section(const Model& model, const std::vector<double>& parameters,
                                       std::span<const double> state, std::size_t mode, double duration,
                                       const std::string& preferred, std::optional<std::size_t> symmetry) {
-    // Whether the last passage is the first one again must not depend on round-off.
-    constexpr double same_time = 1e-6;
     for (const std::size_t index : candidates(model, preferred)) {
         const Simulation simulation(model, {section_probe(model, model.sections[index].name)});
         PassageRecorder recorder(mode);

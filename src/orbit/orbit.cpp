@@ -100,11 +100,9 @@ Orbit whole_orbit(const Model& model, const Orbit& orbit) {
     if (!orbit.symmetry)
         return orbit;
     const Segment& last = orbit.signature.back();
-    if (std::all_of(orbit.signature.begin(), orbit.signature.end(),
-                    [&](const Segment& segment) { return segment == last && segment.end == SegmentEnd::section; }))
-        if (auto whole = close_at_section(model, orbit.parameters, orbit.starts.front(), last.mode, orbit.period(),
-                                          model.sections[last.index].name, std::nullopt))
-            return *whole;
+    const bool smooth = std::all_of(orbit.signature.begin(), orbit.signature.end(), [&](const Segment& segment) {
+        return segment == last && segment.end == SegmentEnd::section;
+    });
     const Function map = symmetry_map(model, *orbit.symmetry);
     Orbit whole = orbit;
     whole.symmetry.reset();
@@ -113,7 +111,7 @@ Orbit whole_orbit(const Model& model, const Orbit& orbit) {
         std::vector<double> values = orbit.starts[k];
         values.insert(values.end(), orbit.parameters.begin(), orbit.parameters.end());
         // The image of a section is no section of the model: the motion just goes on.
-        if (k == 0 && orbit.signature.back().end == SegmentEnd::section) {
+        if (k == 0 && !smooth && orbit.signature.back().end == SegmentEnd::section) {
             whole.signature.back() = segment;
             whole.durations.back() += orbit.durations[0];
             continue;
@@ -122,7 +120,7 @@ Orbit whole_orbit(const Model& model, const Orbit& orbit) {
         whole.starts.push_back(map(values));
         whole.durations.push_back(orbit.durations[k]);
     }
-    return whole;
+    return smooth ? cut_at_section(model, whole, last.index) : whole;
 }
 
 void validate_orbit(const Model& model, const Orbit& orbit) {

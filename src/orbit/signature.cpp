@@ -223,11 +223,11 @@ Signature parse_signature(const Model& model, std::string_view text, const Place
                 possible = possible || can_follow(model, before, after);
         if (!possible)
             reader.fail(fmt::format("'{}' cannot follow '{}'", names[k + 1].text, names[k].text),
-                        "see what can by: graze graph MODEL", names[k + 1].column);
+                        "graze check MODEL lists the transitions; --graph FILE draws them", names[k + 1].column);
     }
     const auto signature = choose(model, places);
     if (!signature)
-        reader.fail("no cycle of the model's graph has these transitions", "see the graph by: graze graph MODEL",
+        reader.fail("no cycle of the model's graph has these transitions", "graze check MODEL lists the transitions; --graph FILE draws them",
                     names.front().column);
     return *signature;
 }
@@ -279,7 +279,7 @@ void validate_signature(const Model& model, const Signature& signature, const Pl
             throw InputError(place,
                              fmt::format("'{}' cannot follow '{}' in mode '{}'", end_name(model, after),
                                          end_name(model, before), model.modes[before.mode].name),
-                             "see what can by: graze graph MODEL");
+                             "graze check MODEL lists the transitions; --graph FILE draws them");
     }
 }
 

@@ -47,6 +47,7 @@ int symbol_of(PointType type) {
     case PointType::torus:
         return 13;
     case PointType::branch_point:
+    case PointType::asymmetry:
         return 5;
     case PointType::grazing:
         return 12;

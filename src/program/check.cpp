@@ -1,21 +1,98 @@
 #include "graze/model/check.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "graze/trajectory/trajectory.hpp"
 #include "program/commands.hpp"
 #include "program/describe.hpp"
 #include "program/graph.hpp"
 #include "program/output_file.hpp"
 #include "program/values.hpp"
 
+#include <fmt/format.h>
+
+#include <fstream>
+#include <string>
+
 namespace graze {
+
+namespace {
+
+/// Where the part "TABLE.NAME" of a model file is written, under [TABLE.NAME] or as NAME = ... under [TABLE]; just the
+/// model if that is not found.
+Place place_of(const std::string& model, const std::string& part) {
+    Place place{model, 0, 0};
+    const std::size_t dot = part.find('.');
+    if (dot == std::string::npos || !is_model_path(model))
+        return place;
+    const std::string table = part.substr(0, dot), name = part.substr(dot + 1);
+    std::ifstream stream(model, std::ios::binary);
+    bool inside = false;
+    int number = 0;
+    for (std::string line; std::getline(stream, line);) {
+        ++number;
+        const std::size_t begin = line.find_first_not_of(" \t");
+        if (begin == std::string::npos)
+            continue;
+        const bool header = line[begin] == '[';
+        if (header)
+            inside = line.compare(begin, table.size() + 2, fmt::format("[{}]", table)) == 0;
+        const std::string whole = fmt::format("[{}]", part);
+        const std::size_t after = line.find_first_not_of(" \t", begin + name.size());
+        const bool key = inside && !header && line.compare(begin, name.size(), name) == 0 &&
+                         after != std::string::npos && (line[after] == '=' || line[after] == '.');
+        if (key || (header && line.compare(begin, whole.size(), whole) == 0))
+            return {model, number, static_cast<int>(begin) + 1};
+    }
+    return place;
+}
+
+/// Ends a motion after a number of steps.
+class Limit : public Observer {
+public:
+    void step(const Step&) override { ++steps_; }
+    bool stop() override { return steps_ > most; }
+
+private:
+    static constexpr std::size_t most = 2000;
+    std::size_t steps_ = 0;
+};
+
+/// Whether the motion from the initial state soon leads where the model itself says that it must not.
+std::vector<ModelWarning> motion_warnings(const Model& model) {
+    const Simulation simulation(model);
+    Limit limit;
+    Trajectory trajectory(simulation, model.parameter_values(), limit);
+    trajectory.start(model.initial_state(), model.initial_mode, 0, 1e300);
+    JetSet jets(simulation, LaneKind::single);
+    run(trajectory, jets);
+    const Outcome& outcome = trajectory.outcome();
+    const bool wrong = outcome.ending == Ending::inadmissible || outcome.ending == Ending::no_separation ||
+                       outcome.ending == Ending::no_progress || outcome.ending == Ending::no_transition;
+    if (!wrong || (outcome.ending == Ending::inadmissible && outcome.time == 0)) // the start has been looked at
+        return {};
+    ModelWarning warning{
+        "", fmt::format("the motion from the initial state ends at time {:.6g}: {}", outcome.time, outcome.detail)};
+    for (const Event& event : model.events)
+        if (outcome.detail.find(fmt::format("barrier '{}'", event.name)) != std::string::npos) {
+            warning.part = "events." + event.name;
+            warning.text += "; perhaps its function has the wrong sign";
+        }
+    return {warning};
+}
+
+} // namespace
 
 int check_command(const CheckArguments& arguments, const Console& console) {
     const Model model = load_program_model(arguments.model);
     require_distinct({{"the model", is_model_path(arguments.model) ? arguments.model : ""},
                       {"--graph", arguments.graph},
                       {"--output", arguments.output.file}});
-    for (const std::string& warning : model_warnings(model))
-        console.err << "graze: warning: " << arguments.model << ": " << warning << '\n';
+    std::vector<ModelWarning> warnings = located_warnings(model);
+    for (ModelWarning& warning : motion_warnings(model))
+        warnings.push_back(std::move(warning));
+    for (const ModelWarning& warning : warnings)
+        console.err << "graze: warning: " << place_of(arguments.model, warning.part).text() << ": " << warning.text
+                    << '\n';
     if (!arguments.graph.empty())
         draw_graph(model, arguments.graph);
     if (arguments.output.format != TableFormat::table) {

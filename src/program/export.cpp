@@ -12,6 +12,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <set>
 
 namespace graze {
 
@@ -39,8 +41,16 @@ std::string query_of_runs(const ResultFile& file) {
                        counts.empty() ? "0" : fmt::format("CASE r.name{} END", counts));
 }
 
-std::string query_of_multipliers(const ResultFile& file, const std::vector<std::string>& names,
-                                 const std::string& where) {
+/// What lies in tables of all runs, and the columns of each that are shown.
+const std::map<std::string, std::string> details{
+    {"multipliers", "m.position, m.real, m.imaginary"},
+    {"half_multipliers", "m.position, m.real, m.imaginary"},
+    {"minima", "m.segment, m.event, m.time, m.value"},
+    {"end_values", "m.segment, m.event, m.value, m.rate"},
+};
+
+std::string query_of_details(const ResultFile& file, const std::vector<std::string>& names, const std::string& what,
+                             const std::string& where) {
     bool branches = false, others = false;
     for (const RunRecord& run : file.runs())
         (run.is_branch() ? branches : others) = true;
@@ -48,9 +58,10 @@ std::string query_of_multipliers(const ResultFile& file, const std::vector<std::
     const std::string of_branches =
         "SELECT run, number, part AS direction, value AS coordinate, label, type FROM branch_points";
     const std::string of_others = "SELECT run, number, direction, coordinate, label, label AS type FROM all_points";
-    return fmt::format("SELECT m.run, m.point, p.direction, p.coordinate, m.position, m.real, m.imaginary FROM "
-                       "multipliers AS m JOIN ({}) AS p ON p.run = m.run AND p.number = m.point WHERE m.run IN "
+    return fmt::format("SELECT m.run, m.point, p.direction, p.coordinate, {} FROM "
+                       "{} AS m JOIN ({}) AS p ON p.run = m.run AND p.number = m.point WHERE m.run IN "
                        "({}) AND {} ORDER BY m.run, m.point, m.position",
+                       details.at(what), what,
                        branches && others ? of_others + " UNION ALL " + of_branches
                        : branches         ? of_branches
                                           : of_others,
@@ -122,13 +133,15 @@ std::string query_of(const ExportArguments& arguments, const ResultFile& file, c
     const std::string& what = arguments.what;
     if (what == "runs")
         return query_of_runs(file);
-    if (what == "multipliers") {
-        return query_of_multipliers(file, names, condition_of(arguments, "p.type", "p.direction"));
-    }
+    if (details.contains(what))
+        return query_of_details(file, names, what, condition_of(arguments, "p.type", "p.direction"));
     const std::vector<std::string> tables{"points", "samples", "segments"};
     if (std::find(tables.begin(), tables.end(), what) == tables.end())
         throw InputError({"--what", 0, 0}, fmt::format("there is no table '{}'", what),
-                         name_advice(what, {"points", "samples", "segments", "multipliers", "runs"}, ""));
+                         name_advice(what,
+                                     {"points", "samples", "segments", "multipliers", "half_multipliers", "minima",
+                                      "end_values", "runs"},
+                                     ""));
     const std::vector<StoredRun> runs = runs_with(what, arguments, file, console);
     std::string all;
     std::vector<std::string> shape;
@@ -184,15 +197,51 @@ void write_csv(std::ostream& out, ResultFile::Rows& rows, int digits) {
     }
 }
 
-Table table_of(ResultFile::Rows& rows) {
+/// Units of columns by their names, of those that have the same unit in all of the runs.
+std::map<std::string, std::string> units_of(const ResultFile& file, const std::vector<std::string>& names) {
+    std::map<std::string, std::set<std::string>> all;
+    for (const std::string& name : names) {
+        const StoredRun run(file, name, {});
+        const auto note = [&](const std::vector<ResultColumn>& columns, const std::vector<std::string>& in_tables) {
+            for (std::size_t c = 0; c < std::min(columns.size(), in_tables.size()); ++c)
+                all[in_tables[c]].insert(columns[c].unit);
+        };
+        note(run.record.coordinates, run.coordinate_columns);
+        note(run.record.states, run.state_columns);
+        note(run.record.values, run.value_columns);
+        const std::string& time = run.model.time_unit;
+        for (const char* column : {"time", "duration", "ending_time", "event_time"})
+            all[column].insert(time);
+        if (run.record.is_branch()) // otherwise it is counted in returns
+            all["period"].insert(time);
+        else
+            all["period"].insert("");
+        for (const char* column : {"lyapunov", "lyapunov_error"})
+            all[column].insert(time.empty() ? "" : "1/" + time);
+        if (!run.record.coordinates.empty())
+            for (const char* column : {"coordinate", "coordinate_before", "value", "bracket_low", "bracket_high"})
+                all[column].insert(run.record.coordinates.front().unit);
+    }
+    std::map<std::string, std::string> units;
+    for (const auto& [column, found] : all)
+        if (found.size() == 1)
+            units[column] = *found.begin();
+    return units;
+}
+
+Table table_of(ResultFile::Rows& rows, const std::map<std::string, std::string>& units) {
     std::vector<Table::Column> columns;
-    for (std::size_t c = 0; c < rows.columns(); ++c)
-        columns.push_back({rows.column_name(c), ""});
+    for (std::size_t c = 0; c < rows.columns(); ++c) {
+        const auto unit = units.find(rows.column_name(c));
+        columns.push_back({rows.column_name(c), unit == units.end() ? "" : unit->second});
+    }
     Table table(columns);
     while (rows.next())
         for (std::size_t c = 0; c < rows.columns(); ++c)
             if (rows.is_text(c))
                 table.add(rows.text(c));
+            else if (!rows.is_null(c) && std::isinf(rows.number(c)))
+                table.add(rows.number(c) > 0 ? "inf" : "-inf");
             else
                 table.add(rows.is_null(c) ? std::nan("") : rows.number(c));
     return table;
@@ -231,7 +280,13 @@ int export_command(const ExportArguments& arguments, const Console& console) {
     }
     JsonObject heading;
     heading.add("file", file.path());
-    deliver(table_of(rows), output, heading, console);
+    std::map<std::string, std::string> units;
+    if (arguments.what != "runs" || !arguments.sql.empty())
+        units = units_of(file, chosen_runs(file, split_list(arguments.runs)));
+    // In tables of details a value is that of an event function.
+    if (details.contains(arguments.what) && arguments.sql.empty())
+        units.erase("value");
+    deliver(table_of(rows, units), output, heading, console);
     return exit_success;
 }
 

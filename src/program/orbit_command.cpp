@@ -35,14 +35,51 @@ Table table_of(const Model& model, const std::vector<SegmentMotion>& motion,
     return table;
 }
 
+/// What has been checked of the orbit: how events are met at the ends of its segments, and how near others come.
+void add_certificate(JsonObject& heading, const OrbitSolution& solution, const Model& model) {
+    const Certificate& certificate = solution.certificate;
+    std::vector<JsonObject> segments, minima, ends;
+    const auto at = [](const std::vector<double>& values, std::size_t s) {
+        return s < values.size() ? values[s] : std::nan("");
+    };
+    for (std::size_t s = 0; s < solution.orbit.segments(); ++s) {
+        JsonObject& segment = segments.emplace_back();
+        segment.add("segment", static_cast<double>(s + 1));
+        segment.add("end", end_name(model, solution.orbit.signature[s]));
+        segment.add("duration", solution.orbit.durations[s]);
+        segment.add("approach_speed", at(certificate.approach_speeds, s));
+        segment.add("departure", at(certificate.departures, s));
+        segment.add("guard_margin", at(certificate.guard_margins, s));
+    }
+    for (const OrbitMinimum& one : certificate.minima) {
+        JsonObject& minimum = minima.emplace_back();
+        minimum.add("segment", static_cast<double>(one.segment + 1));
+        minimum.add("event", model.events[one.event].name);
+        minimum.add("time", one.time);
+        minimum.add("value", one.value);
+    }
+    for (const EndValue& one : certificate.end_values) {
+        JsonObject& end = ends.emplace_back();
+        end.add("segment", static_cast<double>(one.segment + 1));
+        end.add("event", model.events[one.event].name);
+        end.add("value", one.value);
+        end.add("rate", one.rate);
+    }
+    heading.add("segments", segments);
+    heading.add("minima", minima);
+    heading.add("end_values", ends);
+}
+
 JsonObject heading_of(const ResultFile& file, const StoredOrbit& stored) {
     const OrbitRecord& record = stored.record;
     const OrbitSolution& solution = record.point.solution;
     const Model& model = stored.run.model;
-    JsonObject heading, parameters;
+    JsonObject heading, parameters, units;
     const std::vector<double> values = parameters_of(stored.run, record);
     for (std::size_t i = 0; i < values.size(); ++i)
         parameters.add(stored.run.record.coordinates[i].name, values[i]);
+    for (const ResultColumn& column : stored.run.record.coordinates)
+        units.add(column.name, column.unit);
     heading.add("graze", GRAZE_VERSION);
     heading.add("file", file.path());
     heading.add("model", model.name);
@@ -51,15 +88,19 @@ JsonObject heading_of(const ResultFile& file, const StoredOrbit& stored) {
     heading.add("label", record.label);
     heading.add("type", short_name(record.point.type));
     heading.add("parameters", parameters);
+    heading.add("parameter_units", units);
+    heading.add("time_unit", model.time_unit);
     heading.add("period", solution.orbit.period());
     heading.add("signature", to_string(model, solution.orbit.signature));
     heading.add("symmetry", solution.orbit.symmetry ? model.symmetries[*solution.orbit.symmetry].name : "");
-    heading.add("multipliers", multipliers_text(solution.multipliers, 17));
+    heading.add("multipliers", multipliers_text(solution, 17));
+    heading.add("half_multipliers", multipliers_text(solution.half_multipliers, 17));
     heading.add("stable", record.stable ? 1.0 : 0.0);
     heading.add("admissible", solution.certificate.admissible ? 1.0 : 0.0);
     heading.add("reason", solution.certificate.reason);
     heading.add("detail", record.point.detail);
     heading.add("residual", solution.residual);
+    add_certificate(heading, solution, model);
     return heading;
 }
 

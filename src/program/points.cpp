@@ -28,6 +28,7 @@ struct PointList {
     std::vector<ListedPoint> points;
     std::string followed; ///< the parameter that all follow; empty: each run its own
     std::vector<std::string> others;
+    std::size_t twins = 0; ///< points left out, since they are images of others
 };
 
 std::vector<std::string> all_types() {
@@ -93,6 +94,11 @@ PointList listed_points(const PointsArguments& arguments, const ResultFile& file
         for (OrbitRecord& record : file.orbits(run.name, !wants_regular)) {
             if (!types.empty() && std::find(types.begin(), types.end(), record.point.type) == types.end())
                 continue;
+            if (arguments.output.format == TableFormat::table && !arguments.all &&
+                record.point.detail.starts_with("twin of ")) {
+                ++list.twins;
+                continue;
+            }
             ListedPoint point{&list.runs[r], std::move(record), {}};
             point.parameters = parameters_of(list.runs[r], point.record);
             list.points.push_back(std::move(point));
@@ -186,9 +192,9 @@ private:
         if (with_symmetry_)
             table_.add(solution.orbit.symmetry ? point.run->model.symmetries[*solution.orbit.symmetry].name : "");
         add_truth(record.stable);
-        table_.add(solution.multipliers.empty() ? nothing : brief(std::abs(solution.multipliers.front())));
+        add_multiplier(solution);
         if (!for_people_)
-            table_.add(multipliers_text(solution.multipliers, digits_));
+            table_.add(multipliers_text(solution, digits_));
         if (with_reason_ && for_people_)
             table_.add(solution.certificate.admissible ? "yes" : is_unphysical(record) ? "no" : "limit");
         else if (with_reason_)
@@ -211,6 +217,16 @@ private:
         if (!for_people_ || !is_unphysical(record))
             return detail;
         return detail + (detail.empty() ? "" : "; ") + record.point.solution.certificate.reason;
+    }
+    /// Machines get a number where there is one; that there is none is said by the column of all of them.
+    void add_multiplier(const OrbitSolution& solution) {
+        const double largest = solution.multipliers.empty() ? nothing : std::abs(solution.multipliers.front());
+        if (std::isinf(largest))
+            table_.add(for_people_ ? "infinite" : "inf");
+        else if (for_people_ && solution.multipliers.empty())
+            table_.add(multipliers_text(solution, digits_));
+        else
+            table_.add(std::isfinite(largest) ? brief(largest) : nothing);
     }
     void add_truth(bool holds) {
         if (for_people_)
@@ -246,6 +262,11 @@ int points_command(const PointsArguments& arguments, const Console& console) {
     JsonObject heading;
     heading.add("file", file.path());
     deliver(PointTable(list, output.format, output.digits).make(), output, heading, console);
+    if (list.twins > 0)
+        console.err << fmt::format(
+            "graze: {} points are left out that are images of others under the model's symmetry; "
+            "--all lists them\n",
+            list.twins);
     if (list.points.empty())
         console.err << "graze: there are no such points; --all lists the regular ones too\n";
     return exit_success;

@@ -3,6 +3,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "program/arguments.hpp"
 #include "program/commands.hpp"
+#include "program/option_rules.hpp"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -30,6 +31,7 @@ int dispatch(std::span<const std::string> words, const Console& console) {
         }
         throw InputError(explain(error, app), "");
     }
+    refuse_useless_options(app);
     if (app.got_subcommand("check"))
         return check_command(arguments.check, console);
     if (app.got_subcommand("models"))

@@ -82,6 +82,35 @@ std::string labels_of(const ResultFile& file, const RunReport& report) {
     return text;
 }
 
+/// How the branches of a run ended: of each part, what its last point says.
+std::string ends_of(const ResultFile& file, const RunReport& report) {
+    if (report.kind != name_of(RunKind::follow))
+        return "";
+    auto rows =
+        file.query(fmt::format("SELECT part, detail FROM \"branch_{0}\" WHERE number IN (SELECT max(number) FROM "
+                               "\"branch_{0}\" GROUP BY part) ORDER BY number",
+                               report.name));
+    std::string text;
+    while (rows.next())
+        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", rows.text(0),
+                            rows.text(1).empty() ? "a point that was asked for" : rows.text(1));
+    return text;
+}
+
+std::string status_of(const RunReport& report) {
+    switch (report.outcome) {
+    case RunOutcome::interrupted:
+        return "interrupted";
+    case RunOutcome::failed:
+        return "failed";
+    case RunOutcome::skipped:
+        return "skipped";
+    case RunOutcome::complete:
+        break;
+    }
+    return report.computed == 0 ? "was there" : report.computed < report.points ? "gone on with" : "done";
+}
+
 Table table_of(const std::vector<RunReport>& reports, const ResultFile& file) {
     Table table({{"run", ""},
                  {"kind", ""},
@@ -89,20 +118,31 @@ Table table_of(const std::vector<RunReport>& reports, const ResultFile& file) {
                  {"computed", ""},
                  {"seconds", "s"},
                  {"status", ""},
-                 {"labels", ""}});
+                 {"labels", ""},
+                 {"ended", ""}});
     for (const RunReport& report : reports) {
         table.add(report.name);
         table.add(report.kind);
         table.add(static_cast<double>(report.points));
         table.add(static_cast<double>(report.computed));
         table.add(report.seconds);
-        table.add(!report.complete                  ? "interrupted"
-                  : report.computed == 0            ? "was there"
-                  : report.computed < report.points ? "gone on with"
-                                                    : "done");
+        table.add(status_of(report));
         table.add(labels_of(file, report));
+        table.add(report.problem.empty() ? ends_of(file, report) : report.problem);
     }
     return table;
+}
+
+/// Runs that failed, with what to do. @return whether there are any
+bool tell_failures(const std::vector<RunReport>& reports, const Console& console) {
+    bool any = false;
+    for (const RunReport& report : reports)
+        if (report.outcome == RunOutcome::failed || report.outcome == RunOutcome::skipped) {
+            any = true;
+            console.err << fmt::format("graze: run '{}' {}: {}; {}\n", report.name, status_of(report), report.problem,
+                                       report.remedy);
+        }
+    return any;
 }
 
 std::string made_folder(const std::string& folder) {
@@ -178,9 +218,8 @@ int run_command(const RunArguments& arguments, const Console& console) {
         output.digits = 6;
         deliver(table_of(reports, file), output, {}, console);
     }
-    const bool complete =
-        std::all_of(reports.begin(), reports.end(), [](const RunReport& run) { return run.complete; });
-    if (!complete) {
+    const bool failed = tell_failures(reports, console);
+    if (!reports.empty() && reports.back().outcome == RunOutcome::interrupted) {
         console.err << "graze: interrupted; what was computed is kept, and the same command goes on from there\n";
         return exit_interrupted;
     }
@@ -188,7 +227,7 @@ int run_command(const RunArguments& arguments, const Console& console) {
         for (const std::string& path : draw_study_pictures(study, file, folder, console))
             if (!arguments.quiet && arguments.output.format == TableFormat::table)
                 console.out << path << '\n';
-    return exit_success;
+    return failed ? exit_irregular : exit_success;
 }
 
 } // namespace graze

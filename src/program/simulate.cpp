@@ -113,8 +113,9 @@ TableRequest table_request(const Model& model, const SimulateArguments& argument
     request.extrema = requested_quantities(model, arguments.extrema, "--extrema");
     request.events = chosen_events(model, arguments.events);
     request.directions = chosen_directions(model, arguments, request.kind);
-    if (arguments.samples && !arguments.every.empty())
-        throw InputError("--samples and --every cannot be given together", "choose one of them");
+    if ((arguments.samples || !arguments.every.empty()) && request.kind != TableKind::samples)
+        throw InputError("--samples and --every choose rows of the table `samples`, which is not shown",
+                         "leave them out, or ask for --table samples");
     if (arguments.samples && (*arguments.samples < 2 || static_cast<std::size_t>(*arguments.samples) > most_samples))
         throw InputError({"--samples", 0, 0}, fmt::format("{} rows are out of range", *arguments.samples),
                          fmt::format("give 2 or more, up to {}", most_samples));
@@ -256,19 +257,26 @@ private:
     }
 
     JsonObject heading() const {
-        JsonObject parameters, initial, outcome, heading;
+        JsonObject parameters, initial, outcome, heading, parameter_units, state_units;
         const std::vector<double> values = all_parameter_values(model_);
         for (std::size_t i = 0; i < values.size(); ++i)
             parameters.add(model_.parameters[i].name, values[i]);
         const std::vector<double> states = model_.initial_state();
         for (std::size_t i = 0; i < states.size(); ++i)
             initial.add(model_.states[i].name, states[i]);
+        for (const Parameter& parameter : model_.parameters)
+            parameter_units.add(parameter.name, parameter.unit);
+        for (const State& state : model_.states)
+            state_units.add(state.name, state.unit);
         outcome.add("ending", ending_name());
         outcome.add("time", trajectory_->outcome().time);
         outcome.add("detail", trajectory_->outcome().detail);
         heading.add("graze", GRAZE_VERSION);
         heading.add("model", model_.name);
         heading.add("parameters", parameters);
+        heading.add("parameter_units", parameter_units);
+        heading.add("state_units", state_units);
+        heading.add("time_unit", model_.time_unit);
         heading.add("initial_mode", model_.modes[model_.initial_mode].name);
         heading.add("initial", initial);
         heading.add("tolerance", simulation_->options().tolerance);

@@ -119,6 +119,12 @@ std::string multipliers_text(const std::vector<std::complex<double>>& multiplier
     return text;
 }
 
+std::string multipliers_text(const OrbitSolution& solution, int digits) {
+    if (solution.outcome != OrbitOutcome::converged)
+        return "";
+    return solution.multipliers.empty() ? "undefined" : multipliers_text(solution.multipliers, digits);
+}
+
 bool is_unphysical(const OrbitRecord& record) {
     const PointType type = record.point.type;
     const bool limit = type == PointType::grazing || type == PointType::vanishing || type == PointType::two_events ||

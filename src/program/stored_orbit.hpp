@@ -28,6 +28,8 @@ StoredOrbit find_stored_orbit(const ResultFile& file, const std::string& point, 
 std::string title_of(const OrbitRecord& record);
 /// "0.5, -0.1+0.2i", in the order in which they are kept: largest first.
 std::string multipliers_text(const std::vector<std::complex<double>>& multipliers, int digits);
+/// All multipliers of an orbit; "undefined" where an event is met without speed.
+std::string multipliers_text(const OrbitSolution& solution, int digits);
 /// Whether the model would not follow the orbit; not said of those at which just that begins, as at grazing.
 bool is_unphysical(const OrbitRecord& record);
 /// The followed parameter of a run of orbits; empty where none is.

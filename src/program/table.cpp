@@ -177,6 +177,14 @@ void JsonObject::add(std::string_view name, const JsonObject& object) {
     members_ += '{' + object.members_ + '}';
 }
 
+void JsonObject::add(std::string_view name, const std::vector<JsonObject>& objects) {
+    begin(name);
+    members_ += '[';
+    for (std::size_t i = 0; i < objects.size(); ++i)
+        members_ += (i > 0 ? ",\n{" : "{") + objects[i].members_ + '}';
+    members_ += ']';
+}
+
 void write_table(std::ostream& out, const Table& table, TableFormat format, int digits, const JsonObject& heading) {
     switch (format) {
     case TableFormat::table:

@@ -58,6 +58,7 @@ public:
     void add(std::string_view name, std::string_view text);
     void add(std::string_view name, double number);
     void add(std::string_view name, const JsonObject& object);
+    void add(std::string_view name, const std::vector<JsonObject>& objects);
     /// The members, without the braces.
     const std::string& members() const { return members_; }
 

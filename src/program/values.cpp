@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 namespace graze {
 
 namespace {
@@ -76,7 +78,18 @@ double positive_value_of(const Model& model, std::string_view text, const std::s
     return value;
 }
 
+namespace {
+
+/// Of two values one would be ignored.
+void require_new(std::set<std::string>& names, const std::string& name, const char* option) {
+    if (!names.insert(name).second)
+        throw InputError({option, 0, 0}, fmt::format("'{}' is given twice", name), "leave one of them out");
+}
+
+} // namespace
+
 void set_parameters(Model& model, const std::vector<std::string>& assignments) {
+    std::set<std::string> names;
     for (const std::string& item : split_list(assignments)) {
         const Assignment assignment = parse_assignment(item, "--set");
         if (!model.find_parameter(assignment.name) && model.find_state(assignment.name))
@@ -84,11 +97,13 @@ void set_parameters(Model& model, const std::vector<std::string>& assignments) {
                              fmt::format("choose where it starts by --from {}", item));
         if (!model.find_parameter(assignment.name))
             model.set_parameter(assignment.name, 0); // says which names there are
+        require_new(names, assignment.name, "--set");
         model.set_parameter(assignment.name, value_of_text(model, assignment.text, assignment.place));
     }
 }
 
 void set_initial_state(Model& model, const std::vector<std::string>& assignments) {
+    std::set<std::string> names;
     for (const std::string& item : split_list(assignments)) {
         const Assignment assignment = parse_assignment(item, "--from");
         if (!model.find_state(assignment.name) && model.find_parameter(assignment.name))
@@ -96,6 +111,7 @@ void set_initial_state(Model& model, const std::vector<std::string>& assignments
                              fmt::format("choose its value by --set {}", item));
         if (!model.find_state(assignment.name))
             model.set_initial(assignment.name, 0); // says which names there are
+        require_new(names, assignment.name, "--from");
         model.set_initial(assignment.name, value_of_text(model, assignment.text, assignment.place));
     }
 }

@@ -104,6 +104,13 @@ Statement& Statement::bind(int position, double value) {
     return *this;
 }
 
+Statement& Statement::bind_extended(int position, double value) {
+    if (std::isnan(value))
+        return bind_null(position);
+    sqlite3_bind_double(statement_.get(), position, value);
+    return *this;
+}
+
 Statement& Statement::bind(int position, std::int64_t value) {
     sqlite3_bind_int64(statement_.get(), position, value);
     return *this;

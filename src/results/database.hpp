@@ -24,6 +24,8 @@ public:
     Statement& bind_null(int position);
     /// @return whether there is a row
     bool step();
+    /// A number that may be infinite, which other numbers are not: they are then missing.
+    Statement& bind_extended(int position, double value);
     /// Runs a statement without rows, for it to be run again.
     void run();
     /// Lets a statement whose rows have been read be run again.

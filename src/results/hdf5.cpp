@@ -178,11 +178,20 @@ void export_hdf5(const ResultFile& file, const std::vector<std::string>& runs, c
                     file.query(fmt::format("SELECT * FROM {} ORDER BY {}", tables.samples,
                                            branch ? "point, segment" : "rowid")),
                     branch, branch ? tables.states : tables.values, path);
-        write_table(group.id(), "multipliers",
-                    file.query(fmt::format("SELECT point, position, real, imaginary FROM multipliers WHERE run = '{}' "
-                                           "ORDER BY point, position",
-                                           name)),
-                    branch, {}, path);
+        const auto write_details = [&](const char* table, const char* columns,
+                                       const std::vector<std::string>& numbers) {
+            write_table(group.id(), table,
+                        file.query(fmt::format("SELECT point, position, {} FROM {} WHERE run = '{}' "
+                                               "ORDER BY point, position",
+                                               columns, table, name)),
+                        branch, numbers, path);
+        };
+        write_details("multipliers", "real, imaginary", {});
+        if (branch) {
+            write_details("half_multipliers", "real, imaginary", {});
+            write_details("minima", "segment, event, time, value", {});
+            write_details("end_values", "segment, event, value, rate", {});
+        }
     }
 }
 

@@ -34,6 +34,10 @@ std::vector<std::size_t> parameter_places(const Model& model, const RunRecord& r
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); ///< what is not finite is NULL in the file
 
+double number_or_nothing(const Statement& row, int column) {
+    return row.is_null(column) ? nothing : row.number(column);
+}
+
 /// Binds a row's columns one after the other.
 class Columns {
 public:
@@ -41,6 +45,10 @@ public:
     template <class Value>
     Columns& add(Value value) {
         row_->bind(at_++, value);
+        return *this;
+    }
+    Columns& add_extended(double value) {
+        row_->bind_extended(at_++, value);
         return *this;
     }
     /// Nothing, if it is empty. The text must live until the row has been written.
@@ -74,7 +82,7 @@ void write_row(Statement& row, const Model& model, const RunRecord& run, const O
         columns.add(orbit.parameters[place]);
     columns.add(orbit.period());
     for (std::size_t m = 0; m < run.values.size(); ++m)
-        columns.add(m < point.monitors.size() ? point.monitors[m] : nothing);
+        columns.add_extended(m < point.monitors.size() ? point.monitors[m] : nothing);
     columns.add(std::string_view(signature)).add_text(symmetry);
     columns.add(std::int64_t{record.stable}).add(unstable_directions(solution));
     columns.add(std::int64_t{solution.certificate.admissible}).add_text(solution.certificate.reason).add(outcome);
@@ -108,6 +116,46 @@ void write_segments(Statement& row, const Model& model, const OrbitRecord& recor
             row.bind(9 + static_cast<int>(i), solution.orbit.starts[s][i]);
         row.run();
     }
+}
+
+/// What the model's motion would meet inside arcs and at their ends.
+void write_certificate(Statement& minimum, Statement& end_value, const Model& model, const std::string& run,
+                       const OrbitRecord& record) {
+    const Certificate& certificate = record.point.solution.certificate;
+    std::size_t position = 0;
+    for (const OrbitMinimum& one : certificate.minima)
+        minimum.bind(1, std::string_view(run))
+            .bind(2, record.number)
+            .bind(3, position++)
+            .bind(4, one.segment + 1)
+            .bind(5, std::string_view(model.events[one.event].name))
+            .bind(6, one.time)
+            .bind_extended(7, one.value)
+            .run();
+    position = 0;
+    for (const EndValue& one : certificate.end_values)
+        end_value.bind(1, std::string_view(run))
+            .bind(2, record.number)
+            .bind(3, position++)
+            .bind(4, one.segment + 1)
+            .bind(5, std::string_view(model.events[one.event].name))
+            .bind_extended(6, one.value)
+            .bind_extended(7, one.rate)
+            .run();
+}
+
+void read_certificate(Statement& minima, Statement& end_values, const Model& model, Certificate& certificate) {
+    const auto segment = [](const Statement& row) {
+        return static_cast<std::size_t>(std::max<std::int64_t>(row.integer(0), 1) - 1);
+    };
+    while (minima.step())
+        if (const auto event = model.find_event(minima.text(1)))
+            certificate.minima.push_back({segment(minima), *event, minima.number(2), minima.number(3)});
+    minima.reset();
+    while (end_values.step())
+        if (const auto event = model.find_event(end_values.text(1)))
+            certificate.end_values.push_back({segment(end_values), *event, end_values.number(2), end_values.number(3)});
+    end_values.reset();
 }
 
 std::vector<double> numbers_of(const std::string& json) {
@@ -151,7 +199,7 @@ OrbitRecord read_row(const Statement& row, const Model& model, const RunRecord& 
     point.parameter = run.coordinates.empty() ? 0 : row.number(5);
     ++at; // the period follows from the segments,
     for (std::size_t m = 0; m < run.values.size(); ++m, ++at)
-        point.monitors.push_back(row.is_null(at) ? std::numeric_limits<double>::quiet_NaN() : row.number(at));
+        point.monitors.push_back(number_or_nothing(row, at));
     ++at; // the signature, too
     if (const std::string name = row.text(at++); !name.empty())
         for (std::size_t i = 0; i < model.symmetries.size(); ++i)
@@ -163,15 +211,14 @@ OrbitRecord read_row(const Statement& row, const Model& model, const RunRecord& 
     solution.certificate.reason = row.text(at++);
     solution.outcome = outcome_named(row.text(at++));
     point.detail = row.text(at++);
-    solution.residual = row.number(at++);
+    solution.residual = number_or_nothing(row, at++);
     if (!row.is_null(at))
         solution.error = row.number(at);
     ++at;
     solution.iterations = index(at++);
     point.arclength = row.number(at++);
     point.located = row.integer(at++) != 0;
-    const auto number_or_nothing = [&](int column) { return row.is_null(column) ? nothing : row.number(column); };
-    point.bracket = {number_or_nothing(at), number_or_nothing(at + 1)};
+    point.bracket = {number_or_nothing(row, at), number_or_nothing(row, at + 1)};
     at += 2;
     if (const auto event = model.find_event(row.text(at)); event && !row.is_null(at)) {
         point.event = *event;
@@ -186,23 +233,21 @@ OrbitRecord read_row(const Statement& row, const Model& model, const RunRecord& 
 } // namespace
 
 void ResultFile::add_orbit(const std::string& name, const OrbitRecord& record) {
-    auto& [run, tables, insert_point, insert_segment, insert_multiplier, model] = state_->writer_of(*this, name);
+    auto& writer = state_->writer_of(*this, name);
+    const RunRecord& run = writer.run;
+    std::optional<Model>& model = writer.model;
     if (!run.is_branch())
         throw InputError(fmt::format("run '{}' is of kind {}", name, run.kind), "orbits belong to orbit and continue");
     if (!model)
         model = parse_model(run.model, run.name + ".toml");
     state_->begin();
     try {
-        write_row(insert_point, *model, run, record);
-        write_segments(insert_segment, *model, record);
-        const auto& multipliers = record.point.solution.multipliers;
-        for (std::size_t m = 0; m < multipliers.size(); ++m)
-            insert_multiplier.bind(1, std::string_view(name))
-                .bind(2, record.number)
-                .bind(3, m)
-                .bind(4, multipliers[m].real())
-                .bind(5, multipliers[m].imag())
-                .run();
+        write_row(writer.point, *model, run, record);
+        write_segments(writer.sample, *model, record);
+        write_certificate(writer.minimum, writer.end_value, *model, name, record);
+        const OrbitSolution& solution = record.point.solution;
+        write_multipliers(writer.multiplier, name, record.number, solution.multipliers);
+        write_multipliers(writer.half_multiplier, name, record.number, solution.half_multipliers);
         state_->commit_when_due();
     } catch (...) {
         state_->sqlite_rollback();
@@ -224,8 +269,16 @@ std::vector<OrbitRecord> ResultFile::read_orbits(const std::string& name, const 
     row.bind(1, number).bind(2, std::string_view(label));
     Statement segments =
         state_->database.prepare(fmt::format("SELECT * FROM {} WHERE point = ? ORDER BY segment", tables.samples));
-    Statement multipliers = state_->database.prepare(
-        "SELECT real, imaginary FROM multipliers WHERE run = ? AND point = ? ORDER BY position");
+    const auto details = [&](const char* columns, const char* table) {
+        Statement rows = state_->database.prepare(
+            fmt::format("SELECT {} FROM {} WHERE run = ?1 AND point = ?2 ORDER BY position", columns, table));
+        rows.bind(1, std::string_view(name));
+        return rows;
+    };
+    Statement multipliers = details("real, imaginary", "multipliers"),
+              half_multipliers = details("real, imaginary", "half_multipliers"),
+              minima = details("segment, event, time, value", "minima"),
+              end_values = details("segment, event, value, rate", "end_values");
     while (row.step()) {
         OrbitRecord record = read_row(row, model, *run);
         OrbitSolution& solution = record.point.solution;
@@ -233,20 +286,21 @@ std::vector<OrbitRecord> ResultFile::read_orbits(const std::string& name, const 
         segments.bind(1, record.number);
         while (segments.step()) {
             solution.orbit.signature.push_back(segment_named(model, segments.text(2), segments.text(3)));
-            solution.orbit.durations.push_back(segments.number(4));
-            certificate.approach_speeds.push_back(segments.number(5));
-            certificate.departures.push_back(segments.number(6));
+            solution.orbit.durations.push_back(number_or_nothing(segments, 4));
+            certificate.approach_speeds.push_back(number_or_nothing(segments, 5));
+            certificate.departures.push_back(number_or_nothing(segments, 6));
             certificate.guard_margins.push_back(segments.is_null(7) ? std::numeric_limits<double>::infinity()
                                                                     : segments.number(7));
             std::vector<double>& start = solution.orbit.starts.emplace_back();
             for (std::size_t i = 0; i < run->states.size(); ++i)
-                start.push_back(segments.number(8 + static_cast<int>(i)));
+                start.push_back(number_or_nothing(segments, 8 + static_cast<int>(i)));
         }
         segments.reset();
-        multipliers.bind(1, std::string_view(name)).bind(2, record.number);
-        while (multipliers.step())
-            solution.multipliers.emplace_back(multipliers.number(0), multipliers.number(1));
-        multipliers.reset();
+        for (Statement* rows : {&multipliers, &half_multipliers, &minima, &end_values})
+            rows->bind(2, record.number);
+        solution.multipliers = read_multipliers(multipliers);
+        solution.half_multipliers = read_multipliers(half_multipliers);
+        read_certificate(minima, end_values, model, certificate);
         records.push_back(std::move(record));
     }
     return records;

@@ -30,6 +30,26 @@ std::size_t index_of(const std::vector<std::string>& names, const std::string& n
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
+void write_multipliers(Statement& statement, const std::string& run, std::size_t point,
+                       const std::vector<std::complex<double>>& multipliers) {
+    for (std::size_t m = 0; m < multipliers.size(); ++m)
+        statement.bind(1, std::string_view(run))
+            .bind(2, point)
+            .bind(3, m)
+            .bind_extended(4, multipliers[m].real())
+            .bind_extended(5, multipliers[m].imag())
+            .run();
+}
+
+std::vector<std::complex<double>> read_multipliers(Statement& rows) {
+    std::vector<std::complex<double>> multipliers;
+    while (rows.step())
+        multipliers.emplace_back(rows.is_null(0) ? std::numeric_limits<double>::infinity() : rows.number(0),
+                                 rows.number(1));
+    rows.reset();
+    return multipliers;
+}
+
 void write_point(Statement& statement, const RunRecord& run, const PointRecord& point) {
     const PointResult& result = point.result;
     const std::string direction = point.direction < run.directions.size() ? run.directions[point.direction] : "";
@@ -45,7 +65,7 @@ void write_point(Statement& statement, const RunRecord& run, const PointRecord& 
     periodic ? statement.bind(at + 2, std::string_view(result.signature)) : statement.bind_null(at + 2);
     result.symmetric ? statement.bind(at + 3, std::int64_t{*result.symmetric}) : statement.bind_null(at + 3);
     result.multipliers.empty() ? statement.bind_null(at + 4)
-                               : statement.bind(at + 4, std::abs(result.multipliers.front()));
+                               : statement.bind_extended(at + 4, std::abs(result.multipliers.front()));
     result.lyapunov ? statement.bind(at + 5, *result.lyapunov) : statement.bind_null(at + 5);
     result.lyapunov_error ? statement.bind(at + 6, *result.lyapunov_error) : statement.bind_null(at + 6);
     periodic ? statement.bind(at + 7, result.residual) : statement.bind_null(at + 7);

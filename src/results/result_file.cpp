@@ -150,7 +150,9 @@ void ResultFile::remove_run(const std::string& name) {
         // The views name the tables, and are made anew without them.
         database.execute(views({}));
         database.execute(fmt::format("DROP TABLE {}; DROP TABLE {}", tables.points, tables.samples));
-        for (const char* table : {"columns", "names", "multipliers"})
+        std::vector<std::string> shared = tables_of_details();
+        shared.insert(shared.end(), {"columns", "names"});
+        for (const std::string& table : shared)
             database.prepare(fmt::format("DELETE FROM {} WHERE run = ?", table)).bind(1, std::string_view(name)).run();
         database.prepare("DELETE FROM runs WHERE name = ?").bind(1, std::string_view(name)).run();
         database.execute(views(runs()));
@@ -209,14 +211,16 @@ void ResultFile::begin_run(const RunRecord& run) {
 }
 
 void ResultFile::add_point(const std::string& name, const PointRecord& point) {
-    auto& [run, tables, insert_point, insert_sample, insert_multiplier, model] = state_->writer_of(*this, name);
+    auto& writer = state_->writer_of(*this, name);
+    const RunRecord& run = writer.run;
+    Statement& insert_sample = writer.sample;
     const PointResult& result = point.result;
     if (point.coordinates.size() != run.coordinates.size() || result.state.size() != run.states.size() ||
         (result.samples.size() > 0 && result.samples.width != run.values.size()))
         throw InputError(fmt::format("a point does not fit run '{}'", name), "give a value for each of its columns");
     state_->begin();
     try {
-        write_point(insert_point, run, point);
+        write_point(writer.point, run, point);
         const SampleSet& samples = result.samples;
         const auto first = static_cast<std::int64_t>(point.number) * samples_of_a_point;
         for (std::size_t s = 0; s < samples.size(); ++s) {
@@ -228,13 +232,7 @@ void ResultFile::add_point(const std::string& name, const PointRecord& point) {
                 insert_sample.bind(5 + static_cast<int>(v), samples.values[s * samples.width + v]);
             insert_sample.run();
         }
-        for (std::size_t m = 0; m < result.multipliers.size(); ++m)
-            insert_multiplier.bind(1, std::string_view(name))
-                .bind(2, point.number)
-                .bind(3, m)
-                .bind(4, result.multipliers[m].real())
-                .bind(5, result.multipliers[m].imag())
-                .run();
+        write_multipliers(writer.multiplier, name, point.number, result.multipliers);
         state_->commit_when_due();
     } catch (...) {
         state_->sqlite_rollback();
@@ -300,8 +298,7 @@ std::optional<PointRecord> ResultFile::point(const std::string& name, std::size_
     Statement multipliers = state_->database.prepare(
         "SELECT real, imaginary FROM multipliers WHERE run = ? AND point = ? ORDER BY position");
     multipliers.bind(1, std::string_view(name)).bind(2, number);
-    while (multipliers.step())
-        point.result.multipliers.emplace_back(multipliers.number(0), multipliers.number(1));
+    point.result.multipliers = read_multipliers(multipliers);
     return point;
 }
 

@@ -26,8 +26,9 @@ struct ResultFile::State {
     struct Writer {
         RunRecord run;
         RunTables tables;
-        Statement point, sample, multiplier; ///< sample: of a branch, its orbits' segments
-        std::optional<Model> model;          ///< of a branch, once an orbit has been written
+        Statement point, sample; ///< sample: of a branch, its orbits' segments
+        Statement multiplier, half_multiplier, minimum, end_value;
+        std::optional<Model> model; ///< of a branch, once an orbit has been written
     };
     std::unique_ptr<Writer> writer; ///< of the run that was written to last
 
@@ -47,7 +48,10 @@ struct ResultFile::State {
             const RunTables tables(*run);
             writer = std::make_unique<Writer>(
                 Writer{*run, tables, database.prepare(tables.insert_point()), database.prepare(tables.insert_sample()),
-                       database.prepare("INSERT INTO multipliers VALUES(?,?,?,?,?)"), std::nullopt});
+                       database.prepare("INSERT INTO multipliers VALUES(?,?,?,?,?)"),
+                       database.prepare("INSERT INTO half_multipliers VALUES(?,?,?,?,?)"),
+                       database.prepare("INSERT INTO minima VALUES(?,?,?,?,?,?,?)"),
+                       database.prepare("INSERT INTO end_values VALUES(?,?,?,?,?,?,?)"), std::nullopt});
         }
         return *writer;
     }

@@ -90,7 +90,17 @@ CREATE TABLE columns(run TEXT, place TEXT, position INTEGER, name TEXT, unit TEX
 CREATE TABLE names(run TEXT, what TEXT, position INTEGER, name TEXT, PRIMARY KEY(run, what, position)) WITHOUT ROWID;
 CREATE TABLE multipliers(run TEXT, point INTEGER, position INTEGER, real REAL, imaginary REAL,
                          PRIMARY KEY(run, point, position)) WITHOUT ROWID;
+CREATE TABLE half_multipliers(run TEXT, point INTEGER, position INTEGER, real REAL, imaginary REAL,
+                              PRIMARY KEY(run, point, position)) WITHOUT ROWID;
+CREATE TABLE minima(run TEXT, point INTEGER, position INTEGER, segment INTEGER, event TEXT, time REAL, value REAL,
+                    PRIMARY KEY(run, point, position)) WITHOUT ROWID;
+CREATE TABLE end_values(run TEXT, point INTEGER, position INTEGER, segment INTEGER, event TEXT, value REAL, rate REAL,
+                        PRIMARY KEY(run, point, position)) WITHOUT ROWID;
 )";
+}
+
+std::vector<std::string> tables_of_details() {
+    return {"multipliers", "half_multipliers", "minima", "end_values"};
 }
 
 std::string views(const std::vector<RunRecord>& runs) {

@@ -8,11 +8,13 @@
 namespace graze {
 
 /// Format of result files that this version writes.
-constexpr int result_format = 1;
+constexpr int result_format = 2;
 constexpr int result_application = 0x67727a31; ///< "grz1", for tools that recognise files by it
 
 /// Tables that every file has.
 std::string common_tables();
+/// Of these, those with rows of a run besides its points: `run` and `point` come first.
+std::vector<std::string> tables_of_details();
 /// Views over all runs, to be made anew whenever runs change.
 std::string views(const std::vector<RunRecord>& runs);
 

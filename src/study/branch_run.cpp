@@ -2,11 +2,11 @@
 
 #include "graze/branch/switching.hpp"
 #include "graze/orbit/orbit_file.hpp"
+#include "study/start_point.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -23,6 +23,8 @@ struct Part {
     Orbit orbit;
     std::optional<BranchStart> onto; ///< along this rather than along the branch through the orbit
     int direction = 1;
+    bool again = false; ///< another part has begun at the same orbit
+    std::string twin;   ///< of which part its orbits are images under the symmetry; empty: of none
 };
 
 /// Messages of numerical functions, with the place of the run.
@@ -72,16 +74,12 @@ OrbitSolution solved(const StudyRun& run, const Orbit& candidate) {
 }
 
 /// The model with the parameters and the state of a point of a sweep.
-Model model_at(const StudyRun& run, const StudyRun& parent, const PointRecord& point) {
+Model model_at(const StudyRun& run, const StartPoint& start) {
     Model model = run.model;
-    const auto symbols = model.parameter_symbols();
-    for (std::size_t c = 0; c < parent.axes.size(); ++c)
-        if (!parent.axes[c].is_state &&
-            std::find(run.branch.set.begin(), run.branch.set.end(), parent.axes[c].index) == run.branch.set.end())
-            model.set_parameter(symbols[parent.axes[c].index].name(), point.coordinates[c]);
+    set_parameters(model, start.parameters);
     for (std::size_t i = 0; i < model.states.size(); ++i)
-        model.set_initial(model.states[i].name, point.result.state[i]);
-    model.set_initial_mode(model.modes[point.result.mode].name);
+        model.set_initial(model.states[i].name, start.point.result.state[i]);
+    model.set_initial_mode(model.modes[start.point.result.mode].name);
     return model;
 }
 
@@ -91,20 +89,19 @@ const StudyRun& run_named(const Study& study, const std::string& name) {
 
 /// An orbit of an earlier run, at the parameters that this run sets.
 Orbit taken_over(const StudyRun& run, Orbit orbit) {
-    const std::vector<double> values = run.model.parameter_values();
-    for (const std::size_t parameter : run.branch.set)
-        orbit.parameters[parameter] = values[parameter];
+    orbit.parameters = with_own_parameters(run, std::move(orbit.parameters));
     return orbit;
 }
 
 bool leads_on(PointType type) {
-    return type == PointType::flip || type == PointType::branch_point || type == PointType::grazing;
+    return type == PointType::flip || type == PointType::branch_point || type == PointType::asymmetry ||
+           type == PointType::grazing;
 }
 
 std::vector<Part> both_directions(const StudyRun& run, const Orbit& orbit) {
     std::vector<Part> parts;
     for (const std::string& name : direction_names(run))
-        parts.push_back({name, orbit, std::nullopt, name == "down" ? -1 : 1});
+        parts.push_back({name, orbit, std::nullopt, name == "down" ? -1 : 1, !parts.empty(), ""});
     return parts;
 }
 
@@ -147,7 +144,8 @@ std::vector<Part> parts_from_orbit(const StudyRun& run, const StudyRun& parent, 
         return both_directions(run, taken_over(run, starts.front().orbit));
     std::vector<Part> parts;
     for (const BranchStart& one : starts)
-        parts.push_back({one.how, one.orbit, one, 1});
+        parts.push_back({one.how, one.orbit, one, 1, false,
+                         point.type == PointType::asymmetry && !parts.empty() ? parts.front().name : ""});
     return parts;
 }
 
@@ -159,8 +157,7 @@ std::vector<Part> parts_of(const Study& study, const StudyRun& run, const Result
         const StudyRun& parent = run_named(study, run.start->run);
         if (parent.is_branch())
             return parts_from_orbit(run, parent, orbit_to_start_from(*run.start, parent, file));
-        const PointRecord point = point_to_start_from(run, study, file);
-        return both_directions(run, settled(run, model_at(run, parent, point)).orbit);
+        return both_directions(run, settled(run, model_at(run, point_to_start_from(run, study, file))).orbit);
     }
     if (!branch.table.empty())
         return both_directions(run, orbit_of_table(run));
@@ -181,6 +178,8 @@ public:
         flush();
         waiting_ = OrbitRecord{0, part, "", stable, point};
     }
+    /// Points to come are images of those of an earlier part, if they are like them.
+    void set_twin(const std::string& part) { twin_ = part; }
     /// What is said of the last point, which becomes an end unless it is special already.
     void end(const std::string& why) {
         if (!waiting_)
@@ -200,6 +199,7 @@ public:
         if (record.point.type != PointType::regular) {
             const std::string type(short_name(record.point.type));
             record.label = fmt::format("{}{}", type, ++counts_[type]);
+            note_twin(record);
         }
         file_->add_orbit(run_->name, record);
         ++report_->computed;
@@ -209,17 +209,37 @@ public:
     }
 
 private:
+    /// Says so of a point that an earlier part has as well.
+    void note_twin(OrbitRecord& record) {
+        const auto alike = [](double one, double other) { // as well as points are located, with some reserve
+            return std::abs(one - other) <= 1e-6 * std::max(std::abs(one), std::abs(other));
+        };
+        for (const OrbitRecord& other : twin_.empty() ? std::vector<OrbitRecord>() : special_)
+            if (other.part == twin_ && other.point.type == record.point.type &&
+                alike(other.point.parameter, record.point.parameter) &&
+                alike(other.point.solution.orbit.period(), record.point.solution.orbit.period())) {
+                std::string& detail = record.point.detail;
+                detail = fmt::format("twin of {}{}{}", other.label, detail.empty() ? "" : "; ", detail);
+                return;
+            }
+        if (twin_.empty())
+            special_.push_back(record);
+    }
+
     const StudyRun* run_;
     ResultFile* file_;
     const RunnerOptions* options_;
     RunReport* report_;
+    std::string twin_;
+    std::vector<OrbitRecord> special_; ///< written so far
     std::map<std::string, std::size_t> counts_;
     std::optional<OrbitRecord> waiting_;
 };
 
-SpecialPoint regular_point(const BranchPoint& point) {
+/// @param again whether an earlier part of the run has the same first point, which is an end of neither
+SpecialPoint regular_point(const BranchPoint& point, bool again) {
     SpecialPoint result;
-    result.type = point.step == 0 ? PointType::end : PointType::regular;
+    result.type = point.step == 0 && !again ? PointType::end : PointType::regular;
     result.detail = point.step == 0 ? "start" : "";
     result.solution = point.solution;
     result.solution.iterations = point.iterations;
@@ -268,7 +288,7 @@ std::optional<BranchOutcome> follow_part(const StudyRun& run, const Part& part, 
         last_is_special = ended && !branch.found().empty();
         // What lies beyond an end that has been located does not belong to the branch.
         if (!last_is_special)
-            writer.add(part.name, regular_point(branch.point()), branch.point().stable);
+            writer.add(part.name, regular_point(branch.point(), part.again), branch.point().stable);
         if (options.interrupted && options.interrupted())
             return std::nullopt;
         going = branch.step();
@@ -294,8 +314,11 @@ bool compute_orbit(const Study& study, const StudyRun& run, const ResultFile& fi
     const Orbit& orbit = point.solution.orbit;
     if (point.solution.outcome == OrbitOutcome::converged && !run.branch.settings.monitors.empty())
         point.monitors = at_place(run.place, run, [&] {
-            return OrbitMonitors(run.model, orbit.signature, run.branch.settings.monitors,
-                                 run.branch.settings.orbit.tolerance)(orbit);
+            const std::vector<Monitor>& monitors = run.branch.settings.monitors;
+            std::vector<double> values =
+                OrbitMonitors(run.model, orbit.signature, monitors, run.branch.settings.orbit.tolerance)(orbit);
+            measure_multipliers(monitors, point.solution.multipliers, values);
+            return values;
         });
     if (point.solution.outcome != OrbitOutcome::converged) {
         point.located = false;
@@ -311,52 +334,6 @@ bool compute_orbit(const Study& study, const StudyRun& run, const ResultFile& fi
 
 } // namespace
 
-OrbitRecord orbit_to_start_from(const StartFrom& start, const StudyRun& parent, const ResultFile& file) {
-    std::optional<OrbitRecord> record;
-    if (start.coordinate) {
-        const auto symbols = parent.model.parameter_symbols();
-        const auto found = std::find_if(symbols.begin(), symbols.end(),
-                                        [&](const auto& symbol) { return symbol.name() == *start.coordinate; });
-        if (found == symbols.end())
-            throw InputError(start.place, fmt::format("run '{}' has no parameter '{}'", start.run, *start.coordinate),
-                             "name one of the model's");
-        const auto place = static_cast<std::size_t>(found - symbols.begin());
-        double least = std::numeric_limits<double>::infinity();
-        for (OrbitRecord& one : file.orbits(start.run, false)) {
-            const double distance = std::abs(one.point.solution.orbit.parameters[place] - start.value);
-            if ((start.direction && one.part != *start.direction) || !(distance < least))
-                continue;
-            least = distance;
-            record = std::move(one);
-        }
-        if (record) { // a first guess at exactly that value
-            record->point.solution.orbit.parameters[place] = start.value;
-            record->point.type = PointType::regular;
-        }
-    } else if (start.point.empty()) {
-        if (parent.kind == RunKind::follow)
-            throw InputError(start.place, fmt::format("run '{}' has many points", start.run),
-                             "name one: point = \"GR1\", or at = { PARAMETER = VALUE }");
-        record = file.orbit(start.run, std::size_t{0});
-    } else {
-        std::size_t number = 0;
-        const char* last = start.point.data() + start.point.size();
-        const auto [end, error] = std::from_chars(start.point.data(), last, number);
-        record =
-            error == std::errc() && end == last ? file.orbit(start.run, number) : file.orbit(start.run, start.point);
-    }
-    if (!record) {
-        std::string known;
-        for (const OrbitRecord& one : file.orbits(start.run, true))
-            known += (known.empty() ? "" : ", ") + one.label;
-        throw InputError(start.place, fmt::format("run '{}' has no point '{}'", start.run, start.point),
-                         known.empty() ? "it has none at all" : "it has " + known);
-    }
-    if (record->point.solution.outcome != OrbitOutcome::converged)
-        throw InputError(start.place, fmt::format("run '{}' found no orbit there", start.run), "choose another point");
-    return *record;
-}
-
 bool run_branch(const Study& study, const StudyRun& run, ResultFile& file, const RunnerOptions& options,
                 RunReport& report) {
     PointWriter writer(run, file, options, report);
@@ -367,6 +344,7 @@ bool run_branch(const Study& study, const StudyRun& run, ResultFile& file, const
     if (parts.empty())
         return false;
     for (const Part& part : parts) {
+        writer.set_twin(part.twin);
         const auto outcome = follow_part(run, part, writer, options);
         if (!outcome)
             return false;

@@ -207,7 +207,9 @@ std::vector<Settings> monitors_of(const BranchSettings& branch) {
     for (const Monitor& monitor : branch.monitors) {
         Settings item;
         item.add("name", monitor.name).add("kind", static_cast<int>(monitor.kind)).add("segment", monitor.segment);
-        if (monitor.kind != Monitor::Kind::duration)
+        if (monitor.kind == Monitor::Kind::multiplier)
+            item.add("place", monitor.place);
+        else if (monitor.kind != Monitor::Kind::duration)
             item.add("expression", to_string(monitor.expression));
         item.add("fixed", monitor.fixed).add("crossings", monitor.crossings);
         if (monitor.held)

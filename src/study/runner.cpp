@@ -2,11 +2,13 @@
 
 #include "graze/model/model_file.hpp"
 #include "study/branch_run.hpp"
+#include "study/start_point.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <set>
 
 namespace graze {
@@ -14,7 +16,7 @@ namespace graze {
 namespace {
 
 /// Changes when the same settings lead to other numbers than in an earlier version.
-constexpr int numbers = 1;
+constexpr int numbers = 2;
 
 /// FNV-1a with two seeds: equal for equal texts everywhere, and different for others with near certainty.
 std::string hash(const std::string& text) {
@@ -86,52 +88,6 @@ std::vector<std::string> direction_names(const StudyRun& run) {
     return {};
 }
 
-PointRecord point_to_start_from(const StudyRun& run, const Study& study, const ResultFile& file) {
-    const StartFrom& start = *run.start;
-    const auto parent = std::find_if(study.runs.begin(), study.runs.end(),
-                                     [&](const StudyRun& other) { return other.name == start.run; });
-    if (parent->is_branch()) {
-        const Orbit orbit = orbit_to_start_from(start, *parent, file).point.solution.orbit;
-        PointRecord point;
-        point.result.state = orbit.starts.front();
-        point.result.mode = orbit.signature.front().mode;
-        point.result.label = Label::periodic;
-        return point;
-    }
-    std::optional<std::size_t> direction;
-    if (start.direction) {
-        const auto names = direction_names(*parent);
-        direction = static_cast<std::size_t>(std::find(names.begin(), names.end(), *start.direction) - names.begin());
-        if (*direction == names.size())
-            throw InputError(start.place, fmt::format("run '{}' has no direction '{}'", start.run, *start.direction),
-                             "leave the direction out, or sweep both ways");
-    }
-    std::optional<PointRecord> point;
-    if (start.coordinate) {
-        point = file.nearest_point(start.run, *start.coordinate, start.value, direction);
-        if (!point)
-            throw InputError(start.place, fmt::format("run '{}' has no coordinate '{}'", start.run, *start.coordinate),
-                             "name one of those that it varies");
-    } else {
-        const std::size_t count = file.point_count(start.run);
-        if (count > 0)
-            point = file.point(start.run, count - 1);
-    }
-    if (!point)
-        throw InputError(start.place, fmt::format("run '{}' has no points to start from", start.run),
-                         "let it have some");
-    const bool finite =
-        std::all_of(point->result.state.begin(), point->result.state.end(), [](double x) { return std::isfinite(x); });
-    if (!finite || point->result.state.size() != run.model.states.size() ||
-        point->result.mode >= run.model.modes.size() || point->result.label == Label::singular ||
-        point->result.label == Label::failed)
-        throw InputError(start.place,
-                         fmt::format("run '{}' ended there as '{}', with no state to start from", start.run,
-                                     name_of(point->result.label)),
-                         "choose another point");
-    return *point;
-}
-
 namespace {
 
 std::unique_ptr<SearchFactory> searches_of(const StudyRun& run) {
@@ -164,13 +120,6 @@ std::set<std::string> wanted_runs(const Study& study, const std::vector<std::str
     return wanted;
 }
 
-using Fingerprints = std::map<std::string, std::string>;
-
-/// How far a study is before a run, and what there is in all.
-struct RunProgress {
-    std::size_t before, all;
-};
-
 /// Whether the file has all of a run as it is asked for now. Otherwise what it has is kept only if it can be gone on
 /// with.
 bool is_done(const RunRecord& record, ResultFile& file) {
@@ -183,79 +132,161 @@ bool is_done(const RunRecord& record, ResultFile& file) {
     return false;
 }
 
-RunReport do_branch(const Study& study, const StudyRun& run, ResultFile& file, const RunnerOptions& options,
-                    Fingerprints& fingerprints) {
-    const RunRecord record = record_of(run, run.start ? fingerprints[run.start->run] : "", 0);
-    fingerprints[run.name] = record.fingerprint;
-    RunReport report{run.name, record.kind, 0, 0, 0, 0, true};
-    if (is_done(record, file)) {
-        report.points = file.point_count(run.name);
-        return report;
-    }
-    report.complete = run_branch(study, run, file, options, report);
-    report.complete ? file.complete_run(run.name) : file.flush();
-    return report;
+/// A run whose parameters are those of the point that it starts from.
+StudyRun at_start(const StudyRun& run, const StartPoint& start) {
+    StudyRun result = run;
+    set_parameters(result.model, start.parameters);
+    return result;
 }
 
-RunReport do_points(const Study& study, const StudyRun& run, ResultFile& file, const RunnerOptions& options,
-                    Fingerprints& fingerprints, const RunProgress& so_far) {
-    std::optional<PointRecord> start;
-    if (run.start)
-        start = point_to_start_from(run, study, file);
-    const Plan plan = plan_of(run, start ? &*start : nullptr);
-    const RunRecord record = record_of(run, run.start ? fingerprints[run.start->run] : "", plan.points());
-    fingerprints[run.name] = record.fingerprint;
-    RunReport report{run.name, record.kind, plan.points(), 0, 0, 0, true};
-    if (is_done(record, file))
+/// What does a study's runs, one after the other.
+class Runner {
+public:
+    Runner(const Study& study, ResultFile& file, const RunnerOptions& options)
+        : study_(&study), file_(&file), options_(&options), wanted_(wanted_runs(study, options.only)) {
+        for (const StudyRun& run : study.runs)
+            if (wanted_.contains(run.name))
+                all_ += planned_points(run);
+    }
+
+    std::vector<RunReport> run() {
+        using Clock = std::chrono::steady_clock;
+        for (const StudyRun& run : study_->runs) {
+            if (!wanted_.contains(run.name))
+                continue;
+            const auto begun = Clock::now();
+            reports_.push_back(attempt(run));
+            before_ += planned_points(run);
+            reports_.back().seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+            if (reports_.back().outcome == RunOutcome::interrupted)
+                break;
+        }
+        return std::move(reports_);
+    }
+
+private:
+    static std::size_t planned_points(const StudyRun& run) {
+        return run.is_branch() ? 1 : plan_of(run, nullptr).points();
+    }
+
+    /// A run that fails is told of, and those that do not start from it go on.
+    RunReport attempt(const StudyRun& run) {
+        RunReport report;
+        report.name = run.name;
+        report.kind = name_of(run.kind);
+        if (run.start && failed_.contains(run.start->run)) {
+            fail(run, report, RunOutcome::skipped,
+                 fmt::format("run '{}', from which it starts, failed", run.start->run), "mend that one first");
+            return report;
+        }
+        try {
+            run.is_branch() ? do_branch(run, report) : do_points(run, report);
+        } catch (const InputError& error) {
+            if (error.place().file == file_->path()) // the file cannot be written: neither can other runs
+                throw;
+            file_->flush();
+            const std::string place = error.place().text();
+            fail(run, report, RunOutcome::failed, place + (place.empty() ? "" : ": ") + error.problem(),
+                 error.remedy());
+        }
         return report;
-    std::size_t done = 0;
-    const auto progress = progress_of(file, run.name, plan, done);
-    ExecutionOptions execution;
-    execution.jobs = options.jobs;
-    execution.interrupted = options.interrupted;
-    const auto searches = searches_of(run);
-    report.complete =
-        execute(plan, *searches, progress, execution, [&](std::size_t point, const PointStart&, PointResult& result) {
-            report.returns += result.periods_run;
-            file.add_point(run.name, {point, point / plan.chain_length, direction_of(run, point),
-                                      coordinates_of(run, point), std::move(result)});
-            ++report.computed;
-            if (options.progress)
-                options.progress(run.name, so_far.before + done + report.computed, so_far.all);
-        });
-    report.complete ? file.complete_run(run.name) : file.flush();
-    return report;
-}
+    }
+
+    /// Nothing of an earlier version of the run is left for others to take for its results.
+    void fail(const StudyRun& run, RunReport& report, RunOutcome outcome, const std::string& problem,
+              const std::string& remedy) {
+        report.outcome = outcome;
+        report.problem = problem;
+        report.remedy = remedy;
+        failed_.insert(run.name);
+        const RunRecord record = record_of(run, parent_fingerprint(run), 0);
+        const auto stored = file_->find_run(run.name);
+        if (!stored || stored->fingerprint != record.fingerprint)
+            file_->begin_run(record);
+        report.points = file_->point_count(run.name);
+    }
+
+    std::string parent_fingerprint(const StudyRun& run) const {
+        const auto found = run.start ? fingerprints_.find(run.start->run) : fingerprints_.end();
+        return found == fingerprints_.end() ? "" : found->second;
+    }
+
+    void do_branch(const StudyRun& run, RunReport& report) {
+        const RunRecord record = record_of(run, parent_fingerprint(run), 0);
+        fingerprints_[run.name] = record.fingerprint;
+        if (is_done(record, *file_)) {
+            report.points = file_->point_count(run.name);
+        } else {
+            const bool complete = run_branch(*study_, run, *file_, *options_, report);
+            complete ? file_->complete_run(run.name) : file_->flush();
+            report.outcome = complete ? RunOutcome::complete : RunOutcome::interrupted;
+        }
+        if (report.outcome == RunOutcome::complete)
+            note_missing_orbits(run, report);
+    }
+
+    /// A run that has come to its end without an orbit, or with parts that have none, has failed.
+    void note_missing_orbits(const StudyRun& run, RunReport& report) {
+        std::size_t found = 0;
+        std::string why;
+        for (const OrbitRecord& record : file_->orbits(run.name, true))
+            if (record.point.solution.outcome == OrbitOutcome::converged)
+                ++found;
+            else if (why.empty())
+                why = record.point.detail.empty() ? std::string(name_of(record.point.solution.outcome))
+                                                  : record.point.detail;
+        if (why.empty())
+            return;
+        if (found == 0)
+            failed_.insert(run.name);
+        report.outcome = RunOutcome::failed;
+        report.problem = fmt::format("no orbit was found{}: {}", found > 0 ? " for a part of it" : "", why);
+        report.remedy = "begin nearer to an orbit, or elsewhere";
+    }
+
+    void do_points(const StudyRun& wanted, RunReport& report) {
+        std::optional<StartPoint> start;
+        if (wanted.start)
+            start = point_to_start_from(wanted, *study_, *file_);
+        const StudyRun run = start ? at_start(wanted, *start) : wanted;
+        const Plan plan = plan_of(run, start ? &start->point : nullptr);
+        const RunRecord record = record_of(run, parent_fingerprint(run), plan.points());
+        fingerprints_[run.name] = record.fingerprint;
+        report.points = plan.points();
+        if (is_done(record, *file_))
+            return;
+        std::size_t done = 0;
+        const auto progress = progress_of(*file_, run.name, plan, done);
+        ExecutionOptions execution;
+        execution.jobs = options_->jobs;
+        execution.interrupted = options_->interrupted;
+        const auto searches = searches_of(run);
+        const bool complete = execute(
+            plan, *searches, progress, execution, [&](std::size_t point, const PointStart&, PointResult& result) {
+                report.returns += result.periods_run;
+                file_->add_point(run.name, {point, point / plan.chain_length, direction_of(run, point),
+                                            coordinates_of(run, point), std::move(result)});
+                ++report.computed;
+                if (options_->progress)
+                    options_->progress(run.name, before_ + done + report.computed, all_);
+            });
+        complete ? file_->complete_run(run.name) : file_->flush();
+        report.outcome = complete ? RunOutcome::complete : RunOutcome::interrupted;
+    }
+
+    const Study* study_;
+    ResultFile* file_;
+    const RunnerOptions* options_;
+    std::set<std::string> wanted_, failed_;
+    std::map<std::string, std::string> fingerprints_;
+    std::size_t all_ = 0, before_ = 0; ///< points of the study; of the runs before this one
+    std::vector<RunReport> reports_;
+};
 
 } // namespace
 
 std::vector<RunReport> run_study(const Study& study, ResultFile& file, const RunnerOptions& options) {
-    using Clock = std::chrono::steady_clock;
-    std::vector<RunReport> reports;
-    Fingerprints fingerprints;
-    const std::set<std::string> wanted = wanted_runs(study, options.only);
-    std::size_t all = 0, before = 0;
-    for (const StudyRun& run : study.runs)
-        if (wanted.contains(run.name))
-            all += run.is_branch() ? 1 : plan_of(run, nullptr).points();
-    for (const StudyRun& run : study.runs) {
-        if (!wanted.contains(run.name))
-            continue;
-        const auto begun = Clock::now();
-        std::size_t planned = 1;
-        if (run.is_branch()) {
-            reports.push_back(do_branch(study, run, file, options, fingerprints));
-        } else {
-            const RunProgress progress{before, all};
-            reports.push_back(do_points(study, run, file, options, fingerprints, progress));
-            planned = reports.back().points;
-        }
-        before += planned;
-        reports.back().seconds = std::chrono::duration<double>(Clock::now() - begun).count();
-        if (!reports.back().complete)
-            break;
-    }
-    return reports;
+    return Runner(study, file, options).run();
 }
 
 } // namespace graze

@@ -158,11 +158,18 @@ Study parse_study(std::string_view text, const std::string& file) {
         throw InputError(Place{file, 1, 1}, "the study has no name", "give name = \"...\" in its first line");
     if (!runs)
         throw InputError(Place{file, 1, 1}, "the study has no runs", "add a table [runs.NAME]");
+    std::map<std::string, RunKeys> keys;
     for (const TomlEntry& entry : toml.entries(toml.table(*runs), "runs"))
-        study.runs.push_back(read_run(reader, entry, defaults));
+        study.runs.push_back(read_run(reader, entry, defaults, keys[entry.name]));
     if (study.runs.empty())
         throw InputError(runs->place, "the study has no runs", "add a table [runs.NAME]");
     study.runs = in_order(std::move(study.runs));
+    for (const StudyRun& run : study.runs)
+        if (run.start)
+            check_start(reader, run,
+                        *std::find_if(study.runs.begin(), study.runs.end(),
+                                      [&](const StudyRun& other) { return other.name == run.start->run; }),
+                        keys[run.name]);
     if (pictures)
         for (const TomlEntry& entry : toml.entries(toml.table(*pictures), "pictures"))
             study.pictures.push_back(read_picture(reader, entry));

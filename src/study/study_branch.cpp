@@ -5,17 +5,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 
 namespace graze {
 
 namespace {
-
-const std::set<std::string> of_branches{"signature",  "table", "along", "steps",    "stop",
-                                        "unphysical", "step",  "free",  "monitors", "accuracy"};
-const std::set<std::string> not_of_branches{"vary",           "draws",   "seed",   "carry",          "sample",
-                                            "values",         "time",    "skip",   "keep",           "contacts",
-                                            "greatest_speed", "periods", "events", "lyapunov_cycles"};
 
 std::size_t parameter_named(const StudyReader& reader, const Model& model, const TomlEntry& entry,
                             const std::string& name) {
@@ -73,8 +66,14 @@ void read_stop(const StudyReader& reader, StudyRun& run, const TomlEntry& entry)
 
 /// What is measured: `kind = "expression"`, or `duration = "segment"`.
 void read_monitor_kind(const StudyReader& reader, const Model& model, const TomlEntry& item, Monitor& monitor) {
-    const std::vector<std::string> kinds{"value", "start", "duration", "maximum", "minimum", "mean", "norm"};
+    const std::vector<std::string> kinds{"value",   "start", "duration", "maximum",
+                                         "minimum", "mean",  "norm",     "multiplier"};
     monitor.kind = static_cast<Monitor::Kind>(std::find(kinds.begin(), kinds.end(), item.name) - kinds.begin());
+    if (monitor.kind == Monitor::Kind::multiplier) {
+        monitor.unit = "";
+        monitor.place = reader.count(item, 1);
+        return;
+    }
     if (monitor.kind == Monitor::Kind::duration) {
         const std::string segment =
             item.node->is_integer() ? std::to_string(reader.count(item, 1)) : reader.toml().string(item);
@@ -96,9 +95,9 @@ Monitor read_monitor(const StudyReader& reader, const Model& model, const TomlEn
         return monitor;
     }
     std::size_t kinds = 0;
-    for (const TomlEntry& item : reader.toml().entries(
-             reader.toml().table(entry), entry.path,
-             {"value", "start", "duration", "maximum", "minimum", "mean", "norm", "at", "fixed", "report", "bounds"})) {
+    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path,
+                                                       {"value", "start", "duration", "maximum", "minimum", "mean",
+                                                        "norm", "multiplier", "at", "fixed", "report", "bounds"})) {
         if (item.name == "at") {
             monitor.segment =
                 item.node->is_integer() ? std::to_string(reader.count(item, 1)) : reader.toml().string(item);
@@ -121,42 +120,32 @@ Monitor read_monitor(const StudyReader& reader, const Model& model, const TomlEn
     }
     if (kinds != 1)
         reader.fail(entry, fmt::format("{} is measured in {} ways", entry.path, kinds),
-                    "give one of value, start, duration, maximum, minimum, mean or norm");
+                    "give one of value, start, duration, maximum, minimum, mean, norm or multiplier");
+    const bool has_segment = !monitor.segment.empty();
+    if (has_segment && monitor.kind == Monitor::Kind::multiplier)
+        reader.fail(entry, fmt::format("{} has `at`, and multipliers are those of the whole orbit", entry.path),
+                    "leave it out");
     return monitor;
 }
 
 /// The period, and how far each state goes.
 std::vector<Monitor> usual_monitors(const Model& model) {
     std::vector<Monitor> monitors;
-    monitors.push_back({"period", model.time_unit, Monitor::Kind::duration, {}, "", false, {}, {}, {}, {}});
+    Monitor& period = monitors.emplace_back();
+    period.name = "period";
+    period.unit = model.time_unit;
     for (const State& state : model.states)
-        if (!state.period && !state.drifting)
-            monitors.push_back({"max_" + state.name,
-                                state.unit,
-                                Monitor::Kind::maximum,
-                                model.symbol(state.name),
-                                "",
-                                false,
-                                {},
-                                {},
-                                {},
-                                {}});
+        if (!state.period && !state.drifting) {
+            Monitor& greatest = monitors.emplace_back();
+            greatest.name = "max_" + state.name;
+            greatest.unit = state.unit;
+            greatest.kind = Monitor::Kind::maximum;
+            greatest.expression = model.symbol(state.name);
+        }
     return monitors;
 }
 
 } // namespace
-
-void check_keys_of_kind(const StudyReader& reader, RunKind kind, const std::map<std::string, TomlEntry>& keys) {
-    const bool branch = kind == RunKind::orbit || kind == RunKind::follow;
-    for (const auto& [name, entry] : keys) {
-        const bool wrong = branch ? not_of_branches.contains(name) : of_branches.contains(name);
-        const bool only_followed = kind == RunKind::orbit && (name == "along" || name == "steps" || name == "stop" ||
-                                                              name == "step" || name == "free" || name == "direction");
-        if (wrong || only_followed)
-            reader.fail(entry, fmt::format("runs of kind \"{}\" have no `{}`", name_of(kind), name),
-                        "leave it out, or choose another kind");
-    }
-}
 
 void note_set(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     const auto symbols = run.model.parameter_symbols();
@@ -166,8 +155,7 @@ void note_set(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) 
                 run.branch.set.push_back(i);
 }
 
-void read_branch(const StudyReader& reader, StudyRun& run, const TomlEntry& entry,
-                 const std::map<std::string, TomlEntry>& keys) {
+void read_branch(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {
     BranchRequest& branch = run.branch;
     BranchSettings& settings = branch.settings;
     const auto with = [&](const char* key, auto use) {
@@ -188,7 +176,9 @@ void read_branch(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
     with("stop", [&](const TomlEntry& e) { read_stop(reader, run, e); });
     with("step", [&](const TomlEntry& e) { read_step(reader, run, e); });
     with("unphysical", [&](const TomlEntry& e) { settings.stop_when_unphysical = !reader.toml().boolean(e); });
-    with("accuracy", [&](const TomlEntry& e) { settings.orbit.accuracy = reader.positive(run.model, e); });
+    with("accuracy", [&](const TomlEntry& e) {
+        settings.orbit.accuracy = settings.continuation.accuracy = reader.positive(run.model, e);
+    });
     with("tolerance", [&](const TomlEntry& e) { settings.orbit.tolerance = reader.positive(run.model, e); });
     with("free", [&](const TomlEntry& e) {
         for (const std::string& name : reader.strings(e))
@@ -203,9 +193,14 @@ void read_branch(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
     if (run.kind == RunKind::follow && !keys.contains("along"))
         throw InputError(entry.place, fmt::format("{} does not say what is followed", entry.path),
                          "give along = { PARAMETER = [LEAST, GREATEST] }");
-    if (run.start && !branch.table.empty())
-        reader.fail(keys.at("table"), fmt::format("{} starts from a table and from a run", entry.path),
-                    "leave one of them out");
+    if (run.kind == RunKind::orbit)
+        for (const Monitor& monitor : settings.monitors)
+            if (monitor.fixed || !monitor.crossings.empty() || monitor.least || monitor.greatest)
+                reader.fail(keys.at("monitors"),
+                            fmt::format("monitor '{}' is fixed, reported or bounded, and a run of kind \"orbit\" "
+                                        "follows nothing",
+                                        monitor.name),
+                            "leave that out, or choose kind = \"continue\"");
     try {
         settings.validate(run.model);
         if (!run.start && branch.table.empty() && branch.signature.empty())

@@ -44,18 +44,25 @@ struct StudyDefaults {
     std::optional<TomlEntry> set, values;
 };
 
-StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const StudyDefaults& defaults);
+using RunKeys = std::map<std::string, TomlEntry>;
+
+/// @param keys receives those of the run, for checks that need other runs
+StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const StudyDefaults& defaults, RunKeys& keys);
 StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry);
 /// The values of one entry of `vary`.
 Variation read_variation(const StudyReader& reader, const Model& model, const TomlEntry& entry, bool& random);
 
 /// What only runs of kind orbit and continue say.
-void read_branch(const StudyReader& reader, StudyRun& run, const TomlEntry& entry,
-                 const std::map<std::string, TomlEntry>& keys);
+void read_branch(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys);
 /// Remembers which parameters a run itself sets.
 void note_set(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
-/// @throws InputError for a key that runs of this kind do not use
-void check_keys_of_kind(const StudyReader& reader, RunKind kind, const std::map<std::string, TomlEntry>& keys);
+/// Keys that runs of any kind have.
+std::vector<std::string> run_keys();
+/// @throws InputError for a key that runs of this kind do not use, or that another one makes useless
+void check_keys_of_kind(const StudyReader& reader, RunKind kind, const RunKeys& keys);
+
+/// @throws InputError when what a run starts from does not go with it
+void check_start(const StudyReader& reader, const StudyRun& run, const StudyRun& parent, const RunKeys& keys);
 
 /// "did you mean", or all there are.
 std::string study_name_remedy(const std::string& name, const std::vector<std::string>& known);

@@ -282,7 +282,7 @@ void complete(StudyRun& run, const TomlEntry& entry) {
 
 } // namespace
 
-StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const StudyDefaults& defaults) {
+StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const StudyDefaults& defaults, RunKeys& keys) {
     StudyRun run;
     run.name = entry.name;
     run.place = entry.place;
@@ -291,51 +291,13 @@ StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const Study
     if (!valid || run.name.empty())
         throw InputError(entry.place, fmt::format("'{}' cannot be the name of a run", run.name),
                          "use letters, digits, '.', '_' and '-'");
-    std::map<std::string, TomlEntry> keys;
-    for (TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path,
-                                                 {"kind",
-                                                  "text",
-                                                  "model",
-                                                  "set",
-                                                  "from",
-                                                  "mode",
-                                                  "start",
-                                                  "vary",
-                                                  "draws",
-                                                  "seed",
-                                                  "direction",
-                                                  "carry",
-                                                  "section",
-                                                  "cycles",
-                                                  "keep",
-                                                  "recurrence",
-                                                  "disturbance",
-                                                  "bounds",
-                                                  "lyapunov_cycles",
-                                                  "longest_return",
-                                                  "sample",
-                                                  "values",
-                                                  "tolerance",
-                                                  "order",
-                                                  "time",
-                                                  "largest_step",
-                                                  "largest_period",
-                                                  "periods",
-                                                  "skip",
-                                                  "contacts",
-                                                  "events",
-                                                  "greatest_speed",
-                                                  "signature",
-                                                  "table",
-                                                  "along",
-                                                  "steps",
-                                                  "stop",
-                                                  "unphysical",
-                                                  "step",
-                                                  "free",
-                                                  "monitors",
-                                                  "accuracy"}))
+    const std::vector<std::string> known = run_keys();
+    for (TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path)) {
+        if (std::find(known.begin(), known.end(), item.name) == known.end())
+            throw InputError(item.place, fmt::format("unknown key '{}' in {}", item.name, entry.path),
+                             study_name_remedy(item.name, known));
         keys.emplace(item.name, std::move(item));
+    }
     if (!keys.contains("kind"))
         throw InputError(entry.place, fmt::format("{} has no kind", entry.path),
                          "give kind = \"simulate\", \"sweep\", \"basin\", \"orbit\" or \"continue\"");
@@ -378,6 +340,8 @@ StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const Study
     if (!random && run.draws > 0)
         reader.fail(keys.at("draws"), fmt::format("{} draws nothing", entry.path),
                     "give something random: vary = { x = { random = [0, 1] } }");
+    if (run.draws == 0 && keys.contains("seed"))
+        reader.fail(keys.at("seed"), fmt::format("{} draws nothing", entry.path), "leave it out, or give draws = N");
     if (keys.contains("start"))
         read_start(reader, run, keys.at("start"));
     if (keys.contains("sample"))

@@ -168,7 +168,7 @@ TEST(PublishedBranches, testbed_orbit_of_three_periods) {
 
     settings.direction = 1;
     const Branch up = follow_branch(model, solution.orbit, settings);
-    const auto breaking = of_type(up, PointType::branch_point);
+    const auto breaking = of_type(up, PointType::asymmetry);
     ASSERT_GE(breaking.size(), 1U);
     EXPECT_NEAR(breaking[0].parameter, 4.846244144797, 1e-11);
     // Located with the half map, whose multiplier is -1; the whole one has 1.

@@ -505,6 +505,9 @@ TEST(ModelFile, RefusesWrongTypes) {
     expect_refused(smooth_with("k = 4.0", "k = { value = [] }"), 2, 15,
                    "must be a number or an expression, not a list");
     expect_refused(smooth_with("k = 4.0", "k = 1979-05-27"), 2, 5, "not a date");
+    expect_refused(smooth_with("x = 1", "x = { initial = 1, period = 2, drifting = true }"), 4, 1,
+                   "the state 'x' is both cyclic and drifting",
+                   "leave out `drifting` if it comes back after its period, or else the period");
     expect_refused(smooth_with("x = 1", "x = { initial = 1, drifting = 1 }"), 4, 31,
                    "must be true or false, not a number");
     expect_refused(smooth_with("[modes.free]", "[[modes.free]]"), 6, 1, "modes.free must be a table, not a list");

@@ -41,7 +41,7 @@ inline double quantity(const Model& model, const char* name, std::span<const dou
     return evaluate(model, model.quantities[model.find_quantity(name).value()].value, state);
 }
 
-/// The mode that follows, by the guards of a transition: none of the models ends.
+/// The mode that follows, by the guards of a transition, or "end".
 inline std::string next_mode(const Model& model, const Transition& transition, std::span<const double> after) {
     for (const Alternative& alternative : transition.next) {
         const bool holds =

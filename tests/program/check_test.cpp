@@ -3,8 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <random>
+
 namespace graze::testing {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TEST(Check, SummarisesEveryShippedModel) {
@@ -37,6 +40,41 @@ TEST(Check, WarnsAndReportsPlaces) {
     const Printed wrong = run_graze("check " + file);
     EXPECT_EQ(wrong.code, exit_bad_input);
     EXPECT_THAT(wrong.err, HasSubstr("graze: " + file + ":5:"));
+}
+
+/// Barriers of random lines, the start on either side; a wall that the start, or a jump, is beyond has the wrong sign.
+TEST(Check, WarnsOfAProbablyWrongSign) {
+    const Folder folder;
+    const std::string file = folder / "model.toml";
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> number(-1, 1);
+    for (int draw = 0; draw < 40; ++draw) {
+        const double wall = number(random), start = number(random);
+        const bool rising = number(random) > 0; // which side is admissible
+        const bool in_table = number(random) > 0;
+        const std::string function = rising ? "x - w" : "w - x";
+        std::ofstream(file) << "name = \"m\"\n[parameters]\nw = " << wall << "\n[states]\nx = " << start
+                            << "\nv = 0\n[modes.a]\nrates = { x = \"v\", v = \"-(x - " << start
+                            << ")\" }\nwatch = [\"wall\"]\n"
+                            << (in_table ? "[events.wall]\nfunction = \"" : "[events]\nwall = \"") << function
+                            << "\"\n[[transitions]]\nmode = \"a\"\nevent = \"wall\"\nnext = \"end\"\n";
+        const bool beyond = (rising ? start - wall : wall - start) < 0;
+        const Printed run = run_graze("check " + file);
+        EXPECT_EQ(run.code, 0);
+        if (!beyond)
+            EXPECT_EQ(run.err, "");
+        else
+            EXPECT_THAT(run.err, AllOf(HasSubstr("graze: warning: " + file + (in_table ? ":10:1: " : ":11:1: ")),
+                                       HasSubstr("wrong side"), HasSubstr("give the function the other sign")));
+    }
+    // The start is all right, but the jump leads beyond another wall.
+    std::ofstream(file) << "name = \"m\"\n[states]\nx = 0\n[modes.a]\nrates = { x = 1 }\nwatch = [\"one\"]\n[modes.b]\n"
+                           "rates = { x = 1 }\nwatch = [\"two\"]\n[events]\none = \"1 - x\"\ntwo = \"x - 2\"\n"
+                           "[[transitions]]\nmode = \"a\"\nevent = \"one\"\nnext = \"b\"\n"
+                           "[[transitions]]\nmode = \"b\"\nevent = \"two\"\nnext = \"end\"\n";
+    EXPECT_THAT(run_graze("check " + file).err,
+                AllOf(HasSubstr(file + ":12:1: the motion from the initial state ends at time 1: "),
+                      HasSubstr("barrier 'two'"), HasSubstr("perhaps its function has the wrong sign")));
 }
 
 TEST(Check, DrawsTheGraph) {

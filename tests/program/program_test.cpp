@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(Values, BadInput,
                                            Mistake{"simulate bouncing-ball --set omega=3", "follows from others"},
                                            Mistake{"simulate mems-switch --mode onn", "'on'"},
                                            Mistake{"simulate mems-switch --section phase", "'phase0'"},
-                                           Mistake{"simulate mems-switch --event stp", "'stop'"},
+                                           Mistake{"simulate mems-switch --contacts --event stp", "'stop'"},
                                            Mistake{"simulate mems-switch --quantity clearence", "'clearance'"},
                                            Mistake{"simulate mems-switch --quantity abs(q)", "event"},
                                            Mistake{"simulate mems-switch --derivatives omga", "'omega'"},
@@ -145,6 +145,29 @@ INSTANTIATE_TEST_SUITE_P(Models, BadInput,
                                            Mistake{"models mems-switch --beam-modes 2", "microbeam"},
                                            Mistake{"models microbeam --beam-modes 0", "number of modes"},
                                            Mistake{"models microbeam --quadrature gaus", "'gauss'"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Contradictions, BadInput,
+    ::testing::Values(Mistake{"simulate mems-switch --set V=1 --set V=2", "'V' is given twice"},
+                      Mistake{"simulate mems-switch --set V=1,V=1", "'V' is given twice"},
+                      Mistake{"simulate mems-switch --from q=0 v=0 q=0", "'q' is given twice"},
+                      Mistake{"simulate mems-switch --samples 9 --contacts", "--samples"},
+                      Mistake{"simulate mems-switch --samples 9 --table minima", "--samples has no effect"},
+                      Mistake{"simulate mems-switch --every 1 --section phase0", "--every"},
+                      Mistake{"simulate mems-switch --event stop", "--event has no effect"},
+                      Mistake{"simulate mems-switch --event stop --table extrema --extrema q", "--event has no effect"},
+                      Mistake{"simulate mems-switch --derivatives V --table samples", "--derivatives has no effect"},
+                      Mistake{"export x --sql Q --run r", "--run has no effect beside --sql"},
+                      Mistake{"export x --sql Q --what points", "--what has no effect beside --sql"},
+                      Mistake{"export x --what runs --label GR", "--label has no effect beside --what runs"},
+                      Mistake{"export x --format hdf5 --label GR --output y", "--label has no effect"},
+                      Mistake{"run mems-switch --list", "STUDY has no effect beside --list"},
+                      Mistake{"run mems-switch --show --only trip", "--only has no effect beside --show"},
+                      Mistake{"orbit x GR1 --plot y.svg --samples 7", "--samples has no effect beside --plot"},
+                      Mistake{"orbit x GR1 --data y", "--data has no effect without --plot"},
+                      Mistake{"plot x --kind branch --fit 1:2", "choose --kind regression"},
+                      Mistake{"plot x --kind basin --point GR1", "choose --kind history or portrait"},
+                      Mistake{"models mems-switch --show --format json", "--format has no effect"}));
 
 TEST(Program, FullDeviceIsReported) {
     std::ofstream full("/dev/full");

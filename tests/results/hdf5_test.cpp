@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,9 @@ void write_branch(const std::string& path) {
     record.point.monitors = {2.5, 0.25};
     record.point.solution.outcome = OrbitOutcome::converged;
     record.point.solution.multipliers = {{0.5, 0.25}, {0.5, -0.25}};
+    record.point.solution.half_multipliers = {{std::numeric_limits<double>::infinity(), 0}};
+    record.point.solution.certificate.minima = {{0, 1, 0.5, 0.125}};
+    record.point.solution.certificate.end_values = {{0, 1, 0.25, -3}};
     Orbit& orbit = record.point.solution.orbit;
     orbit.signature = parse_signature(model, "impact");
     orbit.parameters = model.parameter_values();
@@ -94,6 +98,12 @@ TEST(Hdf5, branches_have_orbits_segments_and_multipliers) {
     EXPECT_EQ(Column(exported, "b/segments/mode").type(), H5T_STRING);
     EXPECT_EQ(Column(exported, "b/segments/start_v").numbers(), std::vector<double>{-0.5});
     EXPECT_EQ(Column(exported, "b/multipliers/imaginary").numbers(), (std::vector<double>{0.25, -0.25}));
+    EXPECT_EQ(Column(exported, "b/half_multipliers/real").numbers(),
+              std::vector<double>{std::numeric_limits<double>::infinity()});
+    EXPECT_EQ(Column(exported, "b/minima/value").numbers(), std::vector<double>{0.125});
+    EXPECT_EQ(Column(exported, "b/minima/event").type(), H5T_STRING);
+    EXPECT_EQ(Column(exported, "b/end_values/rate").numbers(), std::vector<double>{-3});
+    EXPECT_EQ(Column(exported, "b/end_values/segment").type(), H5T_INTEGER);
     std::filesystem::remove_all(folder);
 }
 

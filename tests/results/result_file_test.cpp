@@ -233,7 +233,7 @@ TEST_F(ResultFileTest, refuses_what_it_cannot_read) {
     sqlite3_exec(database, "PRAGMA user_version = 99", nullptr, nullptr, nullptr);
     sqlite3_close(database);
     EXPECT_THAT(refusal(path(), ResultFile::Access::read),
-                HasSubstr("format 99, this version of graze knows format 1"));
+                HasSubstr("format 99, this version of graze knows format 2"));
 }
 
 TEST_F(ResultFileTest, only_one_process_writes_and_others_read) {

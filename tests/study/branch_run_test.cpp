@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <tuple>
 
 namespace graze {
 namespace {
@@ -71,9 +72,12 @@ protected:
         ResultFile file(path_, ResultFile::Access::write);
         return run_study(parse_study(text, "s.toml"), file, options);
     }
+    /// What is wrong with a study, or with the first run that failed.
     std::string refusal(const std::string& text) {
         try {
-            run(text);
+            for (const RunReport& report : run(text))
+                if (!report.problem.empty())
+                    return report.problem + "; " + report.remedy;
         } catch (const InputError& error) {
             return error.what();
         }
@@ -117,21 +121,26 @@ TEST_F(BranchRun, goes_from_rest_across_grazing_to_a_flip) {
 }
 
 TEST_F(BranchRun, what_is_read_is_what_was_written) {
-    std::vector<OrbitRecord> written;
+    std::vector<OrbitRecord> written, all;
     RunnerOptions options;
     options.only = {"impacting"};
     options.orbit = [&](const std::string& name, const OrbitRecord& record) {
+        if (name != "rest")
+            all.push_back(record);
         if (name == "impacting")
             written.push_back(record);
     };
     run(study_text, options);
     const ResultFile file(path_, ResultFile::Access::read);
-    const auto read = file.orbits("impacting", false);
-    ASSERT_EQ(read.size(), written.size());
+    auto read = file.orbits("free", false);
+    for (OrbitRecord& record : file.orbits("impacting", false))
+        read.push_back(std::move(record));
+    ASSERT_EQ(read.size(), all.size());
+    std::size_t details = 0;
     for (std::size_t i = 0; i < read.size(); ++i) {
-        const SpecialPoint &a = written[i].point, &b = read[i].point;
-        EXPECT_EQ(written[i].label, read[i].label);
-        EXPECT_EQ(written[i].stable, read[i].stable);
+        const SpecialPoint &a = all[i].point, &b = read[i].point;
+        EXPECT_EQ(all[i].label, read[i].label);
+        EXPECT_EQ(all[i].stable, read[i].stable);
         EXPECT_EQ(a.type, b.type);
         EXPECT_EQ(a.detail, b.detail);
         EXPECT_EQ(a.parameter, b.parameter);
@@ -144,7 +153,19 @@ TEST_F(BranchRun, what_is_read_is_what_was_written) {
         EXPECT_EQ(a.solution.orbit.durations, b.solution.orbit.durations);
         EXPECT_EQ(a.solution.certificate.approach_speeds, b.solution.certificate.approach_speeds);
         EXPECT_EQ(a.solution.certificate.admissible, b.solution.certificate.admissible);
+        EXPECT_EQ(a.solution.half_multipliers, b.solution.half_multipliers);
+        const auto minima = [](const SpecialPoint& point) {
+            std::vector<std::tuple<std::size_t, std::size_t, double, double>> all;
+            for (const OrbitMinimum& one : point.solution.certificate.minima)
+                all.emplace_back(one.segment, one.event, one.time, one.value);
+            for (const EndValue& one : point.solution.certificate.end_values)
+                all.emplace_back(one.segment, one.event, one.value, one.rate);
+            return all;
+        };
+        EXPECT_EQ(minima(a), minima(b));
+        details += minima(a).size();
     }
+    EXPECT_GT(details, 10u);
     EXPECT_EQ(file.orbits("impacting", true).size(),
               static_cast<std::size_t>(std::count_if(written.begin(), written.end(), [](const OrbitRecord& record) {
                   return record.point.type != PointType::regular;
@@ -161,11 +182,11 @@ TEST_F(BranchRun, is_done_once_and_begun_again_when_interrupted) {
     options.orbit = [&](const std::string&, const OrbitRecord&) { ++orbits; };
     options.interrupted = [&] { return orbits >= 5; };
     const auto first = run(study_text, options);
-    EXPECT_FALSE(first.back().complete);
+    EXPECT_FALSE(first.back().complete());
     options.interrupted = {};
     orbits = 0;
     const auto second = run(study_text, options);
-    EXPECT_TRUE(second.back().complete);
+    EXPECT_TRUE(second.back().complete());
     EXPECT_EQ(second.back().computed, second.back().points);
     orbits = 0;
     const auto third = run(study_text, options);
@@ -185,7 +206,8 @@ TEST_F(BranchRun, keeps_what_fails) {
     std::ofstream(folder_ / "far.csv") << "segment,t,x,v,theta\n1,0,0.1,-100,0\n1,0.01,0.1,1.2,6.28\n";
     const std::string text = "name = \"s\"\nmodel = \"impact-oscillator\"\n[runs.a]\nkind = \"orbit\"\ntable = \"" +
                              (folder_ / "far.csv").string() + "\"\nsignature = \"impact\"\n";
-    EXPECT_TRUE(run(text).front().complete);
+    for (int again = 0; again < 2; ++again) // also when it is found in the file
+        EXPECT_EQ(run(text).front().outcome, RunOutcome::failed);
     {
         const ResultFile file(path_, ResultFile::Access::read);
         const auto record = file.orbit("a", std::size_t{0});
@@ -195,8 +217,158 @@ TEST_F(BranchRun, keeps_what_fails) {
         EXPECT_FALSE(record->point.solution.certificate.admissible);
         EXPECT_FALSE(record->point.detail.empty());
     }
-    EXPECT_THAT(refusal(text + "[runs.b]\nkind = \"continue\"\nstart = { run = \"a\" }\nalong = \"omega\"\n"),
-                HasSubstr("s.toml:9:1: run 'a' found no orbit there"));
+    const auto reports = run(text + "[runs.b]\nkind = \"continue\"\nstart = { run = \"a\" }\nalong = \"omega\"\n" +
+                             "[runs.c]\nkind = \"orbit\"\nset = { omega = 4 }\nfrom = { x = -0.07 }\n");
+    ASSERT_EQ(reports.size(), 3u);
+    EXPECT_EQ(reports[1].outcome, RunOutcome::skipped);
+    EXPECT_THAT(reports[1].problem, HasSubstr("run 'a', from which it starts, failed"));
+    EXPECT_EQ(reports[2].outcome, RunOutcome::complete) << "it does not depend on the others";
+}
+
+/// Failures at every place of a chain of runs: all that do not depend on one are done, all others say why not.
+TEST_F(BranchRun, what_does_not_depend_on_a_failure_is_done) {
+    const std::string head = "name = \"s\"\nmodel = \"impact-oscillator\"\n";
+    for (int broken = 0; broken < 4; ++broken) {
+        std::string text = head;
+        const std::vector<int> parent{-1, 0, 1, -1, 3};
+        for (int r = 0; r < 5; ++r) {
+            const std::string name(1, static_cast<char>('a' + r));
+            text += "[runs." + name + "]\nkind = \"simulate\"\nset = { e = 0." + std::to_string(5 + broken) + " }\n";
+            // Runs that start from it ask it for a parameter that it does not vary.
+            text += r == broken ? "vary = { x = [1] }\nperiods = 1\n" : "periods = 2\n";
+            if (parent[static_cast<std::size_t>(r)] >= 0)
+                text += "start = { run = \"" +
+                        std::string(1, static_cast<char>('a' + parent[static_cast<std::size_t>(r)])) + "\", " +
+                        (parent[static_cast<std::size_t>(r)] == broken ? "at = { e = 1 }" : "point = 0") + " }\n";
+        }
+        const auto reports = run(text);
+        ASSERT_EQ(reports.size(), 5u);
+        std::vector<bool> failed(5);
+        for (std::size_t r = 0; r < 5; ++r) {
+            const bool hangs = parent[r] >= 0 && (parent[r] == broken || failed[static_cast<std::size_t>(parent[r])]);
+            failed[r] = hangs;
+            EXPECT_EQ(reports[r].outcome == RunOutcome::complete, !hangs) << broken << ' ' << r;
+            EXPECT_EQ(reports[r].problem.empty(), !hangs);
+            EXPECT_EQ(reports[r].remedy.empty(), !hangs);
+        }
+    }
+}
+
+/// Runs of every kind begin with the parameters of the point that they start from, except those that they set.
+TEST_F(BranchRun, parameters_come_with_the_point) {
+    const std::string text = R"(
+name = "s"
+model = "impact-oscillator"
+[runs.rest]
+kind = "orbit"
+set = { omega = 4, e = 0.7, zeta = 0.03 }
+from = { x = -0.07 }
+[runs.free]
+kind = "continue"
+start = { run = "rest" }
+along = { omega = [3.9, 4.1] }
+[runs.motion]
+kind = "simulate"
+start = { run = "free", point = "BD1" }
+periods = 3
+values = ["omega", "e", "zeta", "x"]
+sample = "phase0"
+[runs.on]
+kind = "simulate"
+start = { run = "motion", point = 0 }
+set = { e = 0.6 }
+periods = 3
+values = ["omega", "e", "zeta", "x"]
+[runs.swept]
+kind = "sweep"
+start = { run = "free", point = "BD1" }
+vary = { e = [0.5, 0.55] }
+values = ["omega", "e", "zeta", "x"]
+[runs.after]
+kind = "basin"
+start = { run = "swept", at = { e = 0.5 } }
+values = ["omega", "e", "zeta", "x"]
+)";
+    for (const RunReport& report : run(text))
+        EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
+    const ResultFile file(path_, ResultFile::Access::read);
+    const double omega = file.orbit("free", std::string("BD1"))->point.parameter;
+    EXPECT_NEAR(omega, 4.1, 1e-12);
+    const auto expect = [&](const std::string& name, std::size_t point, double e) {
+        const auto record = file.point(name, point);
+        ASSERT_TRUE(record && !record->result.samples.values.empty()) << name;
+        EXPECT_EQ(record->result.samples.values[0], omega) << name;
+        EXPECT_EQ(record->result.samples.values[1], e) << name;
+        EXPECT_EQ(record->result.samples.values[2], 0.03) << name;
+        // It is an orbit there: the section is passed at the same place each time.
+        EXPECT_NEAR(record->result.samples.values[3],
+                    file.orbit("free", std::string("BD1"))->point.solution.orbit.starts.front()[0], 1e-8)
+            << name;
+    };
+    expect("motion", 0, 0.7);
+    expect("on", 0, 0.6);
+    expect("swept", 0, 0.5);
+    expect("swept", 1, 0.55);
+    expect("after", 0, 0.5);
+}
+
+TEST_F(BranchRun, multipliers_are_reported_and_bounded) {
+    const std::string head = R"(
+name = "s"
+model = "impact-oscillator"
+[runs.rest]
+kind = "orbit"
+set = { omega = 4 }
+from = { x = -0.07 }
+monitors = { largest = { multiplier = 1 }, next = { multiplier = 2 } }
+[runs.free]
+kind = "continue"
+start = { run = "rest" }
+along = { zeta = [0.001, 0.1] }
+direction = "down"
+)";
+    // Without contact both multipliers have the modulus exp(-zeta*2 pi/omega).
+    const auto modulus = [](double zeta) { return std::exp(-zeta * 2 * std::numbers::pi / 4); };
+    run(head + "monitors = { largest = { multiplier = 1, report = [0.98, 0.99], bounds = [0.1, 0.995] } }");
+    const ResultFile file(path_, ResultFile::Access::read);
+    const auto rest = file.orbit("rest", std::size_t{0});
+    EXPECT_NEAR(rest->point.monitors.at(0), modulus(0.02), 1e-11);
+    EXPECT_NEAR(rest->point.monitors.at(1), modulus(0.02), 1e-11);
+    for (const OrbitRecord& record : file.orbits("free", false))
+        EXPECT_NEAR(record.point.monitors.at(0), modulus(record.point.parameter), 1e-11);
+    EXPECT_NEAR(file.orbit("free", std::string("UZ1"))->point.monitors.at(0), 0.98, 1e-11);
+    EXPECT_NEAR(file.orbit("free", std::string("UZ2"))->point.monitors.at(0), 0.99, 1e-11);
+    EXPECT_NEAR(file.orbit("free", std::string("BD1"))->point.monitors.at(0), 0.995, 1e-11);
+    EXPECT_THAT(refusal(head + "monitors = { largest = { multiplier = 1, fixed = true } }\nfree = \"e\""),
+                HasSubstr("which cannot be held; report values"));
+    EXPECT_THAT(refusal(head + "monitors = { largest = { multiplier = 4 } }"), HasSubstr("the model has 3 states"));
+    EXPECT_THAT(refusal(head + "monitors = { largest = { multiplier = 1, at = \"impact\" } }"),
+                HasSubstr("multipliers are those of the whole orbit"));
+}
+
+/// The orbit from which a branch is followed both ways is listed once, and images of other points are said to be such.
+TEST_F(BranchRun, nothing_is_listed_twice) {
+    run(R"(
+name = "s"
+model = "impact-oscillator"
+[runs.rest]
+kind = "orbit"
+set = { omega = 4 }
+from = { x = -0.07 }
+[runs.free]
+kind = "continue"
+start = { run = "rest" }
+along = { omega = [3.8, 4.2] }
+direction = "both"
+)");
+    const ResultFile file(path_, ResultFile::Access::read);
+    std::size_t at_start = 0, parts_begun = 0;
+    for (const OrbitRecord& record : file.orbits("free", false)) {
+        parts_begun += record.point.step == 0 ? 1 : 0;
+        at_start += record.point.step == 0 && record.point.type != PointType::regular ? 1 : 0;
+    }
+    EXPECT_EQ(parts_begun, 2u);
+    EXPECT_EQ(at_start, 1u);
 }
 
 TEST_F(BranchRun, mistakes_are_told_with_their_place_and_remedy) {

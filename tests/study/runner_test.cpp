@@ -78,7 +78,7 @@ TEST_F(RunnerTest, does_once_what_is_asked_for) {
     const auto second = run_study(study, file, {.jobs = 2, .only = {}, .interrupted = {}, .progress = {}, .orbit = {}});
     EXPECT_EQ(second[0].computed, 0u);
     EXPECT_EQ(second[1].computed, 0u);
-    EXPECT_TRUE(second[1].complete);
+    EXPECT_TRUE(second[1].complete());
 }
 
 TEST_F(RunnerTest, only_what_changed_is_done_again) {
@@ -112,7 +112,7 @@ TEST_F(RunnerTest, goes_on_anywhere_and_gives_the_same_bits) {
         options.interrupted = [&] { return done >= stop_after; };
         options.progress = [&](const std::string&, std::size_t, std::size_t) { ++done; };
         const auto reports = run_study(study, file, options);
-        if (reports.back().complete && reports.size() == 2)
+        if (reports.back().complete() && reports.size() == 2)
             break;
         ++interruptions;
         ASSERT_LT(interruptions, 100u);
@@ -125,12 +125,11 @@ TEST_F(RunnerTest, says_where_a_run_cannot_start) {
     Study study = parse_study(text, "s.toml");
     study.runs[1].start->coordinate = "e";
     ResultFile file(path_, ResultFile::Access::write);
-    try {
-        run_study(study, file, {});
-        FAIL();
-    } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("s.toml:14:1: run 'sweep' has no coordinate 'e'"));
-    }
+    const auto reports = run_study(study, file, {});
+    EXPECT_EQ(reports[0].outcome, RunOutcome::complete);
+    EXPECT_EQ(reports[1].outcome, RunOutcome::failed);
+    EXPECT_THAT(reports[1].problem, HasSubstr("s.toml:14:1: run 'sweep' has no coordinate 'e'"));
+    EXPECT_FALSE(reports[1].remedy.empty());
     EXPECT_EQ(file.point_count("sweep"), 22u); // nothing is lost
 }
 

@@ -93,6 +93,122 @@ time = "2*pi"
     EXPECT_EQ(study.runs[1].name, "second");
 }
 
+/// Each key for each kind of run: it changes what is computed, or it is refused.
+TEST(Study, no_key_is_accepted_and_ignored) {
+    const std::string parent = "[runs.p]\nkind = \"simulate\"\nperiods = 1\n";
+    struct Kind {
+        std::string name, needs; ///< what a run of this kind cannot do without
+    };
+    struct Key {
+        std::string name, value, with; ///< `with`: another key without which this one has no meaning
+    };
+    const std::vector<Kind> kinds{{"simulate", "contacts = 3\n"},
+                                  {"sweep", "vary = { omega = [2, 3] }\n"},
+                                  {"basin", ""},
+                                  {"orbit", ""},
+                                  {"continue", "along = { omega = [2, 3] }\n"}};
+    const std::vector<Key> keys{{"model", "\"impact-oscillator-two-stops\"", ""},
+                                {"set", "{ zeta = 0.01 }", ""},
+                                {"from", "{ x = 0.05 }", ""},
+                                {"mode", "\"stuck\"", ""},
+                                {"start", "{ run = \"p\" }", ""},
+                                {"vary", "{ e = [0.1, 0.2] }", ""},
+                                {"draws", "3", "vary = { omega = [2], e = { random = [0, 1] } }\n"},
+                                {"seed", "3", "draws = 2\nvary = { omega = [2], e = { random = [0, 1] } }\n"},
+                                {"direction", "\"down\"", ""},
+                                {"carry", "false", ""},
+                                {"section", "\"turning\"", ""},
+                                {"sample", "\"turning\"", ""},
+                                {"values", "\"2*x\"", ""},
+                                {"bounds", "{ x = [-9, 9] }", ""},
+                                {"tolerance", "1e-10", ""},
+                                {"order", "20", ""},
+                                {"largest_step", "0.1", ""},
+                                {"cycles", "77", ""},
+                                {"keep", "7", ""},
+                                {"largest_period", "3", ""},
+                                {"recurrence", "1e-2", ""},
+                                {"disturbance", "1e-5", ""},
+                                {"lyapunov_cycles", "7", ""},
+                                {"longest_return", "100", ""},
+                                {"time", "7", ""},
+                                {"periods", "7", ""},
+                                {"contacts", "7", ""},
+                                {"skip", "{ periods = 2 }", ""},
+                                {"events", "[\"release\"]", ""},
+                                {"greatest_speed", "7", ""},
+                                {"signature", "\"impact\"", ""},
+                                {"table", "\"study_test.toml\"", ""},
+                                {"along", "{ e = [0.1, 0.9] }", ""},
+                                {"steps", "7", ""},
+                                {"stop", "\"GR\"", ""},
+                                {"step", "{ first = 0.001 }", ""},
+                                {"unphysical", "true", ""},
+                                {"accuracy", "1e-9", ""},
+                                {"free", "\"zeta\"", "monitors = { a = { duration = \"period\", fixed = true } }\n"},
+                                {"monitors", "{ a = { maximum = \"x\" } }", ""}};
+    const auto description = [](const StudyRun& run) {
+        std::string numbers;
+        for (const double value : run.model.parameter_values())
+            numbers += std::to_string(value) + ' ';
+        for (const double value : run.model.initial_state())
+            numbers += std::to_string(value) + ' ';
+        return settings_of(run) + numbers + run.model.name + run.model.modes[run.model.initial_mode].name +
+               run.branch.table;
+    };
+    std::size_t used = 0, refused = 0;
+    for (const Kind& kind : kinds)
+        for (const Key& key : keys) {
+            // A key that is needed, or comes with another, replaces it.
+            const bool instead = kind.needs.starts_with(key.name) ||
+                                 (kind.name == "sweep" && key.with.find("vary") != std::string::npos);
+            const std::string base = parent + "[runs.q]\nkind = \"" + kind.name + "\"\n" + kind.needs;
+            const std::string other = parent + "[runs.q]\nkind = \"" + kind.name + "\"\n" +
+                                      (instead ? "" : kind.needs) + key.with + key.name + " = " + key.value + '\n';
+            const std::string refusal_of_it = refusal(head + other);
+            if (!refusal_of_it.empty()) {
+                EXPECT_TRUE(refusal_of_it.find("have no `") != std::string::npos ||
+                            refusal_of_it.find("has no effect here") != std::string::npos)
+                    << refusal_of_it << '\n'
+                    << other;
+                ++refused;
+                continue;
+            }
+            ++used;
+            EXPECT_NE(description(parse_study(head + base, "s.toml").runs.at(1)),
+                      description(parse_study(head + other, "s.toml").runs.at(1)))
+                << other;
+        }
+    EXPECT_GT(used, 60u);
+    EXPECT_GT(refused, 40u);
+}
+
+TEST(Study, accuracy_reaches_the_continuation) {
+    const StudyRun run = only_run("[runs.a]\nkind = \"continue\"\nalong = \"omega\"\naccuracy = 1e-7");
+    EXPECT_EQ(run.branch.settings.orbit.accuracy, 1e-7);
+    EXPECT_EQ(run.branch.settings.continuation.accuracy, 1e-7);
+}
+
+TEST(Study, of_two_keys_that_contradict_none_is_ignored) {
+    const std::string p = "[runs.p]\nkind = \"sweep\"\nvary = { omega = [2, 3] }\n", q = "[runs.q]\nkind = \"orbit\"\n",
+                      simulated = "[runs.q]\nkind = \"simulate\"\ntime = 1\n", start = "start = { run = \"p\" }\n";
+    for (const std::string& wrong : std::vector<std::string>{
+             p + q + start + "from = { x = 1 }", p + simulated + start + "from = { x = 1 }",
+             p + simulated + start + "mode = \"stuck\"", p + q + start + "signature = \"impact\"",
+             p + q + start + "table = \"t.csv\"", q + "table = \"t.csv\"\nfrom = { x = 1 }",
+             q + "table = \"t.csv\"\norder = 20", q + "signature = \"impact\"\ncycles = 30",
+             q + "monitors = { a = { maximum = \"x\", report = 1 } }", simulated + "events = [\"release\"]",
+             simulated + "seed = 3", simulated + "sample = \"phase0\"\nsection = \"phase0\"",
+             p + simulated + "start = { run = \"p\", point = \"GR1\" }",
+             p + simulated + "start = { run = \"p\", point = 1, at = { omega = 2 } }",
+             p + simulated + "start = { run = \"p\", direction = \"up\" }",
+             p + simulated + "start = { run = \"p\", onto = \"other\" }",
+             p + "[runs.q]\nkind = \"simulate\"\ntime = 1\nmodel = \"bouncing-ball\"\n" + start,
+             p + "[runs.q]\nkind = \"orbit\"\n" + start +
+                 "[runs.r]\nkind = \"orbit\"\nstart = { run = \"q\" }\ncycles = 9"})
+        EXPECT_THAT(refusal(head + wrong), testing::HasSubstr("; ")) << wrong;
+}
+
 TEST(Study, shipped_ones_can_be_read) {
     EXPECT_THAT(shipped_studies(),
                 ElementsAre("ball-and-shaker", "electromagnetic-testbed", "mems-switch", "microactuator", "microbeam"));

@@ -105,6 +105,58 @@ TEST(MemsSwitch, SnapThroughTimeDoesNotDependOnTolerance) {
     }
 }
 
+/// Loads on modes that they cannot move cancel to round-off, which is no reason to stay at rest.
+TEST(Microbeam, LeavesRestWithAnyNumberOfModesAndNodes) {
+    for (const Quadrature rule : {Quadrature::simpson, Quadrature::gauss})
+        for (int modes = 1; modes <= 5; ++modes)
+            for (const int points : {4, 6, 20}) {
+                MicrobeamOptions options;
+                options.modes = modes;
+                options.quadrature = rule;
+                options.points = points;
+                Experiment experiment(microbeam(options));
+                const Outcome outcome = experiment.run(0.3);
+                EXPECT_EQ(outcome.ending, Ending::end_time)
+                    << modes << " modes, " << points << " points: " << outcome.detail;
+                // Antisymmetric modes are not moved by a load that is symmetric.
+                for (int i = 1; i < modes; i += 2)
+                    EXPECT_LT(std::abs(experiment.trajectory.state()[static_cast<std::size_t>(i)]), 1e-15);
+                EXPECT_GT(std::abs(experiment.trajectory.state()[0]), 1e-5);
+            }
+}
+
+/// However the electrode arrives, with the voltage on or off, it does not pass the fixed one.
+TEST(MemsSwitch, ClosureEndsTheMotionInEveryMode) {
+    int singular = 0, terminal = 0;
+    for (int i = 0; i < 60; ++i) {
+        const double excess = std::pow(10.0, -8 + 0.1 * i);
+        Experiment experiment(shipped_with("mems-switch", {{"V", 0.2013662121541341 + excess}}));
+        const Outcome outcome = experiment.run(5000);
+        singular += outcome.ending == Ending::singular ? 1 : 0;
+        terminal += outcome.ending == Ending::terminal ? 1 : 0;
+        EXPECT_LE(experiment.trajectory.state()[0], 1 + 1e-12) << excess;
+        if (outcome.ending == Ending::terminal)
+            EXPECT_NEAR(experiment.trajectory.state()[0], 1, 1e-12) << excess;
+    }
+    EXPECT_EQ(singular + terminal, 60);
+    EXPECT_GT(terminal, 0);
+    EXPECT_GT(singular, 0);
+}
+
+TEST(Microbeam, ClosureEndsTheMotionInEveryMode) {
+    int closed = 0;
+    for (int i = 0; i < 20; ++i) {
+        Experiment experiment(shipped_with("microbeam", {{"V", 0.03 + 0.005 * i}, {"k", 0}}));
+        const Outcome outcome = experiment.run(20);
+        closed += outcome.ending == Ending::terminal || outcome.ending == Ending::singular ? 1 : 0;
+        const Model& model = experiment.simulation.model();
+        const double gap = model.parameters[*model.find_parameter("g0")].value.value();
+        // The first mode is 1.588 at mid-span.
+        EXPECT_LE(1.588 * experiment.trajectory.state()[0], 1.0001 * gap) << i;
+    }
+    EXPECT_GT(closed, 5);
+}
+
 // ---- chapter 4
 
 TEST(BallAndShaker, ImpactsFromRest) {

@@ -2,6 +2,7 @@
 
 #include "graze/orbit/orbit.hpp"
 
+#include <complex>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -18,8 +19,9 @@ struct Monitor {
         duration, ///< of a segment, or the period
         maximum,  ///< of the expression
         minimum,
-        mean, ///< of the expression over time
-        norm, ///< root of its mean square
+        mean,       ///< of the expression over time
+        norm,       ///< root of its mean square
+        multiplier, ///< modulus of a multiplier of the whole orbit; may be infinite
     };
     std::string name, unit;
     Kind kind = Kind::duration;
@@ -33,7 +35,13 @@ struct Monitor {
     std::optional<double> held;            ///< at this value; none: the one of the candidate
     std::vector<double> crossings;         ///< values to be reported when they are taken
     std::optional<double> least, greatest; ///< bounds at which a branch ends
+    std::size_t place = 1;                 ///< of multipliers: 1 for the largest
 };
+
+/// Sets the values of those monitors that are multipliers, which an orbit alone does not tell.
+/// @param multipliers largest first; where there are fewer, the value is NaN: not defined
+void measure_multipliers(const std::vector<Monitor>& monitors, const std::vector<std::complex<double>>& multipliers,
+                         std::vector<double>& values);
 
 /// Evaluates monitors of orbits of one signature. Extrema and means are those of the Taylor polynomials of the motion:
 /// as accurate as the orbit itself.
@@ -49,7 +57,7 @@ public:
     const std::vector<Monitor>& monitors() const;
     /// Index of a monitor's segment; none: the whole orbit.
     std::optional<std::size_t> segment(std::size_t monitor) const;
-    /// One value for each, NaN where it is not defined.
+    /// One value for each, NaN where it is not defined, and for multipliers.
     std::vector<double> operator()(const Orbit& orbit);
 
 private:

@@ -16,7 +16,8 @@ enum class PointType {
     fold,         ///< SN: the branch turns; a multiplier is 1
     flip,         ///< PD: a multiplier is -1
     torus,        ///< NS: two multipliers lie on the unit circle
-    branch_point, ///< BP: another branch crosses; for an orbit given by its half also the breaking of its symmetry
+    branch_point, ///< BP: another branch crosses
+    asymmetry,    ///< SB: an orbit that is its own image loses that symmetry: its half has a multiplier -1
     grazing,      ///< GR: an event's surface is touched without speed, inside an arc or at the end of one
     vanishing,    ///< DZ: a segment's duration reaches zero
     two_events,   ///< EE: two events happen at once

@@ -13,6 +13,12 @@ namespace graze {
 /// @param model a valid one
 std::vector<std::string> model_warnings(const Model& model);
 
+/// The same with the part of the model that each is about, such as "events.stop"; empty where it is no single one.
+struct ModelWarning {
+    std::string part, text;
+};
+std::vector<ModelWarning> located_warnings(const Model& model);
+
 /// The connectivity graph (modes as nodes, transitions as arrows) in the language of Graphviz.
 std::string connectivity_graph(const Model& model);
 

@@ -22,13 +22,23 @@ struct RunnerOptions {
     std::function<void(const std::string& run, const OrbitRecord& orbit)> orbit;
 };
 
+enum class RunOutcome {
+    complete,
+    interrupted,
+    failed,  ///< nothing to start from, or no orbit found: `problem` says what, and `remedy` what to do
+    skipped, ///< the run that it starts from failed
+};
+
 /// What has become of one run.
 struct RunReport {
     std::string name, kind;
     std::size_t points = 0, computed = 0; ///< planned; computed now rather than found in the file
     std::size_t returns = 0;              ///< simulated now
     double seconds = 0;
-    bool complete = false;
+    RunOutcome outcome = RunOutcome::complete;
+    std::string problem, remedy; ///< of a run that failed or was skipped
+
+    bool complete() const { return outcome == RunOutcome::complete; }
 };
 
 /// Points of a run: chains along its first axis, one for each combination of the others.
@@ -42,8 +52,9 @@ std::string settings_of(const StudyRun& run);
 
 /// Does what a study asks for, and keeps it. Complete runs whose settings have not changed are left as they are,
 /// unfinished ones are gone on with (branches, which take little time, begun again), and others are done anew.
+/// Runs that fail do not keep those from being done that do not start from them.
 /// @return reports of the runs, in their order; the last may be unfinished when it was interrupted
-/// @throws InputError when the file cannot be written, or a run finds nothing to start from
+/// @throws InputError when the file cannot be written
 std::vector<RunReport> run_study(const Study& study, ResultFile& file, const RunnerOptions& options);
 
 } // namespace graze

@@ -95,6 +95,7 @@ private:
     void reduce_cyclic_states(std::span<double> state) const;
     void add_time(double step);
     std::size_t jumping_rate(double s, double length);
+    bool is_roundoff(std::size_t state, double difference);
     std::size_t limit_to_branch(double& step);
     void finish_at_branch(std::size_t state);
     void finish(Ending ending, double time, std::string detail = {});

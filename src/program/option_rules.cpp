@@ -1,0 +1,127 @@
+#include "program/option_rules.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+/// Where an option is given, others say nothing any more.
+struct Excludes {
+    const char* command;
+    const char* option;
+    const char* value; ///< only when it has this value; null: with any
+    Names others;
+    const char* remedy;
+};
+
+/// An option that only has a meaning together with one of others.
+struct Needs {
+    const char* command;
+    const char* option;
+    Names others;
+};
+
+/// An option that only has a meaning when another has one of some values, or is left out.
+struct NeedsValue {
+    const char* command;
+    const char* option;
+    const char* other;
+    Names values;
+};
+
+const std::vector<Excludes>& exclusions() {
+    static const std::vector<Excludes> all{
+        {"export", "--sql", nullptr, {"--what", "--run", "--label", "--direction"}, "say it in the query"},
+        {"export", "--what", "runs", {"--run", "--label", "--direction"}, "leave it out"},
+        {"export", "--format", "hdf5", {"--what", "--label", "--direction", "--sql", "--digits"}, "leave it out"},
+        {"run", "--list", nullptr, {"STUDY", "--only", "--output", "--jobs", "--steps", "--show"}, "leave it out"},
+        {"run", "--show", nullptr, {"--only", "--output", "--jobs", "--steps", "--format"}, "leave it out"},
+        {"run", "--quiet", nullptr, {"--format"}, "leave one of them out"},
+        {"models", "--show", nullptr, {"--format", "--digits"}, "leave it out"},
+        {"models", "--write", nullptr, {"--format", "--digits"}, "leave it out"},
+        {"orbit",
+         "--plot",
+         nullptr,
+         {"--quantity", "--samples", "--format", "--digits", "--output"},
+         "name what is drawn by --x and --y, or leave the picture out"},
+        {"simulate", "--samples", nullptr, {"--every"}, "choose one of them"},
+    };
+    return all;
+}
+
+const std::vector<Needs>& needs() {
+    static const std::vector<Needs> all{
+        {"orbit", "--data", {"--plot"}},
+        {"simulate", "--event", {"--contact-table", "--contacts", "--minima", "--table", "--plot"}},
+    };
+    return all;
+}
+
+const std::vector<NeedsValue>& needs_of_values() {
+    static const std::vector<NeedsValue> all{
+        {"plot", "--fit", "--kind", {"regression"}},
+        {"plot", "--group", "--kind", {"regression"}},
+        {"plot", "--successive", "--kind", {"regression"}},
+        {"plot", "--at", "--kind", {"history", "portrait", "spectrum"}},
+        {"plot", "--point", "--kind", {"history", "portrait"}},
+        {"simulate", "--samples", "--table", {"samples"}},
+        {"simulate", "--every", "--table", {"samples"}},
+        {"simulate", "--derivatives", "--table", {"derivatives"}},
+        {"simulate", "--event", "--table", {"contacts", "minima", "summary"}},
+    };
+    return all;
+}
+
+bool given(const CLI::App& command, const std::string& option) {
+    return command.count(option) > 0;
+}
+
+std::string value_of(const CLI::App& command, const std::string& option) {
+    const auto values = command.get_option(option)->results();
+    return values.empty() ? "" : values.front();
+}
+
+[[noreturn]] void refuse(const std::string& option, const std::string& other, const std::string& why,
+                         const std::string& remedy) {
+    throw InputError(Place{}, fmt::format("{} has no effect {} {}", option, why, other), remedy);
+}
+
+} // namespace
+
+void refuse_useless_options(const CLI::App& app) {
+    for (const CLI::App* command : app.get_subcommands()) {
+        const std::string name = command->get_name();
+        for (const Excludes& rule : exclusions()) {
+            if (name != rule.command || !given(*command, rule.option) ||
+                (rule.value && value_of(*command, rule.option) != rule.value))
+                continue;
+            for (const std::string& other : rule.others)
+                if (given(*command, other))
+                    refuse(other, fmt::format("{}{}{}", rule.option, rule.value ? " " : "", rule.value ? rule.value : ""),
+                           "beside", rule.remedy);
+        }
+        for (const NeedsValue& rule : needs_of_values())
+            if (name == rule.command && given(*command, rule.option) && given(*command, rule.other) &&
+                std::find(rule.values.begin(), rule.values.end(), value_of(*command, rule.other)) == rule.values.end())
+                refuse(rule.option, fmt::format("{} {}", rule.other, value_of(*command, rule.other)), "beside",
+                       fmt::format("leave it out, or choose {} {}", rule.other, fmt::join(rule.values, " or ")));
+        for (const Needs& rule : needs())
+            if (name == rule.command && given(*command, rule.option) &&
+                std::none_of(rule.others.begin(), rule.others.end(),
+                             [&](const std::string& other) { return given(*command, other); }))
+                refuse(rule.option, rule.others.back(), "without",
+                       fmt::format("add {} or leave it out", rule.others.back()));
+    }
+}
+
+} // namespace graze

@@ -1,0 +1,148 @@
+#include "study/start_point.hpp"
+
+#include "graze/model/model_file.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "study/branch_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+/// All parameters of a point of a run that is no branch: those of the run as it was computed, and what varies.
+std::vector<double> parameters_of(const RunRecord& run, const PointRecord& point) {
+    Model model = parse_model(run.model, run.name + ".toml");
+    for (std::size_t c = 0; c < run.coordinates.size(); ++c)
+        if (!model.find_state(run.coordinates[c].name))
+            model.set_parameter(run.coordinates[c].name, point.coordinates[c]);
+    return model.parameter_values();
+}
+
+/// The number by which a point is named, or one that no point has.
+std::size_t number_of(const StartFrom& start) {
+    std::size_t number = 0;
+    const char* last = start.point.data() + start.point.size();
+    const auto [end, error] = std::from_chars(start.point.data(), last, number);
+    return error == std::errc() && end == last ? number : std::numeric_limits<std::int64_t>::max();
+}
+
+} // namespace
+
+std::vector<double> with_own_parameters(const StudyRun& run, std::vector<double> parameters) {
+    const std::vector<double> values = run.model.parameter_values();
+    for (const std::size_t parameter : run.branch.set)
+        parameters[parameter] = values[parameter];
+    return parameters;
+}
+
+void set_parameters(Model& model, const std::vector<double>& values) {
+    const std::vector<Expression> symbols = model.parameter_symbols();
+    for (std::size_t i = 0; i < symbols.size(); ++i)
+        model.set_parameter(symbols[i].name(), values[i]);
+}
+
+OrbitRecord orbit_to_start_from(const StartFrom& start, const StudyRun& parent, const ResultFile& file) {
+    std::optional<OrbitRecord> record;
+    if (start.coordinate) {
+        const auto symbols = parent.model.parameter_symbols();
+        const auto found = std::find_if(symbols.begin(), symbols.end(),
+                                        [&](const auto& symbol) { return symbol.name() == *start.coordinate; });
+        if (found == symbols.end())
+            throw InputError(start.place, fmt::format("run '{}' has no parameter '{}'", start.run, *start.coordinate),
+                             "name one of the model's");
+        const auto place = static_cast<std::size_t>(found - symbols.begin());
+        double least = std::numeric_limits<double>::infinity();
+        for (OrbitRecord& one : file.orbits(start.run, false)) {
+            const double distance = std::abs(one.point.solution.orbit.parameters[place] - start.value);
+            if ((start.direction && one.part != *start.direction) || !(distance < least))
+                continue;
+            least = distance;
+            record = std::move(one);
+        }
+        if (record) { // a first guess at exactly that value
+            record->point.solution.orbit.parameters[place] = start.value;
+            record->point.type = PointType::regular;
+        }
+    } else if (start.point.empty()) {
+        if (parent.kind == RunKind::follow)
+            throw InputError(start.place, fmt::format("run '{}' has many points", start.run),
+                             "name one: point = \"GR1\", or at = { PARAMETER = VALUE }");
+        record = file.orbit(start.run, std::size_t{0});
+    } else {
+        std::size_t number = 0;
+        const char* last = start.point.data() + start.point.size();
+        const auto [end, error] = std::from_chars(start.point.data(), last, number);
+        record =
+            error == std::errc() && end == last ? file.orbit(start.run, number) : file.orbit(start.run, start.point);
+    }
+    if (!record) {
+        std::string known;
+        for (const OrbitRecord& one : file.orbits(start.run, true))
+            known += (known.empty() ? "" : ", ") + one.label;
+        throw InputError(start.place, fmt::format("run '{}' has no point '{}'", start.run, start.point),
+                         known.empty() ? "it has none at all" : "it has " + known);
+    }
+    if (record->point.solution.outcome != OrbitOutcome::converged)
+        throw InputError(start.place, fmt::format("run '{}' found no orbit there", start.run), "choose another point");
+    return *record;
+}
+
+StartPoint point_to_start_from(const StudyRun& run, const Study& study, const ResultFile& file) {
+    const StartFrom& start = *run.start;
+    const auto parent = std::find_if(study.runs.begin(), study.runs.end(),
+                                     [&](const StudyRun& other) { return other.name == start.run; });
+    if (parent->is_branch()) {
+        const Orbit orbit = orbit_to_start_from(start, *parent, file).point.solution.orbit;
+        StartPoint result;
+        result.point.result.state = orbit.starts.front();
+        result.point.result.mode = orbit.signature.front().mode;
+        result.point.result.label = Label::periodic;
+        result.parameters = with_own_parameters(run, orbit.parameters);
+        return result;
+    }
+    std::optional<std::size_t> direction;
+    if (start.direction) {
+        const auto names = direction_names(*parent);
+        direction = static_cast<std::size_t>(std::find(names.begin(), names.end(), *start.direction) - names.begin());
+        if (*direction == names.size())
+            throw InputError(start.place, fmt::format("run '{}' has no direction '{}'", start.run, *start.direction),
+                             "leave the direction out, or sweep both ways");
+    }
+    std::optional<PointRecord> point;
+    if (start.coordinate) {
+        point = file.nearest_point(start.run, *start.coordinate, start.value, direction);
+        if (!point)
+            throw InputError(start.place, fmt::format("run '{}' has no coordinate '{}'", start.run, *start.coordinate),
+                             "name one of those that it varies");
+    } else if (!start.point.empty()) {
+        point = file.point(start.run, number_of(start));
+        if (!point)
+            throw InputError(start.place, fmt::format("run '{}' has no point {}", start.run, start.point),
+                             fmt::format("it has {}", file.point_count(start.run)));
+    } else {
+        const std::size_t count = file.point_count(start.run);
+        if (count > 0)
+            point = file.point(start.run, count - 1);
+    }
+    if (!point)
+        throw InputError(start.place, fmt::format("run '{}' has no points to start from", start.run),
+                         "let it have some");
+    const bool finite =
+        std::all_of(point->result.state.begin(), point->result.state.end(), [](double x) { return std::isfinite(x); });
+    if (!finite || point->result.state.size() != run.model.states.size() ||
+        point->result.mode >= run.model.modes.size() || point->result.label == Label::singular ||
+        point->result.label == Label::failed)
+        throw InputError(start.place,
+                         fmt::format("run '{}' ended there as '{}', with no state to start from", start.run,
+                                     name_of(point->result.label)),
+                         "choose another point");
+    return {*point, with_own_parameters(run, parameters_of(*file.find_run(start.run), *point))};
+}
+
+} // namespace graze

@@ -1,0 +1,207 @@
+#include "study/study_reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+
+namespace graze {
+
+namespace {
+
+/// Kinds of runs, as bits.
+enum Kinds : unsigned {
+    simulate = 1u << static_cast<unsigned>(RunKind::simulate),
+    sweep = 1u << static_cast<unsigned>(RunKind::sweep),
+    basin = 1u << static_cast<unsigned>(RunKind::basin),
+    orbit = 1u << static_cast<unsigned>(RunKind::orbit),
+    follow = 1u << static_cast<unsigned>(RunKind::follow),
+    points = simulate | sweep | basin, ///< those whose points are motions
+    branches = orbit | follow,
+    settling = sweep | basin | branches,
+    every = points | branches,
+};
+
+struct Key {
+    const char* name;
+    unsigned kinds; ///< that use it
+};
+
+/// Which kinds of runs use a key: no other may have it.
+constexpr std::array keys_of_runs{
+    Key{"kind", every},
+    Key{"text", every},
+    Key{"model", every},
+    Key{"set", every},
+    Key{"from", every},
+    Key{"mode", every},
+    Key{"start", every},
+    Key{"section", every},
+    Key{"bounds", every},
+    Key{"tolerance", every},
+    Key{"order", every},
+    Key{"largest_step", every},
+    Key{"vary", points},
+    Key{"draws", points},
+    Key{"seed", points},
+    Key{"sample", points},
+    Key{"values", points},
+    Key{"time", simulate},
+    Key{"periods", simulate},
+    Key{"contacts", simulate},
+    Key{"skip", simulate},
+    Key{"events", simulate},
+    Key{"greatest_speed", simulate},
+    Key{"carry", sweep},
+    Key{"direction", sweep | follow},
+    Key{"keep", sweep | basin},
+    Key{"cycles", settling},
+    Key{"largest_period", settling},
+    Key{"recurrence", settling},
+    Key{"disturbance", settling},
+    Key{"longest_return", settling},
+    Key{"lyapunov_cycles", sweep | basin},
+    Key{"signature", branches},
+    Key{"table", branches},
+    Key{"monitors", branches},
+    Key{"accuracy", branches},
+    Key{"along", follow},
+    Key{"steps", follow},
+    Key{"stop", follow},
+    Key{"step", follow},
+    Key{"free", follow},
+    Key{"unphysical", branches},
+};
+
+/// Keys of runs of orbits that say how simulation settles on one.
+constexpr std::array of_settling{"section",    "bounds",      "cycles",        "largest_period",
+                                 "recurrence", "disturbance", "longest_return"};
+constexpr std::array of_integration{"order", "largest_step"};
+
+template <class Names>
+void refuse_any(const StudyReader& reader, const RunKeys& keys, const Names& names, const std::string& why,
+                const std::string& remedy) {
+    for (const char* name : names)
+        if (const auto found = keys.find(name); found != keys.end())
+            reader.fail(found->second, fmt::format("`{}` has no effect here: {}", name, why), remedy);
+}
+
+/// Several keys say where a run begins; all but one would be ignored.
+void check_beginning(const StudyReader& reader, RunKind kind, const RunKeys& keys) {
+    const bool branch = kind == RunKind::orbit || kind == RunKind::follow;
+    const auto refuse_two = [&](const char* one, const char* other) {
+        if (keys.contains(one) && keys.contains(other))
+            reader.fail(keys.at(other), fmt::format("`{}` has no effect here: the run has `{}`", other, one),
+                        "leave one of them out");
+    };
+    if (kind == RunKind::simulate && keys.contains("sample")) {
+        const bool periods = keys.contains("periods") || keys.contains("skip");
+        if (keys.contains("section") && !periods)
+            reader.fail(keys.at("section"),
+                        "`section` has no effect here: no periods are counted, and `sample` is given", "leave it out");
+    }
+    if (keys.contains("events") && !keys.contains("contacts") && !keys.contains("greatest_speed"))
+        reader.fail(keys.at("events"),
+                    "`events` has no effect here: it says which contacts count, and none are counted",
+                    "leave it out, or give `contacts` or `greatest_speed`");
+    refuse_two("start", "from");
+    refuse_two("start", "mode");
+    refuse_two("start", "signature");
+    refuse_two("start", "table");
+    refuse_two("table", "from");
+    refuse_two("table", "mode");
+    if (!branch)
+        return;
+    const std::string leave = "leave it out";
+    if (keys.contains("signature") || keys.contains("table"))
+        refuse_any(reader, keys, of_settling, "no orbit is settled on", leave);
+    if (kind == RunKind::orbit && keys.contains("unphysical") && !keys.contains("signature"))
+        reader.fail(keys.at("unphysical"),
+                    "`unphysical` has no effect here: nothing is followed, and no signature given", leave);
+    if (keys.contains("table"))
+        refuse_any(reader, keys, of_integration, "no motion leads to the orbit; `tolerance` is that of the orbit",
+                   leave);
+}
+
+} // namespace
+
+std::vector<std::string> run_keys() {
+    std::vector<std::string> names;
+    for (const Key& key : keys_of_runs)
+        names.emplace_back(key.name);
+    return names;
+}
+
+void check_keys_of_kind(const StudyReader& reader, RunKind kind, const RunKeys& keys) {
+    for (const auto& [name, entry] : keys) {
+        const auto* key = std::find_if(keys_of_runs.begin(), keys_of_runs.end(),
+                                       [&, &name = name](const Key& one) { return name == one.name; });
+        if (key->kinds & (1u << static_cast<unsigned>(kind)))
+            continue;
+        std::vector<std::string> kinds;
+        for (unsigned k = 0; k <= static_cast<unsigned>(RunKind::follow); ++k)
+            if (key->kinds & (1u << k))
+                kinds.push_back(fmt::format("\"{}\"", name_of(static_cast<RunKind>(k))));
+        reader.fail(entry, fmt::format("runs of kind \"{}\" have no `{}`", name_of(kind), name),
+                    fmt::format("leave it out; it belongs to {}", fmt::join(kinds, ", ")));
+    }
+    check_beginning(reader, kind, keys);
+}
+
+namespace {
+
+[[noreturn]] void fail_start(const StartFrom& start, const std::string& problem, const std::string& remedy) {
+    throw InputError(start.place, problem, remedy);
+}
+
+template <class Item>
+std::vector<std::string> names_of(const std::vector<Item>& items) {
+    std::vector<std::string> names;
+    for (const Item& item : items)
+        names.push_back(item.name);
+    return names;
+}
+
+/// Whether states, modes, transitions and parameters are the same, so that one's points mean the same to the other.
+bool are_alike(const Model& one, const Model& other) {
+    const auto labels = [](const Model& model) {
+        std::vector<std::string> result;
+        for (const Transition& transition : model.transitions)
+            result.push_back(transition.label);
+        return result;
+    };
+    return names_of(one.states) == names_of(other.states) && names_of(one.modes) == names_of(other.modes) &&
+           names_of(one.parameters) == names_of(other.parameters) && labels(one) == labels(other);
+}
+
+} // namespace
+
+void check_start(const StudyReader& reader, const StudyRun& run, const StudyRun& parent, const RunKeys& keys) {
+    const StartFrom& start = *run.start;
+    if (!are_alike(run.model, parent.model))
+        fail_start(start,
+                   fmt::format("run '{}' is of another model ('{}') than this one ('{}')", parent.name,
+                               parent.model.name, run.model.name),
+                   "start from a run of the same model");
+    if (start.coordinate && !start.point.empty())
+        fail_start(start, "both `at` and `point` say where to start", "leave one of them out");
+    if (start.direction && !start.coordinate)
+        fail_start(start, "`direction` chooses among the points nearest to `at`, which is not given",
+                   "write at = { PARAMETER = VALUE }, or leave it out");
+    if (start.direction && parent.kind != RunKind::sweep && parent.kind != RunKind::follow)
+        fail_start(start, fmt::format("runs of kind \"{}\" have no direction", name_of(parent.kind)), "leave it out");
+    if (!start.onto.empty() && !(parent.is_branch() && run.is_branch()))
+        fail_start(start, "`onto` chooses a branch, and leads from an orbit to an orbit", "leave it out");
+    if (!parent.is_branch() && start.point.find_first_not_of("0123456789") != std::string::npos)
+        fail_start(start, fmt::format("points of runs of kind \"{}\" have no labels", name_of(parent.kind)),
+                   "give the point's number, or at = { PARAMETER = VALUE }");
+    if (run.is_branch() && parent.is_branch()) {
+        const std::string leave = "leave it out";
+        refuse_any(reader, keys, of_settling, "no orbit is settled on", leave);
+        refuse_any(reader, keys, of_integration, "no motion leads to the orbit; `tolerance` is that of the orbit",
+                   leave);
+    }
+}
+
+} // namespace graze

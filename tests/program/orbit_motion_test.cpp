@@ -1,0 +1,114 @@
+#include "program/orbit_motion.hpp"
+
+#include "graze/study/runner.hpp"
+#include "graze/study/study_catalogue.hpp"
+#include "graze/symbolic/function.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+namespace graze {
+namespace {
+
+/// Runs of orbits that lead back to no sweep, which would take long.
+std::vector<std::string> branches_alone(const Study& study) {
+    std::set<std::string> chosen;
+    for (const StudyRun& run : study.runs)
+        if (run.is_branch() && (!run.start || chosen.contains(run.start->run)))
+            chosen.insert(run.name);
+    return {chosen.begin(), chosen.end()};
+}
+
+/// By how much two states differ, relative to their size; whole periods do not count, nor does what drifts.
+double distance(const Model& model, const std::vector<double>& one, const std::vector<double>& other,
+                const std::vector<double>& sizes) {
+    std::vector<Expression> periods;
+    for (const State& state : model.states)
+        periods.push_back(state.period ? model.expand(*state.period) : model.number(0));
+    const std::vector<double> period = Function(model.parameter_symbols(), periods)(model.parameter_values());
+    double result = 0;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        if (model.states[i].drifting)
+            continue;
+        double difference = one[i] - other[i];
+        if (period[i] > 0)
+            difference = std::remainder(difference, period[i]);
+        result = std::max(result, std::abs(difference) / (period[i] > 0 ? period[i] : sizes[i]));
+    }
+    return result;
+}
+
+/// The state after what ends a segment.
+std::vector<double> after_end(const Model& model, const Segment& segment, const std::vector<double>& state) {
+    if (segment.end == SegmentEnd::section)
+        return state;
+    std::vector<Expression> inputs = model.state_symbols();
+    for (const Expression& symbol : model.parameter_symbols())
+        inputs.push_back(symbol);
+    std::vector<double> values = state;
+    for (const double value : model.parameter_values())
+        values.push_back(value);
+    return Function(inputs, model.expand(model.jumps[model.transitions[segment.index].jump].map))(values);
+}
+
+void expect_closed(const Model& model, const OrbitRecord& record, const std::string& name) {
+    const Orbit& stored = record.point.solution.orbit;
+    const Orbit whole = whole_orbit(model, stored);
+    const Model there = model_at(model, whole);
+    const auto motion = orbit_motion(model, whole, 50);
+    ASSERT_EQ(motion.size(), whole.segments()) << name;
+    EXPECT_NEAR(whole.period(), stored.period(), 1e-12 * stored.period()) << name;
+    EXPECT_EQ(motion.front().states.front(), stored.starts.front()) << name;
+    std::vector<double> sizes(model.states.size(), 1e-300);
+    for (const SegmentMotion& segment : motion)
+        for (const auto& state : segment.states)
+            for (std::size_t i = 0; i < state.size(); ++i)
+                sizes[i] = std::max(sizes[i], std::abs(state[i]));
+    // Newton's last correction is 1e-10; along unstable orbits errors of the start grow by the multiplier.
+    double growth = 1;
+    for (const auto& multiplier : record.point.solution.multipliers)
+        growth = std::isfinite(std::abs(multiplier)) ? std::max(growth, std::abs(multiplier)) : growth;
+    for (std::size_t s = 0; s < motion.size(); ++s) {
+        EXPECT_EQ(motion[s].problem, "") << name;
+        const std::vector<double> next = after_end(there, whole.signature[s], motion[s].states.back());
+        EXPECT_LT(distance(there, next, whole.starts[(s + 1) % motion.size()], sizes), 1e-9 * growth)
+            << name << ", segment " << s + 1 << " of " << motion.size();
+    }
+}
+
+TEST(OrbitMotionSlow, of_every_orbit_of_the_shipped_studies_starts_where_stored_and_closes) {
+    std::size_t orbits = 0, halves = 0;
+    for (const std::string& name : shipped_studies()) {
+        const Study study = load_study(name);
+        RunnerOptions options;
+        options.only = branches_alone(study);
+        if (options.only.empty())
+            continue;
+        const std::string path =
+            (std::filesystem::temp_directory_path() / ("graze-motion-" + std::to_string(getpid()) + ".sqlite"))
+                .string();
+        std::filesystem::remove(path);
+        {
+            ResultFile file(path, ResultFile::Access::write);
+            run_study(study, file, options);
+            for (const StudyRun& run : study.runs)
+                for (const OrbitRecord& record : file.orbits(run.name, true)) {
+                    if (record.point.solution.outcome != OrbitOutcome::converged)
+                        continue;
+                    expect_closed(run.model, record, name + ", " + run.name + ':' + record.label);
+                    ++orbits;
+                    halves += record.point.solution.orbit.symmetry ? 1 : 0;
+                }
+        }
+        std::filesystem::remove(path);
+    }
+    EXPECT_GT(orbits, 50u);
+    EXPECT_GT(halves, 5u);
+}
+
+} // namespace
+} // namespace graze

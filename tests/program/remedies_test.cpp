@@ -1,0 +1,151 @@
+#include "run_graze.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+
+namespace graze::testing {
+namespace {
+
+/// What is written between quotes in a source, one text a literal, and raw ones with all their lines.
+std::vector<std::string> literals(const std::string& source) {
+    std::vector<std::string> found;
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        if (source.compare(i, 2, "//") == 0) {
+            i = std::min(source.find('\n', i), source.size());
+        } else if (source.compare(i, 3, "R\"(") == 0) {
+            const std::size_t end = source.find(")\"", i);
+            found.push_back(source.substr(i + 3, end - i - 3));
+            i = end + 1;
+        } else if (source[i] == '\'') {
+            i += source[i + 1] == '\\' ? 3 : source[i + 2] == '\'' ? 2 : 0; // or a separator of digits
+        } else if (source[i] == '"') {
+            std::string text;
+            for (++i; i < source.size() && source[i] != '"'; ++i)
+                text += source[i] == '\\' ? source[++i] : source[i];
+            found.push_back(text);
+        }
+    }
+    return found;
+}
+
+/// What is set as code in a page of the documentation: blocks that a shell runs, and spans between backticks.
+std::vector<std::string> code_of(const std::string& page) {
+    std::vector<std::string> found;
+    std::istringstream lines(page);
+    std::string fence;
+    bool inside = false;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("```")) {
+            inside = !inside;
+            fence = line;
+        } else if (inside && fence.starts_with("```sh")) {
+            found.push_back(line);
+        } else if (!inside) {
+            for (std::size_t begin = line.find('`'); begin != std::string::npos;) {
+                const std::size_t end = line.find('`', begin + 1);
+                if (end == std::string::npos)
+                    break;
+                found.push_back(line.substr(begin + 1, end - begin - 1));
+                begin = line.find('`', end + 1);
+            }
+        }
+    }
+    return found;
+}
+
+struct Text {
+    std::string file, text;
+};
+
+/// All texts that may name commands: messages and help, documentation.
+std::vector<Text> texts() {
+    std::vector<Text> all;
+    const std::filesystem::path root = GRAZE_SOURCE_DIR;
+    for (const char* folder : {"src", "docs"})
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+            const auto extension = entry.path().extension();
+            const bool source = extension == ".cpp" || extension == ".hpp";
+            if (!source && extension != ".md")
+                continue;
+            const std::string content = contents(entry.path());
+            for (std::string& text : source ? literals(content) : code_of(content))
+                all.push_back({entry.path().string(), std::move(text)});
+        }
+    for (std::string& text : code_of(contents(root / "README.md")))
+        all.push_back({"README.md", std::move(text)});
+    return all;
+}
+
+/// Commands with the help of each.
+std::map<std::string, std::string> commands() {
+    std::map<std::string, std::string> result;
+    for (const char* name : {"models", "check", "simulate", "run", "points", "orbit", "export", "plot"}) {
+        const Printed help = run_graze(std::string(name) + " --help");
+        EXPECT_EQ(help.code, 0) << name;
+        result[name] = help.out;
+    }
+    return result;
+}
+
+bool has_option(const std::string& help, const std::string& option) {
+    return std::regex_search(help, std::regex(option + "([^a-z-]|$)"));
+}
+
+TEST(Remedies, name_commands_that_exist) {
+    const auto known = commands();
+    const std::regex use("(^|[^a-z/.'_-])(\\w*) ?graze ([a-z]+)");
+    const std::set<std::string> nouns{"of", "with", "another", "by", "to", "this"};
+    std::size_t found = 0;
+    for (const Text& text : texts())
+        for (std::sregex_iterator it(text.text.begin(), text.text.end(), use), end; it != end; ++it) {
+            if (nouns.contains((*it)[2]))
+                continue;
+            ++found;
+            EXPECT_TRUE(known.contains((*it)[3])) << text.file << ": " << text.text;
+        }
+    EXPECT_GT(found, 60u);
+}
+
+TEST(Remedies, name_options_that_exist) {
+    const auto known = commands();
+    const std::regex option("--[a-z][a-z-]*");
+    const std::regex command("graze ([a-z]+)");
+    std::size_t found = 0, of_commands = 0;
+    for (const Text& text : texts()) {
+        // Options of other programs, in blocks for a shell.
+        if (text.text.find("cmake") != std::string::npos || text.text.find("ctest") != std::string::npos ||
+            text.text.find("gnuplot") != std::string::npos || text.text.find("./run") != std::string::npos)
+            continue;
+        for (std::sregex_iterator it(text.text.begin(), text.text.end(), option), end; it != end; ++it) {
+            const std::string name = it->str();
+            if (name == "--help" || name == "--version")
+                continue;
+            ++found;
+            EXPECT_TRUE(
+                std::any_of(known.begin(), known.end(), [&](const auto& one) { return has_option(one.second, name); }))
+                << text.file << ": " << name << " in: " << text.text;
+            // That which it belongs to, if one is named before it.
+            const std::string before = text.text.substr(0, static_cast<std::size_t>(it->position()));
+            std::smatch last;
+            std::string rest = before, owner;
+            while (std::regex_search(rest, last, command)) {
+                owner = last[1];
+                rest = last.suffix();
+            }
+            if (!known.contains(owner) || rest.find_first_of(";\n|,") != std::string::npos)
+                continue;
+            ++of_commands;
+            EXPECT_TRUE(has_option(known.at(owner), name)) << text.file << ": " << text.text;
+        }
+    }
+    EXPECT_GT(found, 150u);
+    EXPECT_GT(of_commands, 60u);
+}
+
+} // namespace
+} // namespace graze::testing

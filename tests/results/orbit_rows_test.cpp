@@ -1,0 +1,145 @@
+#include "graze/model/catalogue.hpp"
+#include "graze/model/model_file.hpp"
+#include "graze/results/hdf5.hpp"
+#include "graze/results/result_file.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <random>
+
+namespace graze {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+class OrbitRows : public testing::Test {
+protected:
+    void SetUp() override {
+        path_ =
+            (std::filesystem::temp_directory_path() / ("graze-rows-" + std::to_string(getpid()) + ".sqlite")).string();
+        std::filesystem::remove(path_);
+    }
+    void TearDown() override { std::filesystem::remove(path_); }
+    std::string path_;
+};
+
+RunRecord run_of(const Model& model) {
+    RunRecord run;
+    run.name = "b";
+    run.kind = "continue";
+    run.model_name = model.name;
+    run.model = write_model(model);
+    for (const auto& symbol : model.parameter_symbols())
+        run.coordinates.push_back({symbol.name(), ""});
+    for (const State& state : model.states)
+        run.states.push_back({state.name, ""});
+    run.values = {{"largest", ""}};
+    return run;
+}
+
+/// What can be known of orbits, drawn: each number finite, infinite or unknown where it may be.
+class Draw {
+public:
+    explicit Draw(const Model& model) : model_(&model) {}
+
+    OrbitRecord record(std::size_t number) {
+        OrbitRecord record;
+        record.number = number;
+        record.part = "up";
+        record.point.type = PointType::regular;
+        record.point.monitors = {perhaps_infinite()};
+        OrbitSolution& solution = record.point.solution;
+        solution.outcome = OrbitOutcome::converged;
+        solution.residual = 1e-15;
+        for (std::size_t m = count(4); m-- > 0;)
+            solution.multipliers.emplace_back(perhaps_infinite(), 0.0);
+        for (std::size_t m = count(3); m-- > 0;)
+            solution.half_multipliers.emplace_back(value(), value());
+        Orbit& orbit = solution.orbit;
+        orbit.signature = parse_signature(*model_, "impact impact");
+        orbit.parameters = model_->parameter_values();
+        Certificate& certificate = solution.certificate;
+        for (std::size_t s = 0; s < orbit.segments(); ++s) {
+            orbit.starts.push_back({value(), value(), value()});
+            orbit.durations.push_back(value());
+            certificate.approach_speeds.push_back(value());
+            certificate.departures.push_back(value());
+            certificate.guard_margins.push_back(perhaps_infinite());
+        }
+        for (std::size_t i = count(4); i-- > 0;)
+            certificate.minima.push_back({count(1), count(1), value(), perhaps_infinite()});
+        for (std::size_t i = count(4); i-- > 0;)
+            certificate.end_values.push_back({count(1), count(1), perhaps_infinite(), value()});
+        return record;
+    }
+
+private:
+    double value() {
+        return std::uniform_real_distribution<double>(-1, 1)(random_) * std::pow(10.0, double(count(20)) - 10);
+    }
+    double perhaps_infinite() { return count(3) == 0 ? infinity : value(); }
+    std::size_t count(std::size_t most) { return std::uniform_int_distribution<std::size_t>(0, most)(random_); }
+
+    const Model* model_;
+    std::mt19937 random_{3};
+};
+
+TEST_F(OrbitRows, what_is_infinite_or_undefined_comes_back_as_such) {
+    const Model model = load_model("impact-oscillator");
+    Draw draw(model);
+    std::vector<OrbitRecord> written;
+    {
+        ResultFile file(path_, ResultFile::Access::write);
+        file.begin_run(run_of(model));
+        for (std::size_t i = 0; i < 100; ++i) {
+            written.push_back(draw.record(i));
+            file.add_orbit("b", written.back());
+        }
+    }
+    const ResultFile file(path_, ResultFile::Access::read);
+    const auto read = file.orbits("b", false);
+    ASSERT_EQ(read.size(), written.size());
+    for (std::size_t i = 0; i < read.size(); ++i) {
+        const OrbitSolution &a = written[i].point.solution, &b = read[i].point.solution;
+        EXPECT_EQ(a.multipliers, b.multipliers);
+        EXPECT_EQ(a.half_multipliers, b.half_multipliers);
+        EXPECT_EQ(written[i].point.monitors, read[i].point.monitors);
+        EXPECT_EQ(a.certificate.guard_margins, b.certificate.guard_margins);
+        EXPECT_EQ(a.certificate.approach_speeds, b.certificate.approach_speeds);
+        ASSERT_EQ(a.certificate.minima.size(), b.certificate.minima.size());
+        for (std::size_t m = 0; m < a.certificate.minima.size(); ++m) {
+            EXPECT_EQ(a.certificate.minima[m].segment, b.certificate.minima[m].segment);
+            EXPECT_EQ(a.certificate.minima[m].event, b.certificate.minima[m].event);
+            EXPECT_EQ(a.certificate.minima[m].time, b.certificate.minima[m].time);
+            EXPECT_EQ(a.certificate.minima[m].value, b.certificate.minima[m].value);
+        }
+        ASSERT_EQ(a.certificate.end_values.size(), b.certificate.end_values.size());
+        for (std::size_t m = 0; m < a.certificate.end_values.size(); ++m) {
+            EXPECT_EQ(a.certificate.end_values[m].segment, b.certificate.end_values[m].segment);
+            EXPECT_EQ(a.certificate.end_values[m].event, b.certificate.end_values[m].event);
+            EXPECT_EQ(a.certificate.end_values[m].value, b.certificate.end_values[m].value);
+            EXPECT_EQ(a.certificate.end_values[m].rate, b.certificate.end_values[m].rate);
+        }
+    }
+    auto infinite = file.query("SELECT count(*) FROM multipliers WHERE real > 1e308");
+    ASSERT_TRUE(infinite.next());
+    EXPECT_GT(infinite.integer(0), 10);
+}
+
+TEST_F(OrbitRows, what_earlier_files_have_as_missing_was_infinite) {
+    const Model model = load_model("impact-oscillator");
+    OrbitRecord record = Draw(model).record(0);
+    record.point.solution.multipliers = {{std::numeric_limits<double>::quiet_NaN(), 0.0}, {0.5, 0.0}};
+    ResultFile file(path_, ResultFile::Access::write);
+    file.begin_run(run_of(model));
+    file.add_orbit("b", record);
+    EXPECT_EQ(file.orbit("b", std::size_t{0})->point.solution.multipliers,
+              (std::vector<std::complex<double>>{{infinity, 0.0}, {0.5, 0.0}}));
+}
+
+} // namespace
+} // namespace graze
