@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <set>
 
 namespace graze {
@@ -135,9 +137,12 @@ std::vector<DrawnPoint> points_of(const ResultFile& file, const StoredRun& run, 
         point.type = point_type(rows.text(2)).value_or(PointType::regular);
         point.look = rows.integer(4) == 0 ? Look::unphysical : rows.integer(3) == 0 ? Look::unstable : Look::stable;
         point.step = rows.integer(5);
-        point.x = rows.is_null(6) ? nothing : rows.number(6);
+        const auto number = [&](std::size_t column) { // what is infinite has no place in a picture
+            return rows.is_null(column) || std::isinf(rows.number(column)) ? nothing : rows.number(column);
+        };
+        point.x = number(6);
         for (std::size_t v = 0; v < values.size(); ++v)
-            point.y.push_back(rows.is_null(7 + v) ? nothing : rows.number(7 + v));
+            point.y.push_back(number(7 + v));
     }
     return points;
 }
@@ -178,6 +183,11 @@ std::vector<Stretch> stretches_of(const std::vector<DrawnPoint>& points) {
     return stretches;
 }
 
+bool alike(const PlanePoint& one, const PlanePoint& other) {
+    const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-6 * std::max(std::abs(a), std::abs(b)); };
+    return near(one.x, other.x) && near(one.y, other.y);
+}
+
 /// @param labels colour of the labels
 void add_branch(FigurePanel& panel, const std::vector<DrawnPoint>& points, std::size_t value, std::size_t colour,
                 std::size_t labels) {
@@ -201,8 +211,13 @@ void add_branch(FigurePanel& panel, const std::vector<DrawnPoint>& points, std::
         series.symbol = symbol;
         for (const DrawnPoint& point : points)
             if ((!is_ordinary(point.type) || point.type == PointType::crossing) && symbol_of(point.type) == symbol) {
-                series.points.push_back({point.x, point.y[value]});
-                panel.labels.push_back({series.points.back(), point.label, labels});
+                // Images under a symmetry often lie in one place, where one label does.
+                const PlanePoint here{point.x, point.y[value]};
+                const bool there = std::any_of(series.points.begin(), series.points.end(),
+                                               [&](const PlanePoint& other) { return alike(here, other); });
+                series.points.push_back(here);
+                if (!there)
+                    panel.labels.push_back({here, point.label, labels});
             }
         panel.series.push_back(std::move(series));
     }

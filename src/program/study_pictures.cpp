@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -85,12 +86,15 @@ std::vector<std::string> draw_study_pictures(const Study& study, const ResultFil
     std::vector<StudyPicture> pictures = study.pictures;
     if (pictures.empty())
         for (const StudyRun& run : study.runs)
-            if (const auto record = file.find_run(run.name))
+            if (const auto record = file.find_run(run.name); record && file.point_count(run.name) > 0)
                 pictures.push_back(default_picture(*record));
     std::vector<std::string> written;
     for (const StudyPicture& picture : pictures) {
         const std::string base = (std::filesystem::path(folder) / picture.name).string();
         try {
+            if (std::none_of(picture.runs.begin(), picture.runs.end(),
+                             [&](const std::string& run) { return file.point_count(run) > 0; }))
+                throw InputError(fmt::format("run '{}' has no points", picture.runs.front()), "see why above");
             const ResultPicture made = make_picture(picture, file);
             if (made.table.rows() > 0) {
                 std::ostringstream text;
