@@ -37,6 +37,7 @@ struct NeedsValue {
     const char* option;
     const char* other;
     Names values;
+    const char* unless = nullptr; ///< with which it has a meaning in any case
 };
 
 const std::vector<Excludes>& exclusions() {
@@ -77,7 +78,7 @@ const std::vector<NeedsValue>& needs_of_values() {
         {"simulate", "--samples", "--table", {"samples"}},
         {"simulate", "--every", "--table", {"samples"}},
         {"simulate", "--derivatives", "--table", {"derivatives"}},
-        {"simulate", "--event", "--table", {"contacts", "minima", "summary"}},
+        {"simulate", "--event", "--table", {"contacts", "minima", "summary"}, "--contacts"},
     };
     return all;
 }
@@ -107,11 +108,13 @@ void refuse_useless_options(const CLI::App& app) {
                 continue;
             for (const std::string& other : rule.others)
                 if (given(*command, other))
-                    refuse(other, fmt::format("{}{}{}", rule.option, rule.value ? " " : "", rule.value ? rule.value : ""),
+                    refuse(other,
+                           fmt::format("{}{}{}", rule.option, rule.value ? " " : "", rule.value ? rule.value : ""),
                            "beside", rule.remedy);
         }
         for (const NeedsValue& rule : needs_of_values())
             if (name == rule.command && given(*command, rule.option) && given(*command, rule.other) &&
+                !(rule.unless && given(*command, rule.unless)) &&
                 std::find(rule.values.begin(), rule.values.end(), value_of(*command, rule.other)) == rule.values.end())
                 refuse(rule.option, fmt::format("{} {}", rule.other, value_of(*command, rule.other)), "beside",
                        fmt::format("leave it out, or choose {} {}", rule.other, fmt::join(rule.values, " or ")));

@@ -123,7 +123,7 @@ TEST(NormalForms, pitchfork_with_and_without_declared_symmetry) {
         BranchSettings settings;
         settings.greatest = 0.5;
         const Branch branch = follow_branch(model, orbit, settings);
-        ASSERT_EQ(names(branch), "BP BD");
+        ASSERT_EQ(names(branch), declared ? "SB BD" : "BP BD");
         EXPECT_NEAR(branch.special[0].parameter, 0, 1e-12);
         EXPECT_LT(nearest_multiplier(branch.special[0].solution, 1), 1e-10);
         const auto starts = branches_at(model, branch.special[0], settings);

@@ -71,7 +71,7 @@ TEST(Check, WarnsOfAProbablyWrongSign) {
     std::ofstream(file) << "name = \"m\"\n[states]\nx = 0\n[modes.a]\nrates = { x = 1 }\nwatch = [\"one\"]\n[modes.b]\n"
                            "rates = { x = 1 }\nwatch = [\"two\"]\n[events]\none = \"1 - x\"\ntwo = \"x - 2\"\n"
                            "[[transitions]]\nmode = \"a\"\nevent = \"one\"\nnext = \"b\"\n"
-                           "[[transitions]]\nmode = \"b\"\nevent = \"two\"\nnext = \"end\"\n";
+                           "[[transitions]]\nmode = \"b\"\nevent = \"two\"\nnext = \"end\"\n[initial]\nmode = \"a\"\n";
     EXPECT_THAT(run_graze("check " + file).err,
                 AllOf(HasSubstr(file + ":12:1: the motion from the initial state ends at time 1: "),
                       HasSubstr("barrier 'two'"), HasSubstr("perhaps its function has the wrong sign")));

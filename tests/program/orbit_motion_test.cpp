@@ -62,12 +62,13 @@ void expect_closed(const Model& model, const OrbitRecord& record, const std::str
     const auto motion = orbit_motion(model, whole, 50);
     ASSERT_EQ(motion.size(), whole.segments()) << name;
     EXPECT_NEAR(whole.period(), stored.period(), 1e-12 * stored.period()) << name;
-    EXPECT_EQ(motion.front().states.front(), stored.starts.front()) << name;
     std::vector<double> sizes(model.states.size(), 1e-300);
     for (const SegmentMotion& segment : motion)
         for (const auto& state : segment.states)
             for (std::size_t i = 0; i < state.size(); ++i)
                 sizes[i] = std::max(sizes[i], std::abs(state[i]));
+    // A phase is brought within its period, which may round.
+    EXPECT_LT(distance(there, motion.front().states.front(), stored.starts.front(), sizes), 1e-15) << name;
     // Newton's last correction is 1e-10; along unstable orbits errors of the start grow by the multiplier.
     double growth = 1;
     for (const auto& multiplier : record.point.solution.multipliers)
@@ -80,7 +81,7 @@ void expect_closed(const Model& model, const OrbitRecord& record, const std::str
     }
 }
 
-TEST(OrbitMotionSlow, of_every_orbit_of_the_shipped_studies_starts_where_stored_and_closes) {
+TEST(OrbitMotion, of_every_orbit_of_the_shipped_studies_starts_where_stored_and_closes) {
     std::size_t orbits = 0, halves = 0;
     for (const std::string& name : shipped_studies()) {
         const Study study = load_study(name);

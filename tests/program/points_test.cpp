@@ -116,7 +116,7 @@ TEST_F(Points, WrongInputsAreToldWithARemedy) {
     EXPECT_THAT(said({"points", path, "--run", "swept"}), HasSubstr("of kind sweep"));
     write_branches();
     EXPECT_THAT(said({"points", path, "--run", "frist"}), HasSubstr("did you mean 'first'?"));
-    EXPECT_THAT(said({"points", path, "--type", "XX"}), HasSubstr("known are: SN, PD, NS, BP, GR"));
+    EXPECT_THAT(said({"points", path, "--type", "XX"}), HasSubstr("known are: SN, PD, NS, BP, SB, GR"));
 }
 
 TEST_F(Points, ExportsBranchesBesideOtherRuns) {
