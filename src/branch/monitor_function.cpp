@@ -72,6 +72,8 @@ bool MonitorFunction::evaluate(const Shooting& shooting, const Eigen::VectorXd& 
     case Monitor::Kind::norm:
         defined = mean(shooting, unknowns);
         break;
+    case Monitor::Kind::multiplier: // never held: BranchSettings::validate refuses it
+        break;
     }
     return defined && std::isfinite(value_) && gradient_.allFinite();
 }

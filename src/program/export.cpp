@@ -45,7 +45,7 @@ std::string query_of_runs(const ResultFile& file) {
 const std::map<std::string, std::string> details{
     {"multipliers", "m.position, m.real, m.imaginary"},
     {"half_multipliers", "m.position, m.real, m.imaginary"},
-    {"minima", "m.segment, m.event, m.time, m.value"},
+    {"minima", "m.segment, m.event, m.time, m.value, m.size"},
     {"end_values", "m.segment, m.event, m.value, m.rate"},
 };
 

@@ -57,6 +57,7 @@ void add_certificate(JsonObject& heading, const OrbitSolution& solution, const M
         minimum.add("event", model.events[one.event].name);
         minimum.add("time", one.time);
         minimum.add("value", one.value);
+        minimum.add("size", one.size);
     }
     for (const EndValue& one : certificate.end_values) {
         JsonObject& end = ends.emplace_back();

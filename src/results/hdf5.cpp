@@ -189,7 +189,7 @@ void export_hdf5(const ResultFile& file, const std::vector<std::string>& runs, c
         write_details("multipliers", "real, imaginary", {});
         if (branch) {
             write_details("half_multipliers", "real, imaginary", {});
-            write_details("minima", "segment, event, time, value", {});
+            write_details("minima", "segment, event, time, value, size", {});
             write_details("end_values", "segment, event, value, rate", {});
         }
     }

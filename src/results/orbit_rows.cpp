@@ -131,6 +131,7 @@ void write_certificate(Statement& minimum, Statement& end_value, const Model& mo
             .bind(5, std::string_view(model.events[one.event].name))
             .bind(6, one.time)
             .bind_extended(7, one.value)
+            .bind(8, one.size)
             .run();
     position = 0;
     for (const EndValue& one : certificate.end_values)
@@ -150,7 +151,8 @@ void read_certificate(Statement& minima, Statement& end_values, const Model& mod
     };
     while (minima.step())
         if (const auto event = model.find_event(minima.text(1)))
-            certificate.minima.push_back({segment(minima), *event, minima.number(2), minima.number(3)});
+            certificate.minima.push_back(
+                {segment(minima), *event, minima.number(2), minima.number(3), minima.number(4)});
     minima.reset();
     while (end_values.step())
         if (const auto event = model.find_event(end_values.text(1)))
@@ -277,7 +279,7 @@ std::vector<OrbitRecord> ResultFile::read_orbits(const std::string& name, const 
     };
     Statement multipliers = details("real, imaginary", "multipliers"),
               half_multipliers = details("real, imaginary", "half_multipliers"),
-              minima = details("segment, event, time, value", "minima"),
+              minima = details("segment, event, time, value, size", "minima"),
               end_values = details("segment, event, value, rate", "end_values");
     while (row.step()) {
         OrbitRecord record = read_row(row, model, *run);

@@ -50,7 +50,7 @@ struct ResultFile::State {
                 Writer{*run, tables, database.prepare(tables.insert_point()), database.prepare(tables.insert_sample()),
                        database.prepare("INSERT INTO multipliers VALUES(?,?,?,?,?)"),
                        database.prepare("INSERT INTO half_multipliers VALUES(?,?,?,?,?)"),
-                       database.prepare("INSERT INTO minima VALUES(?,?,?,?,?,?,?)"),
+                       database.prepare("INSERT INTO minima VALUES(?,?,?,?,?,?,?,?)"),
                        database.prepare("INSERT INTO end_values VALUES(?,?,?,?,?,?,?)"), std::nullopt});
         }
         return *writer;

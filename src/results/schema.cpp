@@ -93,7 +93,7 @@ CREATE TABLE multipliers(run TEXT, point INTEGER, position INTEGER, real REAL, i
 CREATE TABLE half_multipliers(run TEXT, point INTEGER, position INTEGER, real REAL, imaginary REAL,
                               PRIMARY KEY(run, point, position)) WITHOUT ROWID;
 CREATE TABLE minima(run TEXT, point INTEGER, position INTEGER, segment INTEGER, event TEXT, time REAL, value REAL,
-                    PRIMARY KEY(run, point, position)) WITHOUT ROWID;
+                    size REAL, PRIMARY KEY(run, point, position)) WITHOUT ROWID;
 CREATE TABLE end_values(run TEXT, point INTEGER, position INTEGER, segment INTEGER, event TEXT, value REAL, rate REAL,
                         PRIMARY KEY(run, point, position)) WITHOUT ROWID;
 )";

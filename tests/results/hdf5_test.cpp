@@ -66,7 +66,7 @@ void write_branch(const std::string& path) {
     record.point.solution.outcome = OrbitOutcome::converged;
     record.point.solution.multipliers = {{0.5, 0.25}, {0.5, -0.25}};
     record.point.solution.half_multipliers = {{std::numeric_limits<double>::infinity(), 0}};
-    record.point.solution.certificate.minima = {{0, 1, 0.5, 0.125}};
+    record.point.solution.certificate.minima = {{0, 1, 0.5, 0.125, 2}};
     record.point.solution.certificate.end_values = {{0, 1, 0.25, -3}};
     Orbit& orbit = record.point.solution.orbit;
     orbit.signature = parse_signature(model, "impact");

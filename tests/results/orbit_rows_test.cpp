@@ -71,7 +71,7 @@ public:
             certificate.guard_margins.push_back(perhaps_infinite());
         }
         for (std::size_t i = count(4); i-- > 0;)
-            certificate.minima.push_back({count(1), count(1), value(), perhaps_infinite()});
+            certificate.minima.push_back({count(1), count(1), value(), perhaps_infinite(), value()});
         for (std::size_t i = count(4); i-- > 0;)
             certificate.end_values.push_back({count(1), count(1), perhaps_infinite(), value()});
         return record;
@@ -116,6 +116,7 @@ TEST_F(OrbitRows, what_is_infinite_or_undefined_comes_back_as_such) {
             EXPECT_EQ(a.certificate.minima[m].event, b.certificate.minima[m].event);
             EXPECT_EQ(a.certificate.minima[m].time, b.certificate.minima[m].time);
             EXPECT_EQ(a.certificate.minima[m].value, b.certificate.minima[m].value);
+            EXPECT_EQ(a.certificate.minima[m].size, b.certificate.minima[m].size);
         }
         ASSERT_EQ(a.certificate.end_values.size(), b.certificate.end_values.size());
         for (std::size_t m = 0; m < a.certificate.end_values.size(); ++m) {
