@@ -1,6 +1,8 @@
 #include "graze/orbit/orbit_file.hpp"
 
+#include "graze/model/named_value.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/parser.hpp"
 
 #include <fmt/format.h>
 
@@ -65,6 +67,8 @@ public:
         end_ = place_of("end");
         mode_ = place_of("mode");
         width_ = cells.size();
+        for (const Cell& cell : cells)
+            check_name(cells, cell, line);
     }
 
     void row(const std::vector<Cell>& cells, int line) {
@@ -112,6 +116,23 @@ public:
     }
 
 private:
+    /// Further columns may have whatever can be computed of the motion, but no misspelt names.
+    void check_name(const std::vector<Cell>& cells, const Cell& cell, int line) const {
+        if (std::count_if(cells.begin(), cells.end(), [&](const Cell& one) { return one.text == cell.text; }) > 1)
+            fail(line, cell.column, fmt::format("there are two columns '{}'", cell.text), "leave one of them out");
+        std::vector<std::string> known{"segment", "t", "end", "mode"};
+        for (const State& state : model_->states)
+            known.push_back(state.name);
+        if (std::find(known.begin(), known.end(), cell.text) != known.end())
+            return;
+        try {
+            named_value(*model_, cell.text, {file_, line, cell.column});
+        } catch (const InputError&) { // then it is no quantity either
+            const std::string nearest = nearest_name(cell.text, known);
+            fail(line, cell.column, fmt::format("there is a column '{}', which means nothing", cell.text),
+                 nearest.empty() ? "leave it out" : fmt::format("did you mean '{}'?", nearest));
+        }
+    }
     double number_of(const Cell& cell, int line) const {
         double value = 0;
         const char* last = cell.text.data() + cell.text.size();

@@ -72,10 +72,11 @@ StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
     StudyPicture picture;
     picture.name = entry.name;
     picture.place = entry.place;
-    for (const TomlEntry& item :
-         reader.toml().entries(reader.toml().table(entry), entry.path,
-                               {"kind", "title", "run", "runs", "x", "y", "samples", "directions", "x_range", "y_range",
-                                "fit", "at", "points", "logarithmic", "format", "successive", "group"})) {
+    const std::vector<TomlEntry> items =
+        reader.toml().entries(reader.toml().table(entry), entry.path,
+                              {"kind", "title", "run", "runs", "x", "y", "samples", "directions", "x_range", "y_range",
+                               "fit", "at", "points", "logarithmic", "format", "successive", "group"});
+    for (const TomlEntry& item : items) {
         const std::string& key = item.name;
         if (key == "kind") {
             const std::vector<std::string> kinds{"bifurcation", "basin",      "spectrum", "history",
@@ -123,6 +124,7 @@ StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
             picture.format = formats[reader.choice(item, formats)];
         }
     }
+    check_keys_of_picture(reader, picture.kind, items);
     if (picture.runs.empty())
         throw InputError(entry.place, fmt::format("{} shows no run", entry.path), "give run = \"NAME\"");
     return picture;

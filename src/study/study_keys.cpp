@@ -149,6 +149,21 @@ void check_keys_of_kind(const StudyReader& reader, RunKind kind, const RunKeys& 
     check_beginning(reader, kind, keys);
 }
 
+void check_keys_of_picture(const StudyReader& reader, const std::string& kind, const std::vector<TomlEntry>& keys) {
+    const std::vector<std::pair<std::string, std::vector<std::string>>> of_kinds{
+        {"fit", {"regression"}},
+        {"group", {"regression"}},
+        {"successive", {"regression"}},
+        {"at", {"history", "portrait", "spectrum"}},
+        {"points", {"history", "portrait"}},
+    };
+    for (const auto& [name, kinds] : of_kinds)
+        for (const TomlEntry& key : keys)
+            if (!kind.empty() && key.name == name && std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
+                reader.fail(key, fmt::format("pictures of kind \"{}\" have no `{}`", kind, name),
+                            fmt::format("leave it out; it belongs to {}", fmt::join(kinds, ", ")));
+}
+
 namespace {
 
 [[noreturn]] void fail_start(const StartFrom& start, const std::string& problem, const std::string& remedy) {

@@ -61,6 +61,8 @@ std::vector<std::string> run_keys();
 /// @throws InputError for a key that runs of this kind do not use, or that another one makes useless
 void check_keys_of_kind(const StudyReader& reader, RunKind kind, const RunKeys& keys);
 
+/// @throws InputError for a key that pictures of this kind (if any is given) do not use
+void check_keys_of_picture(const StudyReader& reader, const std::string& kind, const std::vector<TomlEntry>& keys);
 /// @throws InputError when what a run starts from does not go with it
 void check_start(const StudyReader& reader, const StudyRun& run, const StudyRun& parent, const RunKeys& keys);
 

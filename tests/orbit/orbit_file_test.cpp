@@ -73,6 +73,11 @@ TEST(OrbitTable, mistakes_are_told_with_their_place) {
     EXPECT_THAT(refusal("segment,t,x,v,theta\n1,1,0.1,1,0\n2,1,0.1,1,0\n"),
                 HasSubstr("the signature has 1 segments and the table 2"));
     EXPECT_THAT(refusal("segment,t,x,v,theta\n1,1,0.1,1,0\n", "bang"), HasSubstr("bang"));
+    EXPECT_THAT(refusal("segment,t,x,v,theta,ent\n1,1,0.1,1,0,impact\n"), HasSubstr("did you mean 'end'?"));
+    EXPECT_THAT(refusal("segment,t,x,v,theta,y\n1,1,0.1,1,0,1\n"),
+                HasSubstr("orbit.csv:1:21: there is a column 'y', which means nothing"));
+    EXPECT_THAT(refusal("segment,t,x,v,theta,x\n1,1,0.1,1,0,1\n"), HasSubstr("there are two columns 'x'"));
+    EXPECT_EQ(refusal("segment,t,x,v,theta,2*x\n1,1,0.1,1,0,1\n"), "") << "whatever graze orbit --quantity adds";
     EXPECT_THROW(read_orbit_table(model, "/no/such/file.csv", "impact"), InputError);
 }
 

@@ -183,6 +183,20 @@ TEST(Study, no_key_is_accepted_and_ignored) {
     EXPECT_GT(refused, 40u);
 }
 
+TEST(Study, pictures_have_no_keys_that_are_ignored) {
+    const std::string run = "[runs.a]\nkind = \"simulate\"\nperiods = 1\n[pictures.p]\nrun = \"a\"\n";
+    for (const std::string kind :
+         {"bifurcation", "basin", "spectrum", "history", "portrait", "regression", "scatter", "branch"})
+        for (const std::string key :
+             {"fit = [0, 1]", "group = \"e\"", "successive = true", "at = { e = 1 }", "points = [\"GR1\"]"}) {
+            const bool regression = key[0] == 'f' || key[0] == 'g' || key[0] == 's';
+            const bool drawn = kind == "history" || kind == "portrait" || (kind == "spectrum" && key[0] == 'a');
+            EXPECT_EQ(refusal(head + run + "kind = \"" + kind + "\"\n" + key).empty(),
+                      regression ? kind == "regression" : drawn)
+                << kind << ' ' << key;
+        }
+}
+
 TEST(Study, accuracy_reaches_the_continuation) {
     const StudyRun run = only_run("[runs.a]\nkind = \"continue\"\nalong = \"omega\"\naccuracy = 1e-7");
     EXPECT_EQ(run.branch.settings.orbit.accuracy, 1e-7);
