@@ -1,6 +1,7 @@
 #include "graze/model/check.hpp"
 
 #include "graze/symbolic/function.hpp"
+#include "graze/symbolic/printable.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/check_symmetry.hpp"
 #include "model/model_expressions.hpp"
@@ -227,11 +228,12 @@ private:
 
 /// A string of the Graphviz language.
 std::string dot_string(const std::string& text) {
-    std::string result = "\"";
-    for (const char c : text) {
+    std::string line = text, result = "\"";
+    std::replace_if(line.begin(), line.end(), [](char c) { return c == '\n' || c == '\t' || c == '\r'; }, ' ');
+    for (const char c : printable_line(line)) {
         if (c == '"' || c == '\\')
             result += '\\';
-        result += c == '\n' ? ' ' : c;
+        result += c;
     }
     return result + '"';
 }

@@ -123,7 +123,11 @@ private:
 } // namespace
 
 std::string circle_text(const std::vector<std::string>& names) {
-    return fmt::format("{}", fmt::join(names, " -> "));
+    constexpr std::size_t most = 8, ends = 3; // a circle of thousands is not to be read
+    if (names.size() <= most)
+        return fmt::format("{}", fmt::join(names, " -> "));
+    return fmt::format("{} -> ... ({} more) ... -> {}", fmt::join(names.begin(), names.begin() + ends, " -> "),
+                       names.size() - 2 * ends, fmt::join(names.end() - ends, names.end(), " -> "));
 }
 
 std::vector<std::string> find_circle(const Model& model) {

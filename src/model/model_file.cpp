@@ -1,6 +1,8 @@
 #include "graze/model/model_file.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/printable.hpp"
+#include "graze/symbolic/text_file.hpp"
 #include "model/model_file_parts.hpp"
 #include "model/model_validate.hpp"
 
@@ -8,9 +10,7 @@
 
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <system_error>
 
 namespace graze {
 
@@ -67,14 +67,15 @@ public:
 
 private:
     void read_head(const std::map<std::string, TomlEntry>& top) {
-        model_.name = std::filesystem::path(source_.file()).stem().string();
-        const std::pair<const char*, std::string*> strings[] = {{"name", &model_.name},
-                                                                {"text", &model_.text},
-                                                                {"source", &model_.source},
-                                                                {"time_unit", &model_.time_unit}};
-        for (const auto& [key, value] : strings)
+        model_.name = printable_line(std::filesystem::path(source_.file()).stem().string());
+        const auto read = [&](const char* key, std::string& value, bool one_line) {
             if (const auto found = top.find(key); found != top.end())
-                *value = reader_.string(found->second);
+                value = one_line ? reader_.line(found->second) : reader_.string(found->second);
+        };
+        read("name", model_.name, true);
+        read("text", model_.text, false);
+        read("source", model_.source, false);
+        read("time_unit", model_.time_unit, true);
     }
 
     void name_parameters(const TomlEntry& group) { name_items(group, model_.parameters); }
@@ -111,11 +112,18 @@ private:
                 else if (part.name == "value")
                     set_value(parameter, expression(part));
                 else
-                    (part.name == "unit" ? parameter.unit : parameter.text) = reader_.string(part);
+                    read_words(part, parameter.unit, parameter.text);
             }
             if (!parameter.value && !parameter.expression)
                 fail_missing(entry, "value", "value");
         }
+    }
+
+    void read_words(const TomlEntry& part, std::string& unit, std::string& text) const {
+        if (part.name == "unit")
+            unit = reader_.line(part);
+        else
+            text = reader_.string(part);
     }
 
     void read_states(const TomlEntry& group) {
@@ -131,7 +139,7 @@ private:
                 else if (part.name == "drifting")
                     state.drifting = reader_.boolean(part);
                 else
-                    (part.name == "unit" ? state.unit : state.text) = reader_.string(part);
+                    read_words(part, state.unit, state.text);
             }
             if (state.initial.empty())
                 fail_missing(entry, "initial value", "initial");
@@ -238,7 +246,7 @@ private:
                     transition.event = index(part, model_.events, "event");
                     has_event = true;
                 } else if (part.name == "label") {
-                    transition.label = reader_.string(part);
+                    transition.label = reader_.line(part);
                 } else if (part.name == "jump") {
                     transition.jump = index(part, model_.jumps, "jump");
                 } else if (part.name == "next") {
@@ -373,7 +381,7 @@ private:
                 if (part.name == "value")
                     quantity.value = expression(part);
                 else
-                    (part.name == "unit" ? quantity.unit : quantity.text) = reader_.string(part);
+                    read_words(part, quantity.unit, quantity.text);
             }
             if (quantity.value.empty())
                 fail_missing(entry, "value", "value");
@@ -401,25 +409,7 @@ Model parse_model(std::string_view text, const std::string& file) {
 }
 
 Model read_model(const std::string& path) {
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error))
-        throw InputError({path, 0, 0}, "this is a directory, not a model file", "give the name of a file");
-    std::ifstream file(path, std::ios::binary);
-    std::string text;
-    constexpr std::size_t block = 1 << 16, most = 1 << 28;
-    while (file && text.size() <= most) { // some devices never end
-        const std::size_t size = text.size();
-        text.resize(size + block);
-        file.read(&text[size], block);
-        text.resize(size + static_cast<std::size_t>(file.gcount()));
-    }
-    if (text.size() > most)
-        throw InputError({path, 0, 0}, fmt::format("there are more than {} bytes in this file", most),
-                         "give the name of a model file");
-    if (!file.eof())
-        throw InputError({path, 0, 0}, "the model file cannot be read",
-                         std::filesystem::exists(path, error) ? "check its permissions" : "there is no such file");
-    return parse_model(text, path);
+    return parse_model(read_text_file(path, "model file", longest_model), path);
 }
 
 } // namespace graze

@@ -1,6 +1,8 @@
 #include "model/model_file_toml.hpp"
 
+#include "graze/symbolic/file_name.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/printable.hpp"
 #include "model/model_file_guard.hpp"
 #include "model/model_validate.hpp"
 
@@ -69,9 +71,20 @@ std::vector<TomlEntry> TomlReader::elements(const TomlEntry& entry) const {
 }
 
 std::string TomlReader::string(const TomlEntry& entry) const {
-    if (const auto* value = entry.node->as_string())
-        return value->get();
-    fail_type(entry, "a string");
+    const auto* value = entry.node->as_string();
+    if (!value)
+        fail_type(entry, "a string");
+    if (!is_plain_text(value->get()))
+        throw InputError(place(*entry.node),
+                         fmt::format("{} has characters in it that control a terminal or cannot be seen", entry.path),
+                         "leave them out");
+    return value->get();
+}
+
+std::string TomlReader::line(const TomlEntry& entry) const {
+    std::string text = string(entry);
+    require_plain_line(text, entry.name, place(*entry.node));
+    return text;
 }
 
 bool TomlReader::boolean(const TomlEntry& entry) const {

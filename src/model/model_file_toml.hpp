@@ -41,7 +41,10 @@ public:
     const toml::table& table(const TomlEntry& entry) const;
     /// Elements, with paths such as "modes.flight.watch.1".
     std::vector<TomlEntry> elements(const TomlEntry& entry) const;
+    /// Text in which nothing acts on a terminal (printable.hpp).
     std::string string(const TomlEntry& entry) const;
+    /// The same on one line: a title, unit or label.
+    std::string line(const TomlEntry& entry) const;
     bool boolean(const TomlEntry& entry) const;
     /// @param expected as "a number or an expression"
     [[noreturn]] void fail_type(const TomlEntry& entry, const std::string& expected) const;

@@ -1,5 +1,6 @@
 #include "model/model_validate.hpp"
 
+#include "graze/symbolic/file_name.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "graze/symbolic/transform.hpp"
@@ -19,6 +20,12 @@ namespace graze {
 
 namespace {
 
+void check_length(const std::string& name, const char* kind, const Place& place) {
+    if (name.size() > longest_name)
+        throw InputError(place, fmt::format("the name '{}' of a {} has {} letters", name, kind, name.size()),
+                         fmt::format("shorten it to {}", longest_name));
+}
+
 /// Names of modes, events, ... may also contain hyphens: they never occur in expressions.
 bool is_valid_label(std::string_view name) {
     return !name.empty() &&
@@ -37,6 +44,7 @@ public:
         if (!is_valid_name(name))
             throw InputError(places_.of(path), fmt::format("'{}' cannot be the name of a {}", name, kind),
                              "names consist of letters, digits and underscores and do not start with a digit");
+        check_length(name, kind, places_.of(path));
         const auto [other, is_new] = kinds_.emplace(name, kind);
         if (!is_new)
             throw InputError(
@@ -58,6 +66,7 @@ void check_labels(const std::vector<Item>& items, const char* kind, const std::s
         if (!is_valid_label(item.name))
             throw InputError(places.of(path), fmt::format("'{}' cannot be the name of a {}", item.name, kind),
                              "names consist of letters, digits, underscores and hyphens");
+        check_length(item.name, kind, places.of(path));
         if (!seen.insert(item.name).second)
             throw InputError(places.of(path), fmt::format("there are two {}s '{}'", kind, item.name),
                              "rename one of them");
@@ -108,6 +117,7 @@ private:
                 fail(
                     path, fmt::format("'{}' cannot be the name of a quantity", quantity.name),
                     "names consist of letters, digits and underscores, do not start with a digit and are not reserved");
+            check_length(quantity.name, "quantity", places_.of(path));
             if (!seen.insert(quantity.name).second || model_.find_state(quantity.name) ||
                 model_.find_parameter(quantity.name))
                 fail(path, fmt::format("the name '{}' of a quantity is used twice", quantity.name),

@@ -3,13 +3,13 @@
 #include "graze/model/named_value.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/parser.hpp"
+#include "graze/symbolic/text_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <sstream>
 
@@ -173,11 +173,7 @@ Orbit parse_orbit_table(const Model& model, std::string_view text, std::string_v
 }
 
 Orbit read_orbit_table(const Model& model, const std::string& path, std::string_view signature) {
-    std::ifstream stream(path, std::ios::binary);
-    std::ostringstream text;
-    if (!stream || !(text << stream.rdbuf()))
-        throw InputError(Place{path, 0, 0}, "the orbit cannot be read", "check the path and the permissions");
-    return parse_orbit_table(model, text.str(), signature, path);
+    return parse_orbit_table(model, read_text_file(path, "table of an orbit", longest_table), signature, path);
 }
 
 } // namespace graze

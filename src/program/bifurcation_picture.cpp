@@ -23,10 +23,10 @@ std::optional<std::pair<double, double>> extent_of(const ResultFile& file, const
 
 /// Where something changes that lasted before and lasts after.
 std::vector<double> changes(const ResultFile& file, const StoredRun& run, const std::string& direction) {
-    auto rows = file.query(fmt::format(
-        "SELECT {}, label, period, symmetric, chain, signature FROM {} AS p WHERE direction = '{}' ORDER BY "
-        "number",
-        run.column(run.record.coordinates.front().name), run.points, direction));
+    auto rows = file.query(
+        fmt::format("SELECT {}, label, period, symmetric, chain, signature FROM {} AS p WHERE direction = {} ORDER BY "
+                    "number",
+                    run.column(run.record.coordinates.front().name), run.points, in_quotes(direction)));
     struct Stretch {
         std::string kind;
         double first, last;
@@ -111,12 +111,12 @@ Figure bifurcation_picture(const StudyPicture& picture, const ResultFile& file) 
                     panel.series.push_back(
                         {samplings.size() > 1 ? samplings[s] : "", FigureSeries::Style::dots, s, {}});
                 }
-                auto rows = file.query(
-                    fmt::format("SELECT {}, {}, s.sampling FROM {} WHERE p.direction = '{}' AND s.sampling IN ({})",
-                                run.column(x), run.value_column(value), run.joined, direction, in_list(samplings)));
+                auto rows = file.query(fmt::format(
+                    "SELECT {}, {}, s.sampling FROM {} WHERE p.direction = {} AND s.sampling IN ({})", run.column(x),
+                    run.value_column(value), run.joined, in_quotes(direction), in_list(samplings)));
                 while (rows.next())
-                    if (!rows.is_null(1))
-                        panel.series[series.at(rows.text(2))].points.push_back({rows.number(0), rows.number(1)});
+                    if (const auto at = series.find(rows.text(2)); at != series.end() && !rows.is_null(1))
+                        panel.series[at->second].points.push_back({rows.number(0), rows.number(1)});
                 if (!panel.x_range && picture.x.empty())
                     panel.x_range = extent_of(file, run);
                 if (run.record.kind == "sweep" && picture.x.empty())

@@ -169,10 +169,20 @@ std::string query_of(const ExportArguments& arguments, const ResultFile& file, c
     return all;
 }
 
+/// With quotes where it needs them.
+std::string quoted_cell(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos)
+        return text;
+    std::string result = "\"";
+    for (const char letter : text)
+        result += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+    return result + '"';
+}
+
 /// Row by row, for results larger than memory.
 void write_csv(std::ostream& out, ResultFile::Rows& rows, int digits) {
     for (std::size_t c = 0; c < rows.columns(); ++c)
-        out << (c > 0 ? "," : "") << rows.column_name(c);
+        out << (c > 0 ? "," : "") << quoted_cell(rows.column_name(c));
     out << '\n';
     while (rows.next()) {
         for (std::size_t c = 0; c < rows.columns(); ++c) {
@@ -180,15 +190,7 @@ void write_csv(std::ostream& out, ResultFile::Rows& rows, int digits) {
             if (rows.is_integer(c)) {
                 out << rows.integer(c);
             } else if (rows.is_text(c)) {
-                const std::string text = rows.text(c);
-                if (text.find_first_of(",\"\n") == std::string::npos) {
-                    out << text;
-                } else {
-                    out << '"';
-                    for (const char letter : text)
-                        out << (letter == '"' ? "\"\"" : std::string(1, letter));
-                    out << '"';
-                }
+                out << quoted_cell(rows.text(c));
             } else if (!rows.is_null(c)) {
                 out << fmt::format("{:.{}g}", rows.number(c), digits);
             }

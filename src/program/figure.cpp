@@ -13,7 +13,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <limits>
 #include <unordered_set>
 
@@ -221,19 +220,18 @@ void draw_figure(const Figure& figure, const std::string& path, const std::strin
     const std::string ending = picture_ending(path, "--output", {"svg", "png", "pdf"});
     const std::string gnuplot =
         require_drawing_program("gnuplot", "install gnuplot (Debian: apt-get install gnuplot-nox)");
+    require_distinct({{"the picture", path}, {"--data", data_path}});
     if (!data_path.empty())
         write_file(data_path, figure.script(ending, path));
     FileReplacement file(path);
     // From a file: gnuplot reads standard input letter by letter, which takes it long for many points.
     FileReplacement commands(path + ".gp");
-    {
-        std::ofstream stream(commands.temporary_path(), std::ios::binary);
-        stream << figure.script(ending, file.temporary_path());
-    }
-    const ProcessResult result = run_process({gnuplot, commands.temporary_path()}, "");
+    commands.write(figure.script(ending, file.temporary_path()));
+    const ProcessResult result = run_process({gnuplot, "-d", commands.temporary_path()}, "");
     if (result.status != 0)
         throw InputError(fmt::format("gnuplot could not draw '{}': {}", path, one_line(result.output)),
                          "keep its commands by --data FILE and run gnuplot FILE");
+    require_whole_picture(file.temporary_path(), ending, path);
     file.commit();
 }
 

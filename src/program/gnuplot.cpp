@@ -1,6 +1,7 @@
 #include "program/gnuplot.hpp"
 
 #include "program/gnuplot_text.hpp"
+#include "program/picture.hpp"
 
 #include <fmt/format.h>
 
@@ -20,9 +21,9 @@ constexpr double bottom_margin = 52, top_margin = 34, right_margin = 18, left_ma
 constexpr double pixels_of_letter = 6.4, pixels_of_digit = 7.2, pixels_of_line = 17, pixels_of_tic = 75;
 constexpr double invisible = 2e-4; ///< of a panel's size
 
-/// The documentation of a quantity, up to the first remark.
+/// The documentation of a quantity, up to the first remark, on one line.
 std::string short_text(const RequestedQuantity& quantity) {
-    return quantity.text.substr(0, quantity.text.find_first_of(";,("));
+    return one_line(quantity.text.substr(0, quantity.text.find_first_of(";,(")));
 }
 
 /// Breaks a text into two lines that fit; empty when it does not.

@@ -1,5 +1,8 @@
 #include "program/gnuplot_text.hpp"
 
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/printable.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,23 +11,37 @@
 
 namespace graze {
 
-std::string plain(const std::string& text) {
+namespace {
+
+/// A line that ends within quotes ends a command, and what stands on the next one is obeyed.
+void require_quotable(const std::string& text) {
+    if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+        throw InputError(fmt::format("'{}' cannot be written into a picture: it has control characters", text),
+                         "change the name, title or label");
+}
+
+} // namespace
+
+std::string plain(const std::string& given) {
+    require_quotable(given);
+    const std::string text = printable_line(given); // what is no UTF-8, too
     std::string result;
     for (const char c : text) {
-        if (c == '`') {
-            result += "\\140"; // by its code: in no other way do all versions leave it alone
-            continue;
-        }
-        if (std::string_view("_^{}@&~\\").find(c) != std::string_view::npos)
-            result += c == '\\' ? "\\\\\\" : "\\\\";
-        if (c == '"')
-            result += '\\';
-        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+        // By its code: in no other way do all versions leave it alone.
+        if (c == '`')
+            result += "\\140";
+        else if (c == '@')
+            result += "\\\\\\100";
+        else if (std::string_view("_^{}&~\\").find(c) != std::string_view::npos)
+            result += (c == '\\' ? "\\\\\\" : "\\\\") + std::string(1, c);
+        else
+            result += (c == '"' ? "\\" : "") + std::string(1, c);
     }
     return result;
 }
 
 std::string quoted_path(const std::string& path) {
+    require_quotable(path);
     std::string result = "'";
     for (const char c : path)
         result += c == '\'' ? "''" : std::string(1, c);
@@ -35,7 +52,9 @@ std::string unit_text(const std::string& unit) {
     std::string result;
     for (std::size_t i = 0; i < unit.size(); ++i) {
         if (unit[i] != '^') {
-            result += plain(std::string(1, unit[i]));
+            const std::size_t end = std::min(unit.find('^', i), unit.size());
+            result += plain(unit.substr(i, end - i));
+            i = end - 1;
             continue;
         }
         std::size_t end = i + 1;

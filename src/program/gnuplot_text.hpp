@@ -4,10 +4,13 @@
 
 namespace graze {
 
+// All text that comes from a model, study, result file or command line and goes to gnuplot goes through here. Gnuplot
+// can run a shell: what cannot be quoted is refused.
+
 /// For double quotes: what gnuplot's enhanced text would take for markup, and what it would have a shell run, is taken
-/// as it stands.
+/// as it stands. @throws InputError for control characters
 std::string plain(const std::string& text);
-/// A path between single quotes.
+/// A path between single quotes. @throws InputError for control characters
 std::string quoted_path(const std::string& path);
 /// A unit such as m/s^2, with raised exponents.
 std::string unit_text(const std::string& unit);

@@ -22,6 +22,7 @@ void draw_graph(const Model& model, const std::string& path) {
     if (result.status != 0)
         throw InputError(fmt::format("Graphviz could not draw '{}': {}", path, one_line(result.output)),
                          "ask for a .dot file and look at it");
+    require_whole_picture(file.temporary_path(), ending, path);
     file.commit();
 }
 

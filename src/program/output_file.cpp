@@ -23,6 +23,24 @@ namespace {
                      "choose another file or change the permissions");
 }
 
+bool is_database(const std::filesystem::path& path) {
+    constexpr std::string_view signature("SQLite format 3\0", 16);
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+        return false;
+    std::string start(signature.size(), ' ');
+    std::ifstream stream(path, std::ios::binary);
+    return stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == signature;
+}
+
+/// Results of days, or what SQLite keeps beside them.
+bool belongs_to_database(const std::string& path) {
+    for (const std::string_view ending : {"", "-wal", "-shm", "-journal", ".lock"})
+        if (path.ends_with(ending) && is_database(path.substr(0, path.size() - ending.size())))
+            return true;
+    return false;
+}
+
 } // namespace
 
 FileReplacement::FileReplacement(const std::string& path) : path_(path) {
@@ -35,6 +53,9 @@ FileReplacement::FileReplacement(const std::string& path) : path_(path) {
     if (error)
         fail(path, error.message());
     target_ = target.string();
+    if (belongs_to_database(target_))
+        throw InputError(fmt::format("'{}' is a result file or another database, which is not overwritten", path),
+                         "choose another file");
     const std::filesystem::file_status status = std::filesystem::status(target, error);
     if (std::filesystem::is_directory(status))
         fail(path, "it is a folder");
@@ -92,23 +113,41 @@ void require_distinct(const std::vector<NamedFile>& files) {
         const auto canonical = std::filesystem::weakly_canonical(absolute, error);
         return error ? absolute : canonical;
     };
+    const auto linked = [](const std::string& one, const std::string& other) {
+        std::error_code error;
+        return std::filesystem::equivalent(one, other, error);
+    };
     for (std::size_t i = 0; i < files.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (!files[i].path.empty() && !files[j].path.empty() && is_regular(files[i].path) &&
-                target(files[i].path) == target(files[j].path))
+                (target(files[i].path) == target(files[j].path) || linked(files[i].path, files[j].path)))
                 throw InputError({files[i].name, 0, 0},
                                  fmt::format("'{}' is the file of {} too", files[i].path, files[j].name),
                                  "choose another name");
 }
 
-void write_file(const std::string& path, std::string_view contents) {
-    FileReplacement file(path);
+void require_inside(const std::string& path, const std::string& folder) {
+    std::error_code error;
+    const auto root = std::filesystem::canonical(folder, error);
+    const auto target = error ? root : std::filesystem::weakly_canonical(path, error);
+    // A link that leads nowhere yet, too, would be written through.
+    if (error || target.parent_path() != root || std::filesystem::is_symlink(path))
+        throw InputError(fmt::format("'{}' leads out of the folder '{}'", path, folder),
+                         "remove what is there under that name");
+}
+
+void FileReplacement::write(std::string_view contents) const {
     errno = 0;
-    std::ofstream stream(file.temporary_path(), std::ios::binary);
+    std::ofstream stream(temporary_, std::ios::binary);
     stream.write(contents.data(), static_cast<std::streamsize>(contents.size()));
     stream.close();
     if (!stream)
-        fail(path, errno != 0 ? std::strerror(errno) : "the device does not take it");
+        fail(path_, errno != 0 ? std::strerror(errno) : "the device does not take it");
+}
+
+void write_file(const std::string& path, std::string_view contents) {
+    FileReplacement file(path);
+    file.write(contents);
     file.commit();
 }
 

@@ -15,11 +15,16 @@ struct NamedFile {
     std::string path; ///< empty: there is none
 };
 
-/// Checks that no two of them are the same file, of which one would be lost.
+/// Checks that no two of them are the same file, of which one would be lost; by whatever names and links they go.
 /// @throws InputError when two are
 void require_distinct(const std::vector<NamedFile>& files);
 
-/// A file that appears whole under its name, or not at all: it is written under another name beside it.
+/// Checks that a file in a folder lies in it indeed: a link there may lead elsewhere.
+/// @throws InputError when it does
+void require_inside(const std::string& path, const std::string& folder);
+
+/// A file that appears whole under its name, or not at all: it is written under another name beside it. Everything that
+/// the program writes, besides result files, is written by way of this. It replaces no database.
 class FileReplacement {
 public:
     /// @throws InputError when nothing can be written there
@@ -30,6 +35,8 @@ public:
 
     /// Where to write; keeps the ending of the file's name.
     const std::string& temporary_path() const { return temporary_; }
+    /// Writes all of it. @throws InputError when it cannot be written
+    void write(std::string_view contents) const;
     /// @throws InputError when what was written cannot be given its name
     void commit();
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
 
 namespace graze {
 
@@ -26,6 +27,18 @@ std::string require_drawing_program(const std::string& name, const std::string& 
     if (!path)
         throw InputError(fmt::format("the program '{}', which draws pictures, is not on the PATH", name), remedy);
     return *path;
+}
+
+void require_whole_picture(const std::string& file, const std::string& ending, const std::string& path) {
+    constexpr std::streamoff most = 64; // bytes in which the end is looked for
+    std::ifstream stream(file, std::ios::binary | std::ios::ate);
+    const std::streamoff size = stream.tellg();
+    std::string tail(static_cast<std::size_t>(std::clamp<std::streamoff>(size, 0, most)), ' ');
+    stream.seekg(-static_cast<std::streamoff>(tail.size()), std::ios::end);
+    stream.read(tail.data(), static_cast<std::streamsize>(tail.size()));
+    const char* end = ending == "png" ? "IEND" : ending == "pdf" ? "%%EOF" : "</svg>";
+    if (!stream || tail.find(end) == std::string::npos)
+        throw InputError(fmt::format("'{}' was not drawn to its end", path), "look whether the disk is full");
 }
 
 std::string one_line(const std::string& text) {

@@ -11,6 +11,11 @@ std::string picture_ending(const std::string& path, const std::string& option, c
 /// Path of a program that draws. @throws InputError with the remedy when it is missing
 std::string require_drawing_program(const std::string& name, const std::string& remedy);
 
+/// A program that draws may run out of room and say nothing.
+/// @param file what it has drawn; @param ending as picture_ending gives it; @param path for the message
+/// @throws InputError unless the picture has its beginning and its end
+void require_whole_picture(const std::string& file, const std::string& ending, const std::string& path);
+
 /// What a program has said, on one line.
 std::string one_line(const std::string& text);
 

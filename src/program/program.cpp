@@ -4,6 +4,7 @@
 #include "program/arguments.hpp"
 #include "program/commands.hpp"
 #include "program/option_rules.hpp"
+#include "program/printable_buffer.hpp"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -51,7 +52,10 @@ int dispatch(std::span<const std::string> words, const Console& console) {
 
 } // namespace
 
-int run_program(std::span<const std::string> arguments, const Console& console) {
+int run_program(std::span<const std::string> arguments, const Console& given) {
+    PrintableBuffer out_buffer(given.out), err_buffer(given.err);
+    std::ostream out(&out_buffer), err(&err_buffer);
+    const Console console{out, err, given.terminal, &given.err};
     try {
         const int code = dispatch(arguments, console);
         require_delivered(console);

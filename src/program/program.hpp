@@ -11,6 +11,10 @@ struct Console {
     std::ostream& out;     ///< results only
     std::ostream& err;     ///< messages, outcome, progress
     bool terminal = false; ///< whether `err` is a terminal, on which progress can be shown
+    /// The same as `err`, but what moves the cursor stays; for progress only. None: `err`.
+    std::ostream* cursor = nullptr;
+
+    std::ostream& progress() const { return cursor ? *cursor : err; }
 };
 
 /// Codes with which the program exits; see docs/errors.md. They do not change between versions.

@@ -1,6 +1,5 @@
 #include "program/result_query.hpp"
 
-#include "graze/model/model_file.hpp"
 #include "graze/model/named_value.hpp"
 #include "graze/trajectory/recorder.hpp"
 #include "graze/trajectory/trajectory.hpp"
@@ -65,7 +64,7 @@ StoredRun::StoredRun(const ResultFile& file, const std::string& name, const Plac
                          name_advice(name, known, "run the study first"));
     }
     record = *found;
-    model = parse_model(record.model, record.name + ".toml");
+    model = stored_model(record);
     points = quoted_column((record.is_branch() ? "branch_" : "points_") + name);
     samples = quoted_column((record.is_branch() ? "segments_" : "samples_") + name);
     // A name that a table had already was given another one there.
@@ -208,6 +207,9 @@ std::vector<std::vector<double>> dense_motion(const StoredRun& run, const PointR
         state = model.initial_state();
         mode = model.initial_mode;
     }
+    if (state.size() != model.states.size() || mode >= model.modes.size())
+        throw InputError(place, fmt::format("run '{}' has no state there to start from", run.record.name),
+                         "choose another point");
     if (!(duration > 0)) // of a motion that is not periodic, as much as was sampled
         duration = point.result.samples.times.empty()
                        ? 0

@@ -22,7 +22,7 @@ Progress::Progress(const Console& console, bool wanted)
 
 Progress::~Progress() {
     if (shown_)
-        console_->err << (console_->terminal ? "\r\033[K" : "\n") << std::flush;
+        console_->progress() << (console_->terminal ? "\r\033[K" : "\n") << std::flush;
 }
 
 void Progress::update(std::optional<double> fraction, double time) {
@@ -38,7 +38,7 @@ void Progress::update(std::optional<double> fraction, double time) {
     std::string line = fmt::format("\rtime {:.6g}", time);
     if (fraction && *fraction > 0)
         line += fmt::format(", {:.0f} %, {:.0f} s left", 100 * *fraction, elapsed * (1 - *fraction) / *fraction);
-    console_->err << fmt::format("{:<60}", line) << std::flush;
+    console_->progress() << fmt::format("{:<60}", line) << std::flush;
 }
 
 RunControl::RunControl(Observer& recorders, Progress& progress, std::optional<std::size_t> period_probe,
@@ -88,7 +88,7 @@ bool RunControl::stop() {
     else if (end_.contacts > 0)
         fraction = static_cast<double>(contacts_) / static_cast<double>(end_.contacts);
     progress_->update(fraction, time_);
-    return is_reached() || InterruptGuard::requested();
+    return is_reached() || InterruptGuard::requested() || is_full_();
 }
 
 } // namespace graze

@@ -5,6 +5,7 @@
 #include "program/run_length.hpp"
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -39,6 +40,8 @@ public:
                std::vector<bool> counted);
 
     void begin(const LegEnd& end, double time, bool shown);
+    /// Ends the run also when what is recorded of it fills the memory.
+    void end_when(std::function<bool()> is_full) { is_full_ = std::move(is_full); }
 
     void step(const Step& step) override;
     void contact(const Contact& contact) override;
@@ -53,6 +56,7 @@ private:
     Progress* progress_;
     std::optional<std::size_t> period_probe_;
     std::vector<bool> counted_;
+    std::function<bool()> is_full_ = [] { return false; };
     LegEnd end_;
     double start_ = 0, time_ = 0;
     std::size_t periods_ = 0, contacts_ = 0;

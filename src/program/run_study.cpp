@@ -26,7 +26,7 @@ public:
     StudyProgress(const Console& console, bool wanted) : console_(&console), wanted_(wanted) {}
     ~StudyProgress() {
         if (shown_)
-            console_->err << (console_->terminal ? "\r\033[K" : "\n") << std::flush;
+            console_->progress() << (console_->terminal ? "\r\033[K" : "\n") << std::flush;
     }
     StudyProgress(const StudyProgress&) = delete;
     StudyProgress& operator=(const StudyProgress&) = delete;
@@ -56,7 +56,7 @@ private:
             return;
         last_ = now;
         shown_ = true;
-        console_->err << fmt::format("\r{:<70}", text()) << std::flush;
+        console_->progress() << fmt::format("\r{:<70}", text()) << std::flush;
     }
 
     const Console* console_;
@@ -223,10 +223,14 @@ int run_command(const RunArguments& arguments, const Console& console) {
         console.err << "graze: interrupted; what was computed is kept, and the same command goes on from there\n";
         return exit_interrupted;
     }
-    if (!arguments.no_pictures && arguments.only.empty())
-        for (const std::string& path : draw_study_pictures(study, file, folder, console))
+    if (!arguments.no_pictures && arguments.only.empty()) {
+        const DrawnPictures drawn = draw_study_pictures(study, file, folder, console);
+        for (const std::string& path : drawn.paths)
             if (!arguments.quiet && arguments.output.format == TableFormat::table)
                 console.out << path << '\n';
+        if (!drawn.complete)
+            return exit_bad_input;
+    }
     return failed ? exit_irregular : exit_success;
 }
 

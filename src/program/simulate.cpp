@@ -229,6 +229,7 @@ private:
         Relay recorders(std::move(observers));
         Progress progress(console_, arguments_.progress || console_.terminal);
         RunControl control(recorders, progress, period_probe_, request_.events);
+        control.end_when([this] { return table_->is_full(); });
         trajectory_ = std::make_unique<Trajectory>(*simulation_, model_.parameter_values(), control);
         const LegEnd& first = length_.transient.empty() ? length_.shown : length_.transient;
         const InterruptGuard guard;
@@ -253,7 +254,9 @@ private:
     }
 
     std::string ending_name() const {
-        return interrupted_ ? "interrupted" : std::string(name_of(trajectory_->outcome().ending));
+        return interrupted_ ? "interrupted"
+               : is_full()  ? "table-full"
+                            : std::string(name_of(trajectory_->outcome().ending));
     }
 
     JsonObject heading() const {
@@ -285,6 +288,9 @@ private:
         return heading;
     }
 
+    /// Whether the table, rather than anything asked for, has ended the run.
+    bool is_full() const { return table_->is_full() && trajectory_->outcome().ending == Ending::stopped; }
+
     /// Says how the trajectory ended. Returns the exit code.
     int report() const {
         const Outcome& outcome = trajectory_->outcome();
@@ -293,6 +299,10 @@ private:
         const std::string when = fmt::format("at time {:.15g}{}", outcome.time, unit);
         if (interrupted_)
             console_.err << "graze: interrupted " << when << '\n';
+        else if (is_full())
+            console_.err << fmt::format("graze: the table is full {}, with {} rows; ask for a shorter time, fewer "
+                                        "events or quantities, or --table summary\n",
+                                        when, table_->table().rows());
         else if (!regular)
             console_.err << fmt::format("graze: {} {}: {}\n", name_of(outcome.ending), when, outcome.detail);
         else if (outcome.ending == Ending::singular)
@@ -312,7 +322,7 @@ private:
             console_.err << fmt::format("graze: warning: {} has no finite value in some rows, where cells are empty\n",
                                         fmt::join(names, ", "));
         }
-        return interrupted_ ? exit_interrupted : regular && !undefined ? exit_success : exit_irregular;
+        return interrupted_ ? exit_interrupted : regular && !undefined && !is_full() ? exit_success : exit_irregular;
     }
 
     const SimulateArguments& arguments_;

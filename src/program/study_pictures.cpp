@@ -81,14 +81,15 @@ ResultPicture make_picture(const StudyPicture& given, const ResultFile& file) {
     return result;
 }
 
-std::vector<std::string> draw_study_pictures(const Study& study, const ResultFile& file, const std::string& folder,
-                                             const Console& console) {
+DrawnPictures draw_study_pictures(const Study& study, const ResultFile& file, const std::string& folder,
+                                  const Console& console) {
+    const std::vector<std::string> inputs = input_files(study);
     std::vector<StudyPicture> pictures = study.pictures;
     if (pictures.empty())
         for (const StudyRun& run : study.runs)
             if (const auto record = file.find_run(run.name); record && file.point_count(run.name) > 0)
                 pictures.push_back(default_picture(*record));
-    std::vector<std::string> written;
+    DrawnPictures drawn;
     for (const StudyPicture& picture : pictures) {
         const std::string base = (std::filesystem::path(folder) / picture.name).string();
         try {
@@ -96,19 +97,25 @@ std::vector<std::string> draw_study_pictures(const Study& study, const ResultFil
                              [&](const std::string& run) { return file.point_count(run) > 0; }))
                 throw InputError(fmt::format("run '{}' has no points", picture.runs.front()), "see why above");
             const ResultPicture made = make_picture(picture, file);
+            for (const std::string& path : {base + ".csv", base + "." + picture.format}) {
+                require_inside(path, folder);
+                for (const std::string& input : inputs)
+                    require_distinct({{"the study, or what it reads,", input}, {"picture " + picture.name, path}});
+            }
             if (made.table.rows() > 0) {
                 std::ostringstream text;
                 write_table(text, made.table, TableFormat::csv, 17, {});
                 write_file(base + ".csv", text.view());
-                written.push_back(base + ".csv");
+                drawn.paths.push_back(base + ".csv");
             }
             draw_figure(made.figure, base + "." + picture.format, "");
-            written.push_back(base + "." + picture.format);
+            drawn.paths.push_back(base + "." + picture.format);
         } catch (const InputError& error) {
             console.err << fmt::format("graze: warning: picture '{}' was not drawn: {}\n", picture.name, error.what());
+            drawn.complete = false;
         }
     }
-    return written;
+    return drawn;
 }
 
 } // namespace graze

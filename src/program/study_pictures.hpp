@@ -22,9 +22,14 @@ ResultPicture make_picture(const StudyPicture& picture, const ResultFile& file);
 /// What a run is shown as when nothing is said: by its kind.
 StudyPicture default_picture(const RunRecord& run);
 
+struct DrawnPictures {
+    std::vector<std::string> paths; ///< of what was written
+    bool complete = true;           ///< false: something could not be drawn
+};
+
 /// Draws all pictures of a study into a folder, or one for each run if it has none; tables beside them. Pictures that
-/// cannot be drawn are warned of: the results are there. @return paths of what was written
-std::vector<std::string> draw_study_pictures(const Study& study, const ResultFile& file, const std::string& folder,
-                                             const Console& console);
+/// cannot be drawn are warned of: the results are there. Nothing is written outside of the folder.
+DrawnPictures draw_study_pictures(const Study& study, const ResultFile& file, const std::string& folder,
+                                  const Console& console);
 
 } // namespace graze

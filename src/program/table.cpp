@@ -1,5 +1,7 @@
 #include "program/table.hpp"
 
+#include "graze/symbolic/printable.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -133,12 +135,16 @@ void write_aligned(std::ostream& out, const Table& table, int digits) {
     std::vector<std::size_t> widths(columns);
     std::vector<bool> right(columns, true);
     bool units = false;
+    // A line feed in a text would begin a row.
+    const auto shown = [&](std::size_t row, std::size_t column) {
+        return printable_line(cell_text(table, row, column, digits));
+    };
     for (std::size_t column = 0; column < columns; ++column) {
         const Table::Column& heading = table.columns()[column];
         units = units || !heading.unit.empty();
         widths[column] = std::max(width_of(heading.name), width_of(heading.unit));
         for (std::size_t row = 0; row < table.rows(); ++row) {
-            widths[column] = std::max(widths[column], width_of(cell_text(table, row, column, digits)));
+            widths[column] = std::max(widths[column], width_of(shown(row, column)));
             right[column] = right[column] && !table.is_text(row, column);
         }
     }
@@ -153,7 +159,7 @@ void write_aligned(std::ostream& out, const Table& table, int digits) {
     if (units)
         write_line([&](std::size_t column) { return table.columns()[column].unit; });
     for (std::size_t row = 0; row < table.rows(); ++row)
-        write_line([&](std::size_t column) { return cell_text(table, row, column, digits); });
+        write_line([&](std::size_t column) { return shown(row, column); });
 }
 
 } // namespace

@@ -286,7 +286,9 @@ std::vector<std::string> table_kind_names() {
     return names;
 }
 
-std::unique_ptr<TableRecorder> make_table_recorder(const Simulation& simulation, const TableRequest& request) {
+namespace {
+
+std::unique_ptr<TableRecorder> make_recorder(const Simulation& simulation, const TableRequest& request) {
     switch (request.kind) {
     case TableKind::samples:
         return std::make_unique<SampleTable>(simulation, request);
@@ -304,6 +306,14 @@ std::unique_ptr<TableRecorder> make_table_recorder(const Simulation& simulation,
         break;
     }
     return std::make_unique<SummaryTable>(simulation, request);
+}
+
+} // namespace
+
+std::unique_ptr<TableRecorder> make_table_recorder(const Simulation& simulation, const TableRequest& request) {
+    auto recorder = make_recorder(simulation, request);
+    recorder->hold_at_most(request.most_cells);
+    return recorder;
 }
 
 } // namespace graze

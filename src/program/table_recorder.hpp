@@ -14,6 +14,8 @@ namespace graze {
 
 /// Of the table of samples; more would fill the memory.
 inline constexpr std::size_t most_samples = 10'000'000;
+/// Of any table: some 800 MB.
+inline constexpr std::size_t most_cells = 50'000'000;
 
 enum class TableKind { samples, contacts, sections, extrema, minima, derivatives, summary };
 
@@ -30,10 +32,16 @@ public:
     virtual void finish(const Trajectory&) {}
     /// False when there was more to show than fits.
     virtual bool is_complete() const { return true; }
+    /// No more fits into memory: the run is to end.
+    bool is_full() const { return table_.rows() * table_.columns().size() >= most_cells_; }
+    void hold_at_most(std::size_t cells) { most_cells_ = cells; }
     const Table& table() const { return table_; }
 
 protected:
     Table table_;
+
+private:
+    std::size_t most_cells_ = most_cells;
 };
 
 /// What tables are made from.
@@ -44,7 +52,8 @@ struct TableRequest {
     std::size_t first_extremum = 0;         ///< probes before it are sections
     std::vector<bool> events;               ///< which ones' contacts are shown
     std::size_t samples = 500;
-    std::optional<double> every;         ///< distance of samples, instead of their number
+    std::optional<double> every; ///< distance of samples, instead of their number
+    std::size_t most_cells = graze::most_cells;
     std::vector<std::string> directions; ///< of derivatives: names of states and independent parameters
 };
 

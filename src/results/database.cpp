@@ -4,7 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <sys/stat.h>
+
 #include <cmath>
+#include <filesystem>
 
 namespace graze {
 
@@ -19,6 +22,27 @@ std::string uri_of(const std::string& path, bool unchanging) {
     return uri + (unchanging ? "?immutable=1" : "");
 }
 
+/// Half a minute, and for large files as long as they take to be read slowly.
+QueryGuard::Clock::duration patience_with(const std::string& path) {
+    constexpr double least = 30, bytes_of_a_second = 1e6;
+    std::error_code error;
+    const auto size = std::filesystem::file_size(path, error);
+    const double seconds = least + (error ? 0 : static_cast<double>(size) / bytes_of_a_second);
+    return std::chrono::duration_cast<QueryGuard::Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+/// SQLite would wait for a pipe to be written to, and through a link write a file elsewhere.
+void require_plain_file(const std::string& path, bool writing) {
+    std::error_code error;
+    const auto type = std::filesystem::status(path, error).type();
+    if (type != std::filesystem::file_type::regular && type != std::filesystem::file_type::not_found)
+        throw InputError(Place{path, 0, 0}, "this is no plain file",
+                         "give the results.sqlite of a study, or its folder");
+    if (writing && std::filesystem::is_symlink(path, error))
+        throw InputError(Place{path, 0, 0}, "this is a link, and results are written only into the folder itself",
+                         "remove the link, or choose the folder that it leads to by --output");
+}
+
 } // namespace
 
 void throw_database_error(int code, const std::string& message, const std::string& path) {
@@ -31,9 +55,10 @@ void throw_database_error(int code, const std::string& message, const std::strin
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
     case SQLITE_PERM:
-    case SQLITE_AUTH:
         throw InputError(place, fmt::format("the result file cannot be opened or written ({})", message),
                          "look at the permissions of file and folder, or choose another folder");
+    case SQLITE_AUTH:
+        throw InputError(place, fmt::format("a query may only read ({})", message), "give one SELECT");
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
         throw InputError(place, "another program uses the result file", "wait for it, or choose another folder");
@@ -41,6 +66,11 @@ void throw_database_error(int code, const std::string& message, const std::strin
     case SQLITE_CORRUPT:
         throw InputError(place, fmt::format("this is no result file of graze ({})", message),
                          "give the results.sqlite of a study, or its folder");
+    case SQLITE_INTERRUPT:
+        throw InputError(place, "a query takes too long",
+                         "ask for less; if the file is a stranger's, it may be made to do so");
+    case SQLITE_TOOBIG:
+        throw InputError(place, "a text in the result file, or made by a query, is too long", "ask for less");
     default:
         throw InputError(place, message, "look at the tables and columns that docs/result-file.md describes");
     }
@@ -57,15 +87,18 @@ std::string quoted_name(std::string_view name) {
 }
 
 Database::Database(const std::string& path, bool writing) : path_(path) {
+    require_plain_file(path, writing);
     const auto open = [&](bool unchanging) {
         sqlite3* database = nullptr;
         const int flags =
             SQLITE_OPEN_URI | (writing ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READONLY);
         const int code = sqlite3_open_v2(uri_of(path, unchanging).c_str(), &database, flags, nullptr);
+        guard_.reset();
         database_.reset(database);
         if (code != SQLITE_OK)
             return code;
         sqlite3_busy_timeout(database, 2000);
+        guard_ = std::make_shared<QueryGuard>(database, patience_with(path));
         return sqlite3_exec(database, "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr);
     };
     int code = open(false);
@@ -74,6 +107,29 @@ Database::Database(const std::string& path, bool writing) : path_(path) {
         code = open(true);
     if (code != SQLITE_OK)
         throw_database_error(code, database_ ? sqlite3_errmsg(database_.get()) : "out of memory", path);
+    struct stat status {};
+    if (::stat(path.c_str(), &status) == 0) {
+        device_ = status.st_dev;
+        file_ = status.st_ino;
+    }
+}
+
+Statement Database::prepare(const std::string& sql) const {
+    return {database_.get(), path_, sql, guard_->only_reads() ? guard_ : nullptr};
+}
+
+Statement Database::prepare_query(const std::string& sql) const {
+    if (guard_->only_reads())
+        return {database_.get(), path_, sql, guard_};
+    const QueryGuard::ReadingOnly reading(database_.get());
+    return {database_.get(), path_, sql, guard_};
+}
+
+void Database::require_present() const {
+    struct stat status {};
+    if (::stat(path_.c_str(), &status) != 0 || status.st_dev != device_ || status.st_ino != file_)
+        throw InputError(Place{path_, 0, 0}, "the result file has been removed or replaced while it was written to",
+                         "run the same command again, and leave its folder alone");
 }
 
 void Database::execute(const std::string& sql) const {
@@ -87,14 +143,28 @@ std::int64_t Database::value(const std::string& sql) const {
     return statement.step() ? statement.integer(0) : 0;
 }
 
-Statement::Statement(sqlite3* database, const std::string& path, const std::string& sql) : path_(path) {
+Statement::Statement(sqlite3* database, const std::string& path, const std::string& sql,
+                     std::shared_ptr<QueryGuard> guard)
+    : path_(path), guard_(std::move(guard)), left_(guard_ ? guard_->patience() : QueryGuard::Clock::duration{}) {
+    constexpr std::size_t longest_query = 1'000'000;
+    if (sql.size() > longest_query || sql.find('\0') != std::string::npos)
+        throw InputError(Place{path, 0, 0}, "the query is too long, or has a zero byte in it", "give one SELECT");
     sqlite3_stmt* statement = nullptr;
-    const int code = sqlite3_prepare_v2(database, sql.c_str(), static_cast<int>(sql.size()), &statement, nullptr);
+    const char *end = sql.c_str() + sql.size(), *rest = nullptr;
+    const int code = sqlite3_prepare_v2(database, sql.c_str(), static_cast<int>(sql.size()), &statement, &rest);
     statement_.reset(statement);
     if (code != SQLITE_OK)
         throw_database_error(code, sqlite3_errmsg(database), path);
     if (!statement)
         throw InputError(Place{path, 0, 0}, "the query is empty", "give one SELECT");
+    // Blanks and comments may follow, and semicolons.
+    while (rest != nullptr && rest < end) {
+        sqlite3_stmt* another = nullptr;
+        const int wrong = sqlite3_prepare_v2(database, rest, static_cast<int>(end - rest), &another, &rest);
+        sqlite3_finalize(another);
+        if (wrong != SQLITE_OK || another != nullptr)
+            throw InputError(Place{path, 0, 0}, "something follows the query's first statement", "give one SELECT");
+    }
 }
 
 Statement& Statement::bind(int position, double value) {
@@ -127,7 +197,13 @@ Statement& Statement::bind_null(int position) {
 }
 
 bool Statement::step() {
-    const int code = sqlite3_step(statement_.get());
+    const auto advance = [&] {
+        if (!guard_)
+            return sqlite3_step(statement_.get());
+        const QueryGuard::Watch watch(*guard_, left_);
+        return sqlite3_step(statement_.get());
+    };
+    const int code = advance();
     if (code == SQLITE_ROW)
         return true;
     if (code == SQLITE_DONE)

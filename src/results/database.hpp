@@ -1,5 +1,7 @@
 #pragma once
 
+#include "results/query_guard.hpp"
+
 #include <sqlite3.h>
 
 #include <cstddef>
@@ -14,7 +16,9 @@ namespace graze {
 class Statement {
 public:
     Statement() = default;
-    Statement(sqlite3* database, const std::string& path, const std::string& sql);
+    /// @param guard of a statement that has only so much time
+    Statement(sqlite3* database, const std::string& path, const std::string& sql,
+              std::shared_ptr<QueryGuard> guard = nullptr);
 
     Statement& bind(int position, double value); ///< NULL unless finite
     Statement& bind(int position, std::int64_t value);
@@ -45,15 +49,25 @@ private:
     };
     std::unique_ptr<sqlite3_stmt, Finish> statement_;
     std::string path_;
+    std::shared_ptr<QueryGuard> guard_; // goes before the statement does, which keeps the connection alive
+    QueryGuard::Clock::duration left_{};
 };
 
 /// A connection to one file.
 class Database {
 public:
-    /// @throws InputError when it cannot be opened
+    /// @throws InputError when it cannot be opened, or is no plain file
     Database(const std::string& path, bool writing);
 
-    Statement prepare(const std::string& sql) const { return {database_.get(), path_, sql}; }
+    /// A statement of ours. From a connection that only reads, it has only so much time.
+    Statement prepare(const std::string& sql) const;
+    /// A statement of somebody else's: it reads, has only so much time, and nothing follows it.
+    Statement prepare_query(const std::string& sql) const;
+    /// From now on nothing but reading, for good.
+    void only_read() { guard_->only_read(); }
+    void set_patience(QueryGuard::Clock::duration patience) { guard_->set_patience(patience); }
+    /// @throws InputError when the file that was opened is no longer there under its name
+    void require_present() const;
     /// Several statements without results.
     void execute(const std::string& sql) const;
     /// The one whole number that a query gives.
@@ -65,7 +79,9 @@ private:
         void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
     };
     std::string path_;
+    std::uint64_t device_ = 0, file_ = 0; ///< which the path led to
     std::unique_ptr<sqlite3, Close> database_;
+    std::shared_ptr<QueryGuard> guard_;
 };
 
 /// What SQLite says has gone wrong, as a message with a remedy. @throws InputError

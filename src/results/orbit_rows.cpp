@@ -1,4 +1,3 @@
-#include "graze/model/model_file.hpp"
 #include "results/point_rows.hpp"
 #include "results/result_file_state.hpp"
 
@@ -169,16 +168,23 @@ std::vector<double> numbers_of(const std::string& json) {
     return values;
 }
 
-Segment segment_named(const Model& model, const std::string& mode, const std::string& end) {
+/// @throws InputError when the model has no such thing
+Segment segment_named(const Model& model, const std::string& mode, const std::string& end, const std::string& path) {
     Segment segment;
-    segment.mode = model.find_mode(mode).value_or(0);
+    const auto known = model.find_mode(mode);
+    if (!known)
+        throw_contradiction(path, fmt::format("the model has no mode '{}'", mode));
+    segment.mode = *known;
     for (std::size_t t = 0; t < model.transitions.size(); ++t)
         if (model.transitions[t].mode == segment.mode && model.transitions[t].label == end) {
             segment.index = t;
             return segment;
         }
     segment.end = SegmentEnd::section;
-    segment.index = model.find_section(end).value_or(0);
+    const auto section = model.find_section(end);
+    if (!section)
+        throw_contradiction(path, fmt::format("nothing called '{}' ends mode '{}'", end, mode));
+    segment.index = *section;
     return segment;
 }
 
@@ -241,7 +247,7 @@ void ResultFile::add_orbit(const std::string& name, const OrbitRecord& record) {
     if (!run.is_branch())
         throw InputError(fmt::format("run '{}' is of kind {}", name, run.kind), "orbits belong to orbit and continue");
     if (!model)
-        model = parse_model(run.model, run.name + ".toml");
+        model = stored_model(run);
     state_->begin();
     try {
         write_row(writer.point, *model, run, record);
@@ -265,7 +271,7 @@ std::vector<OrbitRecord> ResultFile::read_orbits(const std::string& name, const 
     if (!run || !run->is_branch())
         return records;
     const RunTables tables(*run);
-    const Model model = parse_model(run->model, run->name + ".toml");
+    const Model model = stored_model(*run);
     Statement row = state_->database.prepare(
         fmt::format("{} WHERE (?1 >= -1 OR ?2 = '') AND {} ORDER BY number", tables.select_point(), where));
     row.bind(1, number).bind(2, std::string_view(label));
@@ -281,13 +287,16 @@ std::vector<OrbitRecord> ResultFile::read_orbits(const std::string& name, const 
               half_multipliers = details("real, imaginary", "half_multipliers"),
               minima = details("segment, event, time, value, size", "minima"),
               end_values = details("segment, event, value, rate", "end_values");
+    require_columns(row, tables.point_columns(), state_->database.path());
+    require_columns(segments, tables.sample_columns(), state_->database.path());
     while (row.step()) {
         OrbitRecord record = read_row(row, model, *run);
         OrbitSolution& solution = record.point.solution;
         Certificate& certificate = solution.certificate;
         segments.bind(1, record.number);
         while (segments.step()) {
-            solution.orbit.signature.push_back(segment_named(model, segments.text(2), segments.text(3)));
+            solution.orbit.signature.push_back(
+                segment_named(model, segments.text(2), segments.text(3), state_->database.path()));
             solution.orbit.durations.push_back(number_or_nothing(segments, 4));
             certificate.approach_speeds.push_back(number_or_nothing(segments, 5));
             certificate.departures.push_back(number_or_nothing(segments, 6));
@@ -298,6 +307,10 @@ std::vector<OrbitRecord> ResultFile::read_orbits(const std::string& name, const 
                 start.push_back(number_or_nothing(segments, 8 + static_cast<int>(i)));
         }
         segments.reset();
+        if (record.point.segment > 0 && record.point.segment >= solution.orbit.segments())
+            throw_contradiction(state_->database.path(), fmt::format("orbit {} of run '{}'", record.number, name));
+        if (solution.orbit.segments() == 0)
+            solution.outcome = OrbitOutcome::not_converged, solution.orbit.symmetry.reset();
         for (Statement* rows : {&multipliers, &half_multipliers, &minima, &end_values})
             rows->bind(2, record.number);
         solution.multipliers = read_multipliers(multipliers);

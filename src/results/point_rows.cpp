@@ -1,6 +1,9 @@
 #include "results/point_rows.hpp"
 
+#include "graze/symbolic/input_error.hpp"
 #include "results/schema.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +28,16 @@ Ending ending_named(const std::string& name) {
 }
 
 } // namespace
+
+void throw_contradiction(const std::string& path, const std::string& what) {
+    throw InputError(Place{path, 0, 0}, fmt::format("the result file contradicts itself: {}", what),
+                     "it has been changed or damaged: ask for another copy, or run the study again");
+}
+
+void require_columns(const Statement& rows, std::size_t columns, const std::string& path) {
+    if (static_cast<std::size_t>(rows.columns()) != columns)
+        throw_contradiction(path, fmt::format("a table has {} columns instead of {}", rows.columns(), columns));
+}
 
 std::size_t index_of(const std::vector<std::string>& names, const std::string& name) {
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());

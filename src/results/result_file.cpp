@@ -1,12 +1,13 @@
 #include "graze/results/result_file.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/file_name.hpp"
 #include "results/point_rows.hpp"
 #include "results/result_file_state.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -23,13 +24,26 @@ std::string text_of(RunStatus status) {
     return status == RunStatus::complete ? "complete" : "unfinished";
 }
 
-void check_name(const RunRecord& run) {
-    const bool valid = !run.name.empty() && std::all_of(run.name.begin(), run.name.end(), [](unsigned char c) {
-        return std::isalnum(c) || c == '.' || c == '_' || c == '-';
-    });
-    if (!valid)
-        throw InputError(fmt::format("'{}' cannot be the name of a run", run.name),
-                         "use letters, digits, '.', '_' and '-'");
+/// Names from a file end up in tables, pictures and file names, whoever has written it.
+void require_names(const RunRecord& run, const std::string& path) {
+    const Place place{path, 0, 0};
+    require_file_name(run.name, "name of a run", place);
+    const std::array<std::string_view, 5> kinds{"simulate", "sweep", "basin", "orbit", "continue"};
+    if (std::find(kinds.begin(), kinds.end(), run.kind) == kinds.end())
+        throw InputError(place, fmt::format("run '{}' is of unknown kind '{}'", run.name, run.kind),
+                         "use the version of graze that wrote it");
+    if ((run.kind == "sweep" && run.coordinates.empty()) || (!run.is_branch() && run.directions.empty()))
+        throw_contradiction(path, fmt::format("run '{}' varies nothing", run.name));
+    require_plain_line(run.model_name, "name of a model", place);
+    require_plain_line(run.version, "version", place);
+    for (const auto* columns : {&run.coordinates, &run.states, &run.values})
+        for (const ResultColumn& column : *columns) {
+            require_plain_line(column.name, "name of a column", place);
+            require_plain_line(column.unit, "unit of a column", place);
+        }
+    for (const auto* names : {&run.samplings, &run.modes, &run.directions})
+        for (const std::string& name : *names)
+            require_plain_line(name, "name", place);
 }
 
 } // namespace
@@ -56,7 +70,9 @@ ResultFile::ResultFile(const std::string& path, Access access) {
             fmt::format("the result file has format {}, this version of graze knows format {}", format, result_format),
             "use the version of graze that wrote it, or run the study into another folder");
     if (!writing) {
-        database.execute("PRAGMA cache_size = -65536; PRAGMA query_only = 1");
+        database.execute("PRAGMA cache_size = -65536; PRAGMA query_only = 1; "
+                         "PRAGMA cell_size_check = 1");
+        state_->database.only_read();
         return;
     }
     if (empty)
@@ -87,6 +103,10 @@ ResultFile::~ResultFile() {
 
 const std::string& ResultFile::path() const {
     return state_->database.path();
+}
+
+void ResultFile::set_patience(std::chrono::milliseconds patience) {
+    state_->database.set_patience(patience);
 }
 
 void ResultFile::flush() {
@@ -127,6 +147,7 @@ std::vector<RunRecord> ResultFile::runs() const {
             const std::string what = names.text(0);
             (what == "sampling" ? run.samplings : what == "mode" ? run.modes : run.directions).push_back(names.text(1));
         }
+        require_names(run, path());
         runs.push_back(std::move(run));
     }
     return runs;
@@ -160,7 +181,7 @@ void ResultFile::remove_run(const std::string& name) {
 }
 
 void ResultFile::begin_run(const RunRecord& run) {
-    check_name(run);
+    require_names(run, path());
     remove_run(run.name);
     state_->at_once([&] {
         const Database& database = state_->database;
@@ -268,6 +289,7 @@ std::vector<PointRecord> ResultFile::last_points(const std::string& name, std::s
     Statement rows = state_->database.prepare(
         fmt::format("{0} WHERE number IN (SELECT max(number) FROM {1} GROUP BY number / {2}) ORDER BY number",
                     tables.select_point(), tables.points, chain_length));
+    require_columns(rows, tables.point_columns(), path());
     while (rows.step())
         points.push_back(read_point(rows, *run));
     return points;
@@ -280,6 +302,7 @@ std::optional<PointRecord> ResultFile::point(const std::string& name, std::size_
     const RunTables tables(*run);
     Statement row = state_->database.prepare(tables.select_point() + " WHERE number = ?");
     row.bind(1, number);
+    require_columns(row, tables.point_columns(), path());
     if (!row.step())
         return std::nullopt;
     PointRecord point = read_point(row, *run);
@@ -289,8 +312,11 @@ std::optional<PointRecord> ResultFile::point(const std::string& name, std::size_
         fmt::format("SELECT * FROM {} WHERE rowid >= ?1 AND rowid < ?2 ORDER BY rowid", tables.samples));
     const auto first = static_cast<std::int64_t>(number) * samples_of_a_point;
     rows.bind(1, first).bind(2, first + samples_of_a_point);
+    require_columns(rows, tables.sample_columns(), path());
     while (rows.step()) {
         samples.samplings.push_back(index_of(run->samplings, rows.text(1)));
+        if (samples.samplings.back() == run->samplings.size())
+            throw_contradiction(path(), fmt::format("run '{}' has no sampling '{}'", name, rows.text(1)));
         samples.times.push_back(rows.number(2));
         for (std::size_t v = 0; v < samples.width; ++v)
             samples.values.push_back(rows.number(3 + static_cast<int>(v)));
@@ -359,7 +385,7 @@ std::string ResultFile::Rows::text(std::size_t column) const {
 }
 
 ResultFile::Rows ResultFile::query(const std::string& sql, const std::vector<double>& values) const {
-    auto state = std::make_unique<Rows::State>(Rows::State{state_->database.prepare(sql)});
+    auto state = std::make_unique<Rows::State>(Rows::State{state_->database.prepare_query(sql)});
     for (std::size_t i = 0; i < values.size(); ++i)
         state->statement.bind(static_cast<int>(i) + 1, values[i]);
     return Rows(std::move(state));

@@ -62,6 +62,7 @@ struct ResultFile::State {
     void commit() {
         if (!in_transaction)
             return;
+        database.require_present();
         database.execute("COMMIT");
         in_transaction = false;
     }
@@ -72,6 +73,7 @@ struct ResultFile::State {
         database.execute("BEGIN IMMEDIATE");
         try {
             change();
+            database.require_present();
             database.execute("COMMIT");
         } catch (...) {
             sqlite_rollback();

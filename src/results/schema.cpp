@@ -176,15 +176,22 @@ std::string RunTables::create() const {
                        points, columns_of(coordinates), fixed_columns, columns_of(states), samples, columns_of(values));
 }
 
+std::size_t RunTables::point_columns() const {
+    return is_branch ? 6 + coordinates.size() + values.size() + fixed_branch_columns
+                     : 3 + coordinates.size() + fixed_point_columns + states.size();
+}
+
+std::size_t RunTables::sample_columns() const {
+    return is_branch ? 8 + states.size() : 3 + values.size();
+}
+
 std::string RunTables::insert_point() const {
-    const std::size_t columns = is_branch ? 6 + coordinates.size() + values.size() + fixed_branch_columns
-                                          : 3 + coordinates.size() + fixed_point_columns + states.size();
-    return fmt::format("INSERT INTO {} VALUES({})", points, placeholders(columns));
+    return fmt::format("INSERT INTO {} VALUES({})", points, placeholders(point_columns()));
 }
 
 std::string RunTables::insert_sample() const {
     if (is_branch)
-        return fmt::format("INSERT INTO {} VALUES({})", samples, placeholders(8 + states.size()));
+        return fmt::format("INSERT INTO {} VALUES({})", samples, placeholders(sample_columns()));
     std::string names = "rowid, point, sampling, time";
     for (const std::string& value : values)
         names += ", " + quoted_name(value);

@@ -30,6 +30,7 @@ struct RunTables {
     std::string insert_point() const;
     std::string insert_sample() const;
     std::string select_point() const; ///< columns as insert_point has them
+    std::size_t point_columns() const, sample_columns() const;
 };
 
 /// Columns between the coordinates and the final states.

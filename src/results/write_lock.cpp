@@ -12,7 +12,7 @@
 namespace graze {
 
 WriteLock::WriteLock(const std::string& path) : path_(path + ".lock") {
-    file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (file_ < 0)
         throw InputError(Place{path, 0, 0}, std::string("it cannot be written (") + std::strerror(errno) + ")",
                          "look at the permissions of the folder, or choose another one by --output");

@@ -1,4 +1,5 @@
 #include "graze/study/runner.hpp"
+#include "graze/symbolic/text_file.hpp"
 #include "graze/symbolic/transform.hpp"
 
 #include <fmt/format.h>
@@ -6,9 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <memory>
-#include <sstream>
 
 namespace graze {
 
@@ -150,13 +149,6 @@ private:
     std::string text_;
 };
 
-std::string text_of_file(const std::string& path) {
-    std::ifstream stream(path, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return stream ? text.str() : std::string();
-}
-
 std::vector<Settings> axes_of(const StudyRun& run) {
     std::vector<Settings> axes;
     for (const Variation& axis : run.axes) {
@@ -227,7 +219,9 @@ Settings branch_settings(const StudyRun& run) {
     const BranchSettings& branch = run.branch.settings;
     const auto symbols = run.model.parameter_symbols();
     Settings settings;
-    settings.add("signature", run.branch.signature).add("table", text_of_file(run.branch.table));
+    settings.add("signature", run.branch.signature)
+        .add("table", run.branch.table.empty() ? std::string()
+                                               : read_text_file(run.branch.table, "table of an orbit", longest_table));
     std::vector<std::string> set, free, stop;
     for (const std::size_t parameter : run.branch.set)
         set.push_back(symbols[parameter].name());

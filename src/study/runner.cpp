@@ -97,11 +97,13 @@ std::unique_ptr<SearchFactory> searches_of(const StudyRun& run) {
 }
 
 /// What the file has of each chain.
-std::vector<ChainProgress> progress_of(const ResultFile& file, const std::string& run, const Plan& plan,
+std::vector<ChainProgress> progress_of(const ResultFile& file, const StudyRun& run, const Plan& plan,
                                        std::size_t& done) {
     std::vector<ChainProgress> progress(plan.chains);
-    for (const PointRecord& point : file.last_points(run, plan.chain_length)) {
+    for (const PointRecord& point : file.last_points(run.name, plan.chain_length)) {
         const std::size_t chain = point.number / plan.chain_length;
+        if (chain >= progress.size() || point.result.mode >= run.model.modes.size())
+            continue; // none of ours: it is computed anew
         progress[chain] = {point.number % plan.chain_length + 1, can_be_carried_on(point.result), point.result.state,
                            point.result.mode};
         done += progress[chain].done;
@@ -120,11 +122,23 @@ std::set<std::string> wanted_runs(const Study& study, const std::vector<std::str
     return wanted;
 }
 
+/// Equal fingerprints promise that, in a file that nobody has changed.
+bool has_columns_of(const RunRecord& stored, const RunRecord& record) {
+    const auto same = [](const std::vector<ResultColumn>& a, const std::vector<ResultColumn>& b) {
+        return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                          [](const ResultColumn& one, const ResultColumn& other) { return one.name == other.name; });
+    };
+    return stored.kind == record.kind && stored.points == record.points && stored.modes == record.modes &&
+           stored.samplings == record.samplings && stored.directions == record.directions &&
+           same(stored.coordinates, record.coordinates) && same(stored.states, record.states) &&
+           same(stored.values, record.values);
+}
+
 /// Whether the file has all of a run as it is asked for now. Otherwise what it has is kept only if it can be gone on
 /// with.
 bool is_done(const RunRecord& record, ResultFile& file) {
     const auto stored = file.find_run(record.name);
-    const bool same = stored && stored->fingerprint == record.fingerprint;
+    const bool same = stored && stored->fingerprint == record.fingerprint && has_columns_of(*stored, record);
     if (same && stored->status == RunStatus::complete)
         return true;
     if (!same || record.is_branch())
@@ -256,7 +270,7 @@ private:
         if (is_done(record, *file_))
             return;
         std::size_t done = 0;
-        const auto progress = progress_of(*file_, run.name, plan, done);
+        const auto progress = progress_of(*file_, run, plan, done);
         ExecutionOptions execution;
         execution.jobs = options_->jobs;
         execution.interrupted = options_->interrupted;

@@ -1,12 +1,12 @@
 #include "graze/study/study.hpp"
 
+#include "graze/symbolic/file_name.hpp"
+#include "graze/symbolic/text_file.hpp"
 #include "study/study_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 namespace graze {
 
@@ -72,6 +72,7 @@ StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
     StudyPicture picture;
     picture.name = entry.name;
     picture.place = entry.place;
+    require_file_name(picture.name, "name of a picture", entry.place);
     const std::vector<TomlEntry> items =
         reader.toml().entries(reader.toml().table(entry), entry.path,
                               {"kind", "title", "run", "runs", "x", "y", "samples", "directions", "x_range", "y_range",
@@ -83,11 +84,11 @@ StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
                                                  "portrait",    "regression", "scatter",  "branch"};
             picture.kind = kinds[reader.choice(item, kinds)];
         } else if (key == "title") {
-            picture.title = reader.toml().string(item);
+            picture.title = reader.toml().line(item);
         } else if (key == "run" || key == "runs") {
             picture.runs = reader.strings(item);
         } else if (key == "x") {
-            picture.x = reader.toml().string(item);
+            picture.x = reader.toml().line(item);
         } else if (key == "y") {
             picture.y = reader.strings(item);
         } else if (key == "samples") {
@@ -105,7 +106,8 @@ StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
             const auto points = item.node->is_array() ? reader.toml().elements(item) : std::vector<TomlEntry>{item};
             for (const TomlEntry& point : points)
                 for (const TomlEntry& at : reader.toml().entries(reader.toml().table(point), point.path))
-                    picture.at.emplace_back(at.name, reader.number(none, at));
+                    require_plain_line(at.name, "coordinate", at.place),
+                        picture.at.emplace_back(at.name, reader.number(none, at));
         } else if (key == "points") {
             picture.points = reader.strings(item);
         } else if (key == "logarithmic") {
@@ -118,7 +120,7 @@ StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
         } else if (key == "successive") {
             picture.successive = reader.toml().boolean(item);
         } else if (key == "group") {
-            picture.group = reader.toml().string(item);
+            picture.group = reader.toml().line(item);
         } else {
             const std::vector<std::string> formats{"png", "svg", "pdf"};
             picture.format = formats[reader.choice(item, formats)];
@@ -137,11 +139,12 @@ Study parse_study(std::string_view text, const std::string& file) {
     Study study;
     study.file = file;
     StudyDefaults defaults;
+    Place name_place;
     std::optional<TomlEntry> runs, pictures;
     for (const TomlEntry& entry :
          toml.entries(root, "", {"name", "text", "source", "model", "set", "values", "runs", "pictures"})) {
         if (entry.name == "name")
-            study.name = toml.string(entry);
+            study.name = toml.string(entry), name_place = toml.place(*entry.node);
         else if (entry.name == "text")
             study.text = toml.string(entry);
         else if (entry.name == "source")
@@ -158,11 +161,20 @@ Study parse_study(std::string_view text, const std::string& file) {
     }
     if (study.name.empty())
         throw InputError(Place{file, 1, 1}, "the study has no name", "give name = \"...\" in its first line");
+    require_file_name(study.name, "name of a study, which its folder bears", name_place);
     if (!runs)
         throw InputError(Place{file, 1, 1}, "the study has no runs", "add a table [runs.NAME]");
     std::map<std::string, RunKeys> keys;
-    for (const TomlEntry& entry : toml.entries(toml.table(*runs), "runs"))
+    std::size_t values = 0;
+    for (const TomlEntry& entry : toml.entries(toml.table(*runs), "runs")) {
         study.runs.push_back(read_run(reader, entry, defaults, keys[entry.name]));
+        for (const Variation& axis : study.runs.back().axes)
+            values += axis.values.size();
+        constexpr std::size_t most = 20'000'000; // of all runs, which are in memory at once
+        if (values > most)
+            throw InputError(entry.place, fmt::format("the study varies things through more than {} values", most),
+                             "take larger steps, or make several studies");
+    }
     if (study.runs.empty())
         throw InputError(runs->place, "the study has no runs", "add a table [runs.NAME]");
     study.runs = in_order(std::move(study.runs));
@@ -179,12 +191,17 @@ Study parse_study(std::string_view text, const std::string& file) {
     return study;
 }
 
+std::vector<std::string> input_files(const Study& study) {
+    std::vector<std::string> files{study.file};
+    for (const StudyRun& run : study.runs)
+        for (const std::string& file : {run.model_path, run.branch.table})
+            if (!file.empty())
+                files.push_back(file);
+    return files;
+}
+
 Study read_study(const std::string& path) {
-    std::ifstream stream(path, std::ios::binary);
-    std::ostringstream text;
-    if (!stream || !(text << stream.rdbuf()))
-        throw InputError(Place{path, 0, 0}, "the study cannot be read", "check the path and the permissions");
-    return parse_study(text.str(), path);
+    return parse_study(read_text_file(path, "study", longest_model), path);
 }
 
 } // namespace graze

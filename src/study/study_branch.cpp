@@ -1,4 +1,5 @@
 #include "graze/model/named_value.hpp"
+#include "graze/symbolic/file_name.hpp"
 #include "study/study_reader.hpp"
 
 #include <fmt/format.h>
@@ -88,6 +89,7 @@ void read_monitor_kind(const StudyReader& reader, const Model& model, const Toml
 
 Monitor read_monitor(const StudyReader& reader, const Model& model, const TomlEntry& entry) {
     Monitor monitor;
+    require_plain_line(entry.name, "name of a monitor", entry.place);
     monitor.name = entry.name;
     monitor.unit = model.time_unit;
     if (entry.node->is_string()) {

@@ -74,10 +74,10 @@ std::pair<double, double> StudyReader::range(const Model& model, const TomlEntry
 
 std::vector<std::string> StudyReader::strings(const TomlEntry& entry) const {
     if (entry.node->is_string())
-        return {toml_.string(entry)};
+        return {toml_.line(entry)};
     std::vector<std::string> result;
     for (const TomlEntry& item : toml_.elements(entry))
-        result.push_back(toml_.string(item));
+        result.push_back(toml_.line(item));
     return result;
 }
 

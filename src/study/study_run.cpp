@@ -1,4 +1,5 @@
 #include "graze/model/catalogue.hpp"
+#include "graze/symbolic/file_name.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "study/study_reader.hpp"
 
@@ -13,12 +14,16 @@ namespace graze {
 
 namespace {
 
-Model model_of(const StudyReader& reader, const std::string& name, const Place& place) {
-    std::string path = name;
-    if (is_model_path(name) && std::filesystem::path(name).is_relative())
-        path = (std::filesystem::path(reader.file()).parent_path() / name).string();
+Model model_of(const StudyReader& reader, const std::string& name, const Place& place, std::string& path) {
+    const bool of_file = is_model_path(name);
+    path = of_file && std::filesystem::path(name).is_relative()
+               ? (std::filesystem::path(reader.file()).parent_path() / name).string()
+               : name;
     try {
-        return load_model(path);
+        Model model = load_model(path);
+        if (!of_file)
+            path.clear();
+        return model;
     } catch (const InputError& error) {
         if (!error.place().file.empty())
             throw;
@@ -71,6 +76,7 @@ std::vector<std::size_t> events_of(const StudyReader& reader, const Model& model
 Sampling read_sampling(const StudyReader& reader, const Model& model, const TomlEntry& entry) {
     Sampling sampling;
     sampling.name = entry.name;
+    require_plain_line(sampling.name, "name of a sampling", entry.place);
     bool placed = false;
     for (const TomlEntry& item : reader.toml().entries(
              reader.toml().table(entry), entry.path, {"section", "maxima", "minima", "extrema", "contacts", "image"})) {
@@ -126,7 +132,7 @@ void read_values(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
     std::set<std::string> taken;
     const auto items = entry.node->is_string() ? std::vector<TomlEntry>{entry} : reader.toml().elements(entry);
     for (const TomlEntry& item : items) {
-        std::string text = reader.toml().string(item), name;
+        std::string text = reader.toml().line(item), name;
         Place place = reader.inside(item);
         if (const std::size_t equals = text.find('='); equals != std::string::npos) {
             name = text.substr(0, equals);
@@ -187,13 +193,13 @@ void read_start(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
 }
 
 void read_vary(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, bool& random) {
-    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path))
-        run.axes.push_back(read_variation(reader, run.model, item, random));
     double points = 1;
-    for (const Variation& axis : run.axes)
-        points *= static_cast<double>(std::max<std::size_t>(axis.values.size(), 1));
-    if (points > 1e9)
-        reader.fail(entry, "there would be more than a thousand million points", "take larger steps");
+    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path)) {
+        run.axes.push_back(read_variation(reader, run.model, item, random));
+        points *= static_cast<double>(std::max<std::size_t>(run.axes.back().values.size(), 1));
+        if (points > 1e9) // before the next axis takes room
+            reader.fail(entry, "there would be more than a thousand million points", "take larger steps");
+    }
 }
 
 void read_skip(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
@@ -286,11 +292,7 @@ StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const Study
     StudyRun run;
     run.name = entry.name;
     run.place = entry.place;
-    const bool valid = std::all_of(run.name.begin(), run.name.end(),
-                                   [](unsigned char c) { return std::isalnum(c) || c == '.' || c == '_' || c == '-'; });
-    if (!valid || run.name.empty())
-        throw InputError(entry.place, fmt::format("'{}' cannot be the name of a run", run.name),
-                         "use letters, digits, '.', '_' and '-'");
+    require_file_name(run.name, "name of a run", entry.place);
     const std::vector<std::string> known = run_keys();
     for (TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path)) {
         if (std::find(known.begin(), known.end(), item.name) == known.end())
@@ -307,10 +309,10 @@ StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const Study
     if (keys.contains("text"))
         run.text = reader.toml().string(keys.at("text"));
     if (keys.contains("model"))
-        run.model =
-            model_of(reader, reader.toml().string(keys.at("model")), reader.toml().place(*keys.at("model").node));
+        run.model = model_of(reader, reader.toml().string(keys.at("model")),
+                             reader.toml().place(*keys.at("model").node), run.model_path);
     else if (!defaults.model.empty())
-        run.model = model_of(reader, defaults.model, defaults.model_place);
+        run.model = model_of(reader, defaults.model, defaults.model_place, run.model_path);
     else
         throw InputError(entry.place, fmt::format("{} has no model", entry.path), "give model = \"NAME\" or a path");
     if (defaults.set)

@@ -1,17 +1,23 @@
 #include "graze/symbolic/input_error.hpp"
 
+#include "graze/symbolic/printable.hpp"
+
 namespace graze {
 
 namespace {
 
+// What is quoted may be as long as a file: a message is to be read.
+constexpr std::size_t longest_part = 1000;
+
+/// Names and texts that a message quotes come from anywhere: it stays one line that does nothing to a terminal.
 std::string message(const Place& place, const std::string& problem, const std::string& remedy) {
-    std::string text = place.text();
+    std::string text = shortened(place.text(), longest_part);
     if (!text.empty())
         text += ": ";
-    text += problem;
+    text += shortened(problem, longest_part);
     if (!remedy.empty())
-        text += "; " + remedy;
-    return text;
+        text += "; " + shortened(remedy, longest_part);
+    return printable_line(text);
 }
 
 } // namespace

@@ -48,7 +48,7 @@ TEST_F(Plot, KnowsOtherKindsAndComesWithATable) {
 
 TEST_F(Plot, TakesNoTextOfAModelForACommand) {
     const std::string trace = folder / "trace", model = folder / "model.toml";
-    const std::string text = "`echo>" + trace + "` \\u0007 #1 \\\" a_b^c{d}@e&f~g\\\\";
+    const std::string text = "`echo>" + trace + "` #1 \\\" a_b^c{d}@e&f~g\\\\";
     std::ofstream(model) << ("[states]\nx = { initial = 1, unit = \"" + text + "\", text = \"" + text +
                              "\" }\ny = 0\n[modes.only.rates]\nx = \"y\"\ny = \"-x\"\n");
     const std::string picture = folder / "picture.svg";

@@ -244,7 +244,7 @@ TEST(Study, mistakes_are_told_with_their_place_and_remedy) {
                                  "\"orbit\" or \"continue\""},
              {head + "[runs.a]\nkind = \"swep\"", "s.toml:4:8: runs.a.kind cannot be 'swep'; did you mean 'sweep'?"},
              {head + "[runs.\"a b\"]\nkind = \"sweep\"",
-              "s.toml:3:7: 'a b' cannot be the name of a run; use letters, digits, '.', '_' and '-'"},
+              "s.toml:3:7: 'a b' cannot be the name of a run; use up to 100 letters, digits, '.', '_' and '-'"},
              {head + "[runs.a]\nkind = \"sweep\"",
               "s.toml:3:7: runs.a sweeps nothing; give vary = { PARAMETER = { from = A, to = B, step = S } }"},
              {head + sweep + "cycels = 3", "s.toml:6:1: unknown key 'cycels' in runs.a; did you mean 'cycles'?"},

@@ -3,6 +3,7 @@
 #include "graze/results/orbit_record.hpp"
 #include "graze/sweep/attractor.hpp"
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -40,6 +41,9 @@ struct RunRecord {
     bool is_branch() const { return kind == "orbit" || kind == "continue"; }
 };
 
+/// The model with which a run was made. @throws InputError when it cannot be read, or is not that of the run's columns
+Model stored_model(const RunRecord& run);
+
 /// One point with what was found there.
 struct PointRecord {
     std::size_t number = 0, chain = 0, direction = 0; ///< direction: index in RunRecord::directions
@@ -61,7 +65,7 @@ public:
     ResultFile(const ResultFile&) = delete;
     ResultFile& operator=(const ResultFile&) = delete;
 
-    /// All runs, in the order in which they were begun.
+    /// All runs, in the order in which they were begun. @throws InputError when the file contradicts itself
     std::vector<RunRecord> runs() const;
     std::optional<RunRecord> find_run(const std::string& name) const;
     /// Begins a run: replaces the one of that name. @throws InputError when it cannot be written
@@ -114,9 +118,14 @@ public:
         explicit Rows(std::unique_ptr<State> state);
         std::unique_ptr<State> state_;
     };
+    /// Safe for queries and files of strangers: it reads and nothing else, and is broken off after half a minute (and a
+    /// second more for each MB of the file).
     /// @param sql one SELECT; @param values bound to its parameters ?1, ?2, ...
     /// @throws InputError when it is no such thing
     Rows query(const std::string& sql, const std::vector<double>& values = {}) const;
+
+    /// How long one query may take, instead of that.
+    void set_patience(std::chrono::milliseconds patience);
 
     const std::string& path() const;
 

@@ -55,7 +55,7 @@ struct BranchRequest {
 
 /// One named computation.
 struct StudyRun {
-    std::string name, text;
+    std::string name, text, model_path; ///< of the model; empty: it is a shipped one
     RunKind kind = RunKind::simulate;
     Place place;
     Model model;                 ///< parameters and initial state set as the run asks
@@ -107,5 +107,7 @@ struct Study {
 /// @throws InputError with the place of the first thing wrong
 Study parse_study(std::string_view text, const std::string& file);
 Study read_study(const std::string& path);
+/// The files that a study is made of: itself, its models, tables of orbits.
+std::vector<std::string> input_files(const Study& study);
 
 } // namespace graze

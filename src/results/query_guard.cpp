@@ -1,0 +1,73 @@
+#include "results/query_guard.hpp"
+
+#include <string_view>
+
+namespace graze {
+
+namespace {
+
+constexpr int between_looks = 20000; ///< steps of SQLite's machine: some 0.1 ms
+constexpr int longest_value = 64 << 20;
+
+/// Reading rows and computing with them. Everything else that a statement can do is on no list.
+int authorize(void* /*nothing*/, int action, const char* /*first*/, const char* second, const char* /*database*/,
+              const char* /*view*/) {
+    switch (action) {
+    case SQLITE_SELECT:
+    case SQLITE_READ:
+    case SQLITE_RECURSIVE:
+        return SQLITE_OK;
+    case SQLITE_FUNCTION:
+        return second != nullptr && std::string_view(second) != "load_extension" &&
+                       std::string_view(second) != "fts3_tokenizer"
+                   ? SQLITE_OK
+                   : SQLITE_DENY;
+    default:
+        return SQLITE_DENY;
+    }
+}
+
+} // namespace
+
+QueryGuard::QueryGuard(sqlite3* database, Clock::duration patience) : database_(database), patience_(patience) {
+    sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+    sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+    sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
+    sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0, nullptr);
+    sqlite3_limit(database, SQLITE_LIMIT_ATTACHED, 0);
+    sqlite3_limit(database, SQLITE_LIMIT_LENGTH, longest_value);
+    sqlite3_progress_handler(database, between_looks, look_at_clock, this);
+}
+
+QueryGuard::~QueryGuard() {
+    sqlite3_progress_handler(database_, 0, nullptr, nullptr);
+}
+
+int QueryGuard::look_at_clock(void* guard) {
+    return Clock::now() > static_cast<QueryGuard*>(guard)->deadline_ ? 1 : 0;
+}
+
+QueryGuard::ReadingOnly::ReadingOnly(sqlite3* database) : database_(database) {
+    sqlite3_set_authorizer(database_, authorize, nullptr);
+}
+
+QueryGuard::ReadingOnly::~ReadingOnly() {
+    sqlite3_set_authorizer(database_, nullptr, nullptr);
+}
+
+void QueryGuard::only_read() {
+    sqlite3_set_authorizer(database_, authorize, nullptr);
+    only_reads_ = true;
+}
+
+QueryGuard::Watch::Watch(QueryGuard& guard, Clock::duration& left)
+    : guard_(&guard), left_(&left), begun_(Clock::now()) {
+    guard.deadline_ = begun_ + left;
+}
+
+QueryGuard::Watch::~Watch() {
+    guard_->deadline_ = Clock::time_point::max();
+    *left_ -= Clock::now() - begun_;
+}
+
+} // namespace graze

@@ -1,0 +1,41 @@
+#include "graze/model/model_file.hpp"
+#include "graze/results/result_file.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace graze {
+
+namespace {
+
+bool fits(const Model& model, const RunRecord& run) {
+    const auto parameters = model.parameter_symbols();
+    const auto is_known = [&](const ResultColumn& column) {
+        return std::any_of(parameters.begin(), parameters.end(),
+                           [&](const Expression& symbol) { return symbol.name() == column.name; }) ||
+               (!run.is_branch() && model.find_state(column.name));
+    };
+    const bool states =
+        std::equal(model.states.begin(), model.states.end(), run.states.begin(), run.states.end(),
+                   [](const State& state, const ResultColumn& column) { return state.name == column.name; });
+    // The modes of a branch are those of its segments, which are looked for by name.
+    const bool modes =
+        run.is_branch() || std::equal(model.modes.begin(), model.modes.end(), run.modes.begin(), run.modes.end(),
+                                      [](const Mode& mode, const std::string& name) { return mode.name == name; });
+    return states && modes && std::all_of(run.coordinates.begin(), run.coordinates.end(), is_known);
+}
+
+} // namespace
+
+Model stored_model(const RunRecord& run) {
+    const Place place{run.name + ".toml", 0, 0};
+    Model model = parse_model(run.model, place.file);
+    if (!fits(model, run))
+        throw InputError(place, fmt::format("the model stored for run '{}' is not the one of its columns", run.name),
+                         "the result file has been changed: ask for another copy, or run the study again");
+    return model;
+}
+
+} // namespace graze
