@@ -1,8 +1,11 @@
 #include "program/process.hpp"
 
+#include "graze/symbolic/input_error.hpp"
+
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <spawn.h>
 #include <sstream>
@@ -18,11 +21,16 @@ namespace {
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
+[[noreturn]] void fail_temporary() {
+    throw InputError(std::string("no temporary file can be written: ") + std::strerror(errno),
+                     "make room where the system keeps temporary files");
+}
+
 /// Files rather than pipes: neither side can ever wait for the other.
 File temporary_file() {
     File file(std::tmpfile(), &std::fclose);
     if (!file)
-        throw std::system_error(errno, std::generic_category(), "no temporary file can be made");
+        fail_temporary();
     return file;
 }
 
@@ -65,7 +73,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments, std::string
     const File in = temporary_file();
     const File out = temporary_file();
     if (std::fwrite(input.data(), 1, input.size(), in.get()) != input.size() || std::fflush(in.get()) != 0)
-        throw std::system_error(errno, std::generic_category(), "a temporary file cannot be written");
+        fail_temporary();
     std::rewind(in.get());
     FileActions actions;
     actions.redirect(in.get(), STDIN_FILENO);

@@ -39,6 +39,10 @@ private:
     herr_t (*close_)(hid_t);
 };
 
+[[noreturn]] void throw_full(const std::string& path) {
+    throw InputError(Place{path, 0, 0}, "the HDF5 file cannot be written", "make room on the disk");
+}
+
 Handle text_type(const std::string& path) {
     Handle type(H5Tcopy(H5T_C_S1), H5Tclose, path);
     H5Tset_size(type.id(), H5T_VARIABLE);
@@ -50,7 +54,8 @@ void write_attribute(hid_t group, const char* name, const std::string& text, con
     const Handle type = text_type(path), space(H5Screate(H5S_SCALAR), H5Sclose, path);
     const Handle attribute(H5Acreate2(group, name, type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, path);
     const char* data = text.c_str();
-    H5Awrite(attribute.id(), type.id(), &data);
+    if (H5Awrite(attribute.id(), type.id(), &data) < 0)
+        throw_full(path);
 }
 
 /// One column, written chunk by chunk.
@@ -100,7 +105,7 @@ public:
         written = written && H5Sselect_hyperslab(target.id(), H5S_SELECT_SET, &start, nullptr, &count, nullptr) >= 0 &&
                   H5Dwrite(set_.id(), type_.id(), source.id(), target.id(), H5P_DEFAULT, data) >= 0;
         if (!written)
-            throw InputError(Place{*path_, 0, 0}, "the HDF5 file cannot be written", "make room on the disk");
+            throw_full(*path_);
         size_ = whole;
         waiting_ = 0;
         reals_.clear();
@@ -193,6 +198,8 @@ void export_hdf5(const ResultFile& file, const std::vector<std::string>& runs, c
             write_details("end_values", "segment, event, value, rate", {});
         }
     }
+    if (H5Fflush(output.id(), H5F_SCOPE_GLOBAL) < 0) // while it can still be told
+        throw_full(path);
 }
 
 } // namespace graze

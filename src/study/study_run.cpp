@@ -193,13 +193,21 @@ void read_start(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
 }
 
 void read_vary(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, bool& random) {
-    double points = 1;
+    constexpr double most_points = 1e9, most_chains = 2e7; // of which something is kept in memory
+    double points = static_cast<double>(std::max<std::size_t>(run.draws, 1));
     for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path)) {
         run.axes.push_back(read_variation(reader, run.model, item, random));
         points *= static_cast<double>(std::max<std::size_t>(run.axes.back().values.size(), 1));
-        if (points > 1e9) // before the next axis takes room
+        if (points > most_points) // before the next axis takes room
             reader.fail(entry, "there would be more than a thousand million points", "take larger steps");
     }
+    const bool swept = run.kind == RunKind::sweep && !run.axes.empty();
+    if (points / static_cast<double>(swept ? std::max<std::size_t>(run.axes.front().values.size(), 1) : 1) >
+        most_chains)
+        reader.fail(
+            entry,
+            fmt::format("there would be more than {} million points that begin by themselves", most_chains / 1e6),
+            "make several studies, or sweep along the axis with the most values");
 }
 
 void read_skip(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {

@@ -7,6 +7,7 @@
 #include "program/output_file.hpp"
 #include "run_graze.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sqlite3.h>
 #include <sys/stat.h>
@@ -19,6 +20,7 @@ namespace graze {
 namespace {
 
 using namespace graze::testing;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
 constexpr const char* oscillator = R"(
@@ -34,11 +36,11 @@ class Hostile : public ::testing::Test {
 protected:
     Hostile() {
         std::ofstream(folder / "model.toml") << oscillator;
-        study("study");
+        study("\"study\"");
     }
     /// A study of the least work, with something of a stranger's in it.
-    std::string study(const std::string& name, const std::string& run = "r", const std::string& picture = "p",
-                      const std::string& title = "t") const {
+    std::string study(const std::string& name, const std::string& run = "\"r\"", const std::string& picture = "\"p\"",
+                      const std::string& title = "\"t\"") const {
         std::ofstream(folder / "study.toml")
             << "name = " << name << "\nmodel = \"model.toml\"\n[runs." << run
             << "]\nkind = \"simulate\"\ntime = 3\nsample = { a = { maxima = \"x\" } }\n[pictures." << picture
@@ -48,7 +50,7 @@ protected:
     static std::string quoted(const std::string& text) {
         std::string result = "\"";
         for (const char c : text)
-            if (static_cast<unsigned char>(c) < 0x20)
+            if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
                 result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
             else
                 result += (c == '"' || c == '\\' ? "\\" : "") + std::string(1, c);
@@ -106,6 +108,9 @@ TEST_F(Hostile, NamesLeadNowhereAndStartNothing) {
         if (printed.code == 0)
             continue; // a letter or two: a name like others
         EXPECT_EQ(printed.code, 2) << wrong;
+        EXPECT_THAT(printed.err, AnyOf(HasSubstr("cannot be the name of a"), HasSubstr("control a terminal"),
+                                       HasSubstr("in the middle of a word"))) // of a key outside ASCII
+            << wrong;
         EXPECT_TRUE(is_plain_text(printed.err));
         EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
     }
@@ -117,12 +122,13 @@ TEST_F(Hostile, TextsOfPicturesAreDrawnOrRefused) {
     const std::string trace = folder / "trace";
     std::mt19937 random(2);
     for (int i = 0; i < 12; ++i) {
-        study("\"s\"", "r", "p", quoted(nasty(random, trace)));
+        study("\"s\"", "\"r\"", "\"p\"", quoted(nasty(random, trace)));
         const Printed printed =
             run_graze(std::vector<std::string>{"run", folder / "study.toml", "--output", folder / "out"});
         EXPECT_TRUE(printed.code == 0 || printed.code == 2);
-        if (printed.code == 0)
+        if (printed.code == 0) {
             EXPECT_THAT(contents(folder / "out/p.svg"), HasSubstr("</svg>"));
+        }
         EXPECT_FALSE(std::filesystem::exists(trace));
     }
 }
@@ -169,8 +175,8 @@ TEST_F(Hostile, NothingIsWrittenOntoDatabases) {
               "export " + results + " --what runs --format json --output ",
               "simulate " + (folder / "model.toml") + " --time 1 --output ",
               "simulate " + (folder / "model.toml") + " --time 1 --plot " + (folder / "p.svg") + " --plot-data ",
-              "plot " + results + " --output " + (folder / "p.svg") + " --data ", "models impact-oscillator --write ",
-              "check " + (folder / "model.toml") + " --output "}) {
+              "plot " + results + " --output " + (folder / "p.svg") + " --data ",
+              std::string("models impact-oscillator --write "), "check " + (folder / "model.toml") + " --output "}) {
             EXPECT_EQ(run_graze(command + target).code, 2) << command << target;
             EXPECT_EQ(contents(results), before) << command << target;
         }
@@ -302,8 +308,9 @@ TEST_F(HostileResults, ShowWhatWouldActOnATerminal) {
         const Printed printed = run_graze(command);
         EXPECT_TRUE(is_plain_text(printed.out)) << command;
         EXPECT_TRUE(is_plain_text(printed.err)) << command;
-        if (command.find("json") != std::string::npos)
+        if (command.find("json") != std::string::npos) {
             EXPECT_TRUE(JsonCheck(printed.out).valid()) << printed.out;
+        }
     }
 }
 
