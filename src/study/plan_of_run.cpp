@@ -149,6 +149,15 @@ private:
     std::string text_;
 };
 
+/// Empty when it cannot be read, which is told when the run reads it.
+std::string text_of_table(const std::string& path) {
+    try {
+        return path.empty() ? std::string() : read_text_file(path, "table of an orbit", longest_table);
+    } catch (const InputError&) {
+        return "";
+    }
+}
+
 std::vector<Settings> axes_of(const StudyRun& run) {
     std::vector<Settings> axes;
     for (const Variation& axis : run.axes) {
@@ -219,9 +228,7 @@ Settings branch_settings(const StudyRun& run) {
     const BranchSettings& branch = run.branch.settings;
     const auto symbols = run.model.parameter_symbols();
     Settings settings;
-    settings.add("signature", run.branch.signature)
-        .add("table", run.branch.table.empty() ? std::string()
-                                               : read_text_file(run.branch.table, "table of an orbit", longest_table));
+    settings.add("signature", run.branch.signature).add("table", text_of_table(run.branch.table));
     std::vector<std::string> set, free, stop;
     for (const std::size_t parameter : run.branch.set)
         set.push_back(symbols[parameter].name());

@@ -216,8 +216,9 @@ TEST_F(Hostile, PipesAndDevicesAreRefusedAtOnce) {
           "orbit " + pipe + " 1", "export " + pipe, std::string("export /dev/zero"), std::string("points /dev/null"),
           std::string("simulate /dev/zero --time 1"), std::string("run /dev/./zero")}) {
         const Printed printed = run_graze(command);
-        EXPECT_EQ(printed.code, 2) << command << printed.err;
-        EXPECT_EQ(printed.out, "");
+        // A study's other runs go on where one cannot read its table.
+        EXPECT_EQ(printed.code, command.find("of_table") == std::string::npos ? 2 : 3) << command << printed.err;
+        EXPECT_THAT(printed.err, AnyOf(HasSubstr("pipe"), HasSubstr("device"), HasSubstr("no plain file")));
     }
     EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(10));
 }
