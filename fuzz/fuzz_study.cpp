@@ -1,0 +1,21 @@
+// Whatever the bytes, reading a study either works or throws an InputError; what was read can be told again.
+
+#include "graze/study/runner.hpp"
+#include "graze/study/study.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    try {
+        const graze::Study study =
+            graze::parse_study({reinterpret_cast<const char*>(data), size}, "/nowhere/fuzz.toml");
+        for (const graze::StudyRun& run : study.runs)
+            graze::settings_of(run);
+    } catch (const graze::InputError&) {
+        return 0;
+    }
+    return 0;
+}
