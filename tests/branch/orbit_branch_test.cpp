@@ -242,5 +242,89 @@ TEST(OrbitBranch, says_where_nothing_leads_on) {
     EXPECT_NE(refusal([&] { branches_at(one.model, bounded.special.at(0), settings); }).find("BD"), std::string::npos);
 }
 
+/// An oscillator that hits a stop, and beside it u' = u (p - u^2) about a motion: branches cross at p = 0 whatever the
+/// oscillator does. It loses its impact where the stop is out of reach, at p = lost.
+Model pitchfork_beside_impacts(double lost) {
+    const double reach = 1 / std::hypot(1 - 2.4 * 2.4, 2 * 0.05 * 2.4);
+    return model_from(fmt::format(R"toml(
+[parameters]
+p = 0.3
+reach = {:.17g}
+lost = {:.17g}
+[states]
+x = 0
+v = 0
+y = 1
+theta = {{ initial = 0, period = "2*pi" }}
+[definitions]
+u = "y - cos(theta)"
+[modes.free]
+rates = {{ x = "v", v = "cos(theta) - 0.1*v - x", y = "2.4*(u*(p - u^2) - sin(theta))", theta = 2.4 }}
+watch = ["stop"]
+[events]
+stop = "reach + p - lost - x"
+[jumps.impact]
+v = "-0.7*v"
+[[transitions]]
+mode = "free"
+event = "stop"
+label = "impact"
+jump = "impact"
+next = "free"
+[sections.phase0]
+state = "theta"
+value = 0
+)toml",
+                                  reach, lost));
+}
+
+TEST(OrbitBranch, a_crossing_beside_a_contact_that_vanishes_is_kept) {
+    for (const double lost : {-3e-4, 1e-4, 3e-4, 6e-4}) {
+        const Model model = pitchfork_beside_impacts(lost);
+        BranchSettings settings;
+        settings.parameter = parameter_place(model, "p");
+        // The orbit without impacts touches the stop there; with one impact it goes on from that.
+        const Orbit clear = settled(model, "phase0").orbit;
+        Orbit trivial = clear;
+        trivial.starts[0][2] = std::cos(trivial.starts[0][3]);
+        settings.direction = -1;
+        settings.stop_at = {PointType::grazing};
+        const Branch without = follow_branch(model, trivial, settings);
+        ASSERT_FALSE(without.special.empty());
+        const SpecialPoint grazing = without.special.back();
+        ASSERT_EQ(grazing.type, PointType::grazing);
+        settings.stop_at = {};
+        settings.steps = 40;
+        settings.reorder = false;
+        const Branch impacting = follow(model, branches_at(model, grazing, settings).at(0), settings);
+        ASSERT_GT(impacting.points.size(), 10U);
+        EXPECT_LT(impacting.points.back().parameter, -1e-3);
+        // Back to where it loses its impact, in steps of different lengths.
+        for (const double step : {0.02, 0.05}) {
+            settings.continuation.largest_step = step;
+            settings.steps = 1000;
+            const BranchPoint& far = impacting.points.back();
+            OrbitBranch back(model, far.solution.orbit, settings);
+            std::vector<double> direction = far.tangent;
+            for (double& one : direction)
+                one = -one;
+            std::string found;
+            for (bool going = back.start_along(direction, 0); going; going = back.step())
+                for (const SpecialPoint& special : back.found()) {
+                    found += std::string(short_name(special.type)) + " ";
+                    if (special.type == PointType::branch_point)
+                        EXPECT_NEAR(special.parameter, 0, 1e-7);
+                    if (special.type == PointType::grazing) {
+                        EXPECT_NEAR(special.parameter, lost, 1e-10);
+                        const OrbitSolution again = solve_orbit(model, special.solution.orbit);
+                        EXPECT_TRUE(again.multipliers.empty()); // without speed they have no limit
+                    }
+                }
+            EXPECT_NE(found.find("GR"), std::string::npos) << lost;
+            EXPECT_EQ(found.find("BP") != std::string::npos, far.parameter * lost < 0) << lost << ' ' << found;
+        }
+    }
+}
+
 } // namespace
 } // namespace graze

@@ -52,6 +52,23 @@ TEST(OrbitWithSignature, work_is_bounded_and_can_be_interrupted) {
     EXPECT_FALSE(orbit_with_signature(model, parse_signature(model, "J1 J8"), {}, {}, search));
 }
 
+TEST(OrbitWithSignature, must_be_admissible) {
+    // So far below resonance one impact in a period is a solution of the equations, but it passes through the stop.
+    Model model = load_model("impact-oscillator");
+    model.set_parameter("sigma", 0.5);
+    for (const double omega : {0.25, 0.35, 0.45}) {
+        model.set_parameter("omega", omega);
+        EXPECT_NE(refusal(model, "impact").find("is not admissible: event 'stop' comes within segment 1"),
+                  std::string::npos);
+        SignatureSearchOptions search;
+        search.unphysical = true;
+        const auto found = orbit_with_signature(model, parse_signature(model, "impact"), {}, {}, search);
+        ASSERT_TRUE(found);
+        EXPECT_EQ(found->outcome, OrbitOutcome::converged);
+        EXPECT_FALSE(found->certificate.admissible);
+    }
+}
+
 Model lorenz(double r) {
     return parse_model("[parameters]\ns = 10\nb = \"8/3\"\nr = " + std::to_string(r) + R"toml(
 [states]
