@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace graze {
 
@@ -16,6 +17,8 @@ namespace {
 
 /// Differences that a solution and its repetition, or its image, may have by round-off, in units of the scales.
 constexpr double same_orbit = 1e-6;
+
+const char* const back_on_regular = "back on the branch of more regular orbits";
 
 bool is_among(PointType type, const std::vector<PointType>& types) {
     return std::find(types.begin(), types.end(), type) != types.end();
@@ -111,7 +114,7 @@ public:
         const BranchPoint before = point;
         const std::vector<BranchTest> tests_before = tests_;
         Continuation& continuation = state_.continuation();
-        if (!continuation.step())
+        if (!step_on_branch())
             return end(continuation.outcome() == ContinuationOutcome::undefined ? BranchOutcome::undefined
                                                                                 : BranchOutcome::no_convergence,
                        state_.problem().shooting().problem());
@@ -121,6 +124,8 @@ public:
         found = locator_.locate_all(before, tests_before);
         drop_origin(point.arclength - before.arclength);
         judge(before.solution.certificate.admissible);
+        if (!ended_ && came_back_)
+            finish(BranchOutcome::returned, back_on_regular);
         if (!ended_ && state_.continuation().outcome() == ContinuationOutcome::closed)
             finish(BranchOutcome::closed, "");
         return true;
@@ -132,16 +137,39 @@ public:
     std::string detail;
 
 private:
+    /// Steps on. One that ends on the branch of more regular orbits, which the present one left or comes back to, has
+    /// gone past that crossing, and is made again with shorter steps.
+    bool step_on_branch() {
+        constexpr int most_attempts = 8;
+        constexpr double shorter = 0.25;
+        Continuation& continuation = state_.continuation();
+        const Continuation before = continuation;
+        for (int attempt = 0;; ++attempt) {
+            if (!continuation.step())
+                return false;
+            came_back_ = !is_regular_ && is_degenerate(state_, orbit_here(), same_orbit);
+            if (!came_back_ || attempt >= most_attempts)
+                return true;
+            const double length = continuation.point().arclength - continuation.previous().arclength;
+            continuation = before;
+            continuation.set_next_step(shorter * length);
+        }
+    }
+
     /// Newton's method may come back to the branch that is to be left: then it is asked again, nearer and farther off.
     bool start_on_other(const std::vector<double>& u, const std::vector<double>& direction, double distance) {
         constexpr double factors[] = {1, 0.1, 4, 0.01};
-        const bool regular = is_degenerate(state_, candidate_, same_orbit);
+        const bool was_regular = is_degenerate(state_, candidate_, same_orbit);
         bool came_back = false;
         for (const double factor : factors) {
             if (!state_.continuation().start_along(u, direction, factor * distance))
                 continue;
-            const bool is_old = regular ? is_degenerate(state_, orbit_here(), 0.01 * std::abs(factor * distance))
-                                        : bends_back(u, direction, factor * distance);
+            // From a flip or a loss of symmetry away from regular orbits; or onto them, from such as have come back.
+            const double resolved = 0.01 * std::abs(factor * distance);
+            const bool from_regular =
+                was_regular && !is_degenerate(state_, displaced(u, direction, factor * distance), resolved);
+            const bool is_old = from_regular ? is_degenerate(state_, orbit_here(), resolved)
+                                             : bends_back(u, direction, factor * distance);
             if (!is_old)
                 return begin(true);
             came_back = true;
@@ -150,6 +178,13 @@ private:
         if (came_back)
             detail = "Newton's method comes back to the branch that was to be left";
         return false;
+    }
+    Orbit displaced(std::vector<double> u, const std::vector<double>& direction, double distance) {
+        const std::vector<double> row = state_.problem().row_of(direction);
+        const double length = std::sqrt(std::inner_product(row.begin(), row.end(), direction.begin(), 0.0));
+        for (std::size_t i = 0; i < u.size(); ++i)
+            u[i] += distance * direction[i] / length;
+        return state_.problem().shooting().orbit_of(OrbitProblem::vector_of(u));
     }
     Orbit orbit_here() {
         return state_.problem().shooting().orbit_of(OrbitProblem::vector_of(state_.continuation().point().u));
@@ -188,6 +223,7 @@ private:
         }
         point = {};
         describe_here();
+        is_regular_ = is_degenerate(state_, orbit_here(), same_orbit);
         const double rise = state_.continuation().point().tangent[state_.problem().parameter_place()];
         const auto& [least, greatest] = std::pair(state_.settings().least, state_.settings().greatest);
         const bool leaves =
@@ -223,6 +259,7 @@ private:
         special.detail +=
             fmt::format("; goes on as {}", to_string(state_.model(), state_.problem().shooting().signature()));
         describe_here();
+        is_regular_ = is_degenerate(state_, orbit_here(), same_orbit);
         return true;
     }
 
@@ -253,7 +290,7 @@ private:
                 return finish(BranchOutcome::bound, "");
             }
             if (is_degenerate(state_, found[i])) {
-                found[i].detail = "back on the branch of more regular orbits";
+                found[i].detail = back_on_regular;
                 cut_after(i);
                 return finish(BranchOutcome::returned, found[i].detail);
             }
@@ -281,6 +318,8 @@ private:
     std::vector<BranchTest> tests_; ///< at the last point
     PointLocator locator_;
     std::size_t reorderings_ = 0;
+    bool came_back_ = false;  ///< to more regular orbits, with the last step
+    bool is_regular_ = false; ///< an orbit several times over, or symmetric but not given by its half
     bool ended_ = true;
 };
 

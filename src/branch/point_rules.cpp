@@ -1,5 +1,7 @@
 #include "branch/point_rules.hpp"
 
+#include "orbit/half_orbit.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -101,7 +103,7 @@ bool is_degenerate(BranchState& state, const Orbit& orbit, double same) {
     const Model& model = state.model();
     if (orbit.symmetry)
         return false;
-    if (half_orbit(model, orbit, same))
+    if (half_of(state.problem().shooting(), orbit, same))
         return true;
     const std::size_t half = orbit.segments() / 2;
     if (orbit.segments() % 2 != 0)

@@ -262,6 +262,7 @@ bool Shooting::evaluate(const Eigen::VectorXd& unknowns) {
         return true;
     evaluated_.resize(0);
     problem_.clear();
+    took_too_long_ = false;
     if (!unknowns.allFinite()) {
         problem_ = "an unknown is not finite";
         return false;
@@ -300,6 +301,7 @@ bool Shooting::evaluate_piece(std::size_t k, const Eigen::VectorXd& unknowns) {
         return false;
     case ArcFlow::Ending::too_long:
         problem_ = fmt::format("segment {} takes too many steps", piece.segment + 1);
+        took_too_long_ = true;
         return false;
     }
     std::copy(piece.end.begin(), piece.end.end(), inputs_.begin());

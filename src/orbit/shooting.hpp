@@ -57,6 +57,8 @@ public:
     /// Evaluates the equations and their derivatives. @return false where that is impossible: `problem` says why
     bool evaluate(const Eigen::VectorXd& unknowns);
     const std::string& problem() const { return problem_; }
+    /// Whether that was because a segment takes too many steps: not to be tried too often.
+    bool took_too_long() const { return took_too_long_; }
     /// Largest residual, in units of the scales.
     double residual() const { return residual_; }
     /// Solves derivatives * step = -equations (or 0), borders * step = right. See CyclicSystem.
@@ -144,6 +146,7 @@ private:
     Eigen::VectorXd evaluated_; ///< where the equations have been evaluated last; empty: nowhere
     double residual_ = 0;
     std::string problem_;
+    bool took_too_long_ = false;
 };
 
 } // namespace graze

@@ -87,7 +87,8 @@ OrbitOutcome solve_shooting(Shooting& shooting, Eigen::VectorXd& unknowns, const
         const double size = largest(step, shooting.scales()), before = shooting.residual();
         double factor = 1;
         bool improved = false;
-        for (int halving = 0; halving < most_halvings && !improved; ++halving, factor *= 0.5) {
+        for (int halving = 0; halving < most_halvings && !improved && !shooting.took_too_long();
+             ++halving, factor *= 0.5) {
             const Eigen::VectorXd next = unknowns + factor * step;
             const bool possible = shooting.evaluate(next);
             // Near the solution round-off decides, and any residual will do.

@@ -146,6 +146,7 @@ void AttractorSearch::begin(std::span<const double> parameters, std::span<const 
     watcher_.begin(parameters, periods_, &recorder_);
     thresholds_.assign(extension * setting_->options.largest_period + 1, setting_->options.recurrence);
     watcher_.watch_recurrence(&thresholds_, setting_->options.largest_period);
+    watcher_.allow_any_steps(setting_->options.longest_return > 0);
     watcher_.start_leg(0, 0);
     exponent_.clear();
     visited_.clear();

@@ -63,7 +63,7 @@ void ReturnWatcher::step(const Step& step) {
         const double value = step.state(index, step.length);
         escaped_ = escaped_ || !(value >= range.first && value <= range.second);
     }
-    stuck_ = ++steps_ > most_steps;
+    stuck_ = ++steps_ > most_steps && !any_steps_;
     stop_ = stop_ || escaped_ || stuck_;
 }
 

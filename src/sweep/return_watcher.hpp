@@ -42,6 +42,8 @@ public:
     bool escaped() const { return escaped_; }
     /// Whether it stopped because no return would come.
     bool stuck() const { return stuck_; }
+    /// However many steps a return may take: its time is bounded otherwise.
+    void allow_any_steps(bool any) { any_steps_ = any; }
     /// Period at whose return it stopped; 0: none.
     std::size_t recurrent() const { return recurrent_; }
     /// The return `before` returns before the last.
@@ -75,6 +77,7 @@ private:
     std::size_t next_ = 0, returns_ = 0, stop_after_ = 0, largest_ = 0, recurrent_ = 0;
     std::vector<double>* thresholds_ = nullptr;
     double leg_start_ = 0, shortest_ = 0, pending_time_ = 0;
+    bool any_steps_ = false;
     bool pending_ = false, stop_ = false, escaped_ = false, stuck_ = false;
     std::size_t steps_ = 0; ///< since the last return
 };

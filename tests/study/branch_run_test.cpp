@@ -1,3 +1,4 @@
+#include "graze/model/catalogue.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/symbolic/input_error.hpp"
 
@@ -401,6 +402,41 @@ TEST_F(BranchRun, mistakes_are_told_with_their_place_and_remedy) {
     EXPECT_THAT(refusal(both + "along = { omega = [2.1, 2.3] }\n[runs.c]\nkind = \"continue\"\nstart = { run = \"b\", "
                                "point = \"BD1\", onto = \"other\" }\nalong = \"omega\""),
                 HasSubstr("no other branch leaves from a point of type BD"));
+}
+
+TEST_F(BranchRun, what_is_its_own_image_is_followed_as_such_wherever_it_comes_from) {
+    const std::string head = "name = \"s\"\nmodel = \"impact-oscillator-two-stops\"\n";
+    run(head + "[runs.asked]\nkind = \"orbit\"\nsignature = \"R L\"\n[runs.settled]\nkind = \"orbit\"\n");
+    const ResultFile file(path_, ResultFile::Access::read);
+    const auto asked = file.orbit("asked", std::size_t{0}), settled = file.orbit("settled", std::size_t{0});
+    ASSERT_TRUE(asked && settled);
+    ASSERT_TRUE(asked->point.solution.orbit.symmetry);
+    EXPECT_NEAR(asked->point.solution.orbit.period(), settled->point.solution.orbit.period(), 1e-12);
+    EXPECT_NEAR(std::abs(asked->point.solution.multipliers[0]), std::abs(settled->point.solution.multipliers[0]), 1e-9);
+    // The same as a table of the whole orbit.
+    const Model model = load_model("impact-oscillator-two-stops");
+    const Orbit whole = whole_orbit(model, asked->point.solution.orbit);
+    std::ofstream table(folder_ / "whole.csv");
+    table.precision(12);
+    table << "segment,t,x,v,theta,end\n";
+    double time = 0;
+    for (std::size_t k = 0; k < whole.segments(); ++k) {
+        const auto row = [&] {
+            table << k + 1 << ',' << time << ',' << whole.starts[k][0] << ',' << whole.starts[k][1] << ','
+                  << whole.starts[k][2] << ',' << end_name(model, whole.signature[k]) << '\n';
+        };
+        row();
+        time += whole.durations[k];
+        row();
+    }
+    table.close();
+    const std::string tabled = head +
+                               "[runs.tabled]\nkind = \"continue\"\nalong = { omega = [1.1, 1.3] }\nsteps = 3\n"
+                               "table = \"" +
+                               (folder_ / "whole.csv").string() + "\"\n";
+    run(tabled);
+    const ResultFile again(path_, ResultFile::Access::read);
+    EXPECT_TRUE(again.orbit("tabled", std::size_t{0})->point.solution.orbit.symmetry);
 }
 
 } // namespace

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "orbit/shooting.hpp"
+
+#include <optional>
+
+namespace graze {
+
+/// The half of an orbit that is its own image under a symmetry of the model, or none if it is not.
+/// @param shooting of that orbit, or one like it, whose scales measure differences
+std::optional<Orbit> half_of(const Shooting& shooting, const Orbit& orbit, double tolerance);
+
+} // namespace graze

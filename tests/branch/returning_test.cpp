@@ -1,0 +1,75 @@
+// Branches of less regular orbits between two points of a more regular one: they end at the other of the two, however
+// the steps fall.
+
+#include "follow.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+/// Duffing's oscillator with a force F, in units of time and length, and something that it drives along.
+Model duffing(double damping, double omega, double time, double length) {
+    return model_from(fmt::format(R"toml(
+[parameters]
+F = 1
+T = {:.17g}
+A = {:.17g}
+[states]
+x = "0.1*A"
+v = 0
+theta = {{ initial = 0, period = "2*pi" }}
+s = {{ initial = 0, drifting = true }}
+[modes.m]
+rates = {{ x = "v", v = "(-x - x^3/A^2 + F*A*cos(theta))/T^2 - {:.17g}*v/T", theta = "{:.17g}/T", s = "v^2 + x*A/T^2" }}
+[sections.start]
+state = "theta"
+value = 0
+[symmetries.mirror]
+map = {{ x = "-x", v = "-v", theta = "theta + pi" }}
+)toml",
+                                  time, length, damping, omega));
+}
+
+TEST(ReturningBranches, come_back_where_the_more_regular_orbits_change_again) {
+    struct Case {
+        double damping, omega, time, length;
+    };
+    for (const Case& one :
+         {Case{0.14901456065267, 0.6931211339514, 1, 1}, {0.281, 1.311, 1e-6, 1e3}, {0.2127, 1.35, 1e3, 1e-9}}) {
+        const Model model = duffing(one.damping, one.omega, one.time, one.length);
+        BranchSettings settings;
+        settings.parameter = parameter_place(model, "F");
+        settings.least = 0.01;
+        settings.greatest = 40;
+        settings.stop_at = {PointType::branch_point};
+        const Branch symmetric = follow_branch(model, settled(model, "start").orbit, settings);
+        ASSERT_EQ(symmetric.outcome, BranchOutcome::stopped) << names(symmetric);
+        settings.stop_at = {};
+        const Branch asymmetric = follow(model, branches_at(model, symmetric.special.back(), settings).at(0), settings);
+        const auto flips = of_type(asymmetric, PointType::flip);
+        EXPECT_EQ(asymmetric.outcome, BranchOutcome::returned) << names(asymmetric);
+        ASSERT_EQ(flips.size(), 2U) << names(asymmetric);
+        for (const double step : {0.02, 0.05, 0.1}) {
+            settings.continuation.largest_step = step;
+            for (const std::size_t i : {0U, 1U}) {
+                const Branch doubled = follow(model, branches_at(model, flips[i], settings).at(0), settings);
+                EXPECT_EQ(doubled.outcome, BranchOutcome::returned) << doubled.detail << names(doubled);
+                ASSERT_FALSE(doubled.special.empty());
+                EXPECT_NEAR(doubled.special.back().parameter, flips[1 - i].parameter, 1e-6) << step;
+                for (std::size_t k = 1; k + 1 < doubled.points.size(); ++k) {
+                    const Orbit& orbit = doubled.points[k].solution.orbit;
+                    EXPECT_GT(std::abs(orbit.starts[0][0] - orbit.starts[1][0]), 1e-6 * one.length);
+                }
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace graze
