@@ -47,7 +47,7 @@ TEST(ReturningBranches, come_back_where_the_more_regular_orbits_change_again) {
         settings.parameter = parameter_place(model, "F");
         settings.least = 0.01;
         settings.greatest = 40;
-        settings.stop_at = {PointType::branch_point};
+        settings.stop_at = {PointType::asymmetry};
         const Branch symmetric = follow_branch(model, settled(model, "start").orbit, settings);
         ASSERT_EQ(symmetric.outcome, BranchOutcome::stopped) << names(symmetric);
         settings.stop_at = {};

@@ -76,7 +76,7 @@ TEST(Units, do_not_matter) {
             EXPECT_NEAR(branch.special[i].parameter * time / reference.special[i].parameter, 1, 1e-9);
         // Whatever is found is left for the same orbits.
         for (std::size_t i = 0; i < branch.special.size(); ++i) {
-            if (branch.special[i].type != PointType::branch_point && branch.special[i].type != PointType::flip)
+            if (branch.special[i].type != PointType::asymmetry && branch.special[i].type != PointType::flip)
                 continue;
             settings.steps = 5;
             const Branch other = follow(model, branches_at(model, branch.special[i], settings).at(0), settings);
