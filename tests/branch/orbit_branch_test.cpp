@@ -312,8 +312,9 @@ TEST(OrbitBranch, a_crossing_beside_a_contact_that_vanishes_is_kept) {
             for (bool going = back.start_along(direction, 0); going; going = back.step())
                 for (const SpecialPoint& special : back.found()) {
                     found += std::string(short_name(special.type)) + " ";
-                    if (special.type == PointType::branch_point)
+                    if (special.type == PointType::branch_point) {
                         EXPECT_NEAR(special.parameter, 0, 1e-7);
+                    }
                     if (special.type == PointType::grazing) {
                         EXPECT_NEAR(special.parameter, lost, 1e-10);
                         const OrbitSolution again = solve_orbit(model, special.solution.orbit);

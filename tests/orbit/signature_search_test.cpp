@@ -98,8 +98,9 @@ TEST(OrbitWithSignature, is_given_by_its_half_where_it_is_its_own_image) {
         ASSERT_EQ(found->outcome, OrbitOutcome::converged) << found->detail;
         ASSERT_TRUE(found->orbit.symmetry) << signature;
         EXPECT_EQ(found->orbit.segments(), 1U);
-        if (period > 0)
+        if (period > 0) {
             EXPECT_NEAR(found->orbit.period(), period, 1e-11);
+        }
         period = found->orbit.period();
         for (std::size_t i = 0; i < 3; ++i)
             model.set_initial(model.states[i].name, found->orbit.starts[0][i]);
