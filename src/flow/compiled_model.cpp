@@ -1,6 +1,7 @@
 #include "graze/flow/compiled_model.hpp"
 
 #include "graze/symbolic/transform.hpp"
+#include "symbolic/subgraph.hpp"
 
 #include <algorithm>
 
@@ -49,6 +50,22 @@ std::vector<Expression> CompiledModel::derivatives(std::span<const Expression> f
     return rows;
 }
 
+/// What stands under each root or power in some expressions, followed by the exponent.
+std::vector<Expression> CompiledModel::roots_in(std::span<const Expression> expressions) const {
+    const auto expanded = model_.expand(expressions);
+    const Subgraph part = subgraph_of(expanded);
+    std::vector<Expression> roots;
+    for (const Subgraph::Item& item : part.items) {
+        const Operation operation = part.node(item).operation;
+        if (operation != Operation::sqrt && operation != Operation::power)
+            continue;
+        roots.push_back(part.expression(part.items[item.left]));
+        roots.push_back(operation == Operation::sqrt ? model_.graph->number(0.5)
+                                                     : part.expression(part.items[item.right]));
+    }
+    return roots;
+}
+
 void CompiledModel::compile_modes(std::span<const Expression> observed) {
     const auto states = model_.state_symbols();
     const auto parameters = model_.parameter_symbols();
@@ -72,6 +89,7 @@ void CompiledModel::compile_modes(std::span<const Expression> observed) {
         compiled.has_roots = std::any_of(compiled.tape.code.begin(), compiled.tape.code.end(), [](const auto& one) {
             return one.operation == SeriesOperation::sqrt || one.operation == SeriesOperation::power_constant;
         });
+        compiled.roots = function_of(roots_in(mode.rates));
         modes_.push_back(std::move(compiled));
     }
 }

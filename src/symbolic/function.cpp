@@ -1,6 +1,7 @@
 #include "graze/symbolic/function.hpp"
 
 #include "symbolic/evaluate.hpp"
+#include "symbolic/operation_error.hpp"
 #include "symbolic/subgraph.hpp"
 
 #include <algorithm>
@@ -53,6 +54,25 @@ void Function::evaluate(std::span<const double> inputs, std::span<double> result
         work[step.result] = evaluate_operation(step.operation, work[step.left], work[step.right]);
     for (std::size_t output = 0; output < outputs_.size(); ++output)
         results[output] = work[outputs_[output]];
+}
+
+void Function::error_bounds(std::span<const double> inputs, std::span<const double> errors, std::span<double> bounds,
+                            std::span<double> work) const {
+    const std::span<double> values = work.first(slots_), uncertain = work.subspan(slots_, slots_);
+    std::copy_n(inputs.begin(), inputs_, values.begin());
+    std::copy_n(errors.begin(), inputs_, uncertain.begin());
+    for (const auto& [slot, value] : numbers_) {
+        values[slot] = value;
+        uncertain[slot] = 0;
+    }
+    for (const Step& step : steps_) {
+        const double left = values[step.left], right = values[step.right];
+        values[step.result] = evaluate_operation(step.operation, left, right);
+        uncertain[step.result] = operation_error(step.operation, values[step.result], left, uncertain[step.left], right,
+                                                 uncertain[step.right]);
+    }
+    for (std::size_t output = 0; output < outputs_.size(); ++output)
+        bounds[output] = uncertain[outputs_[output]];
 }
 
 std::vector<double> Function::operator()(std::span<const double> inputs) const {

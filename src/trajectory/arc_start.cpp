@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace graze {
 
@@ -17,6 +18,11 @@ namespace {
 /// A jump that keeps the motion at the surface leaves the event function at round-off, which the sizes of the
 /// terms of the function and of the jump may magnify.
 constexpr double served_roundoff = 1e-10;
+
+/// What a state is known to, relative to its own size, after the few operations that made it.
+constexpr double state_roundoff = 16 * std::numeric_limits<double>::epsilon();
+/// No more than this share of the size of an event's function is ever put down to errors.
+constexpr double most_uncertain = 1e-3;
 
 /// What rests on a surface and is released when the force that presses it there reaches zero has a force at round-off
 /// left, of either sign, and perhaps a speed. They decide nothing if they are outgrown within these shares of a full
@@ -28,11 +34,17 @@ constexpr double instant_of_speed = 1e-13, instant_of_force = 1e-9;
 void Trajectory::begin_arc(double step) {
     announce_contact();
     arc_start_ = false;
+    branch_ahead_ = states_;
     probes_->begin_arc();
     const auto& mode = simulation_->compiled().mode(mode_);
     for (std::size_t w = 0; w < mode.watched.size(); ++w)
         if (!classify(w, step))
             return;
+    for (Hold& hold : holds_)
+        hold.carried = hold.on;
+    for (const std::size_t event : mode.watched) {
+        holds_[event] = {};
+    }
     served_ = no_event;
     stuck_ = false;
     together_.clear();
@@ -51,11 +63,21 @@ bool Trajectory::classify(std::size_t w, double step) {
     Watch& watch = watches_[w];
     watch = {};
     weigh_terms(w);
+    EventSize& sizes = event_sizes_[event];
+    sizes.of_arc = sizes.rate = 0;
+    sizes.terms = terms_[0];
+    sizes.left_surface = false;
     double at_surface = roundoff * std::max(size, terms_[0]);
     if (served || due)
         at_surface = std::max(at_surface, served_roundoff * size + 2 * std::abs(surface_values_[event]));
     else if (c[0] > 0) // no contact put it there: as far from the surface as its own terms can tell
         at_surface = roundoff * terms_[0];
+    double drifted = 0;
+    if (c[0] < -at_surface) { // beyond the surface, or only so far as nobody can tell
+        at_surface = std::max(at_surface, uncertainty_at_start(w, size));
+        if (c[0] < -at_surface)
+            at_surface = drifted = drift(event, std::max(size, terms_[0]));
+    }
     if (std::abs(c[0]) > at_surface) {
         watch.side = c[0] > 0 ? 1 : -1;
         if (watch.side > 0 || definition.kind == EventKind::section)
@@ -71,14 +93,15 @@ bool Trajectory::classify(std::size_t w, double step) {
                         definition.name, c[0], where()));
         return false;
     }
-    const std::size_t leading = leading_coefficient(w, step);
+    sizes.left_surface = true;
+    const std::size_t leading = leading_coefficient(w, step, drifted);
     if (leading == 0)
         return true; // moves along the surface: nothing to watch until it leaves
     watch.side = c[leading] > 0 ? 1 : -1;
     watch.strip = static_cast<int>(leading);
     if (watch.side > 0)
         return !(served && leading == 1) || !complete_chatter(w, step);
-    if (definition.kind == EventKind::section && (served || !due))
+    if (definition.kind == EventKind::section && (served || (!due && (leading > 1 || fell_before(w, at_surface)))))
         return true;
     if (!served) {
         make_contact(w, 0);
@@ -93,6 +116,70 @@ bool Trajectory::classify(std::size_t w, double step) {
     }
     stick(w, mode.transitions[w], 0, 0);
     return false;
+}
+
+/// How far from zero a watched event's function may be at the start of an arc although the state is meant to be on its
+/// surface: what evaluating it rounds, and what the state itself is uncertain by, from the jump that made it.
+double Trajectory::uncertainty_at_start(std::size_t w, double size) {
+    const CompiledModel& compiled = simulation_->compiled();
+    std::fill(uncertain_.begin(), uncertain_.end(), 0.0);
+    const bool jumped = served_ != no_event || stuck_;
+    for (std::size_t j = states_; j < inputs_.size(); ++j)
+        uncertain_[j] = state_roundoff * std::abs(inputs_[j]);
+    values_.resize(std::max(states_, compiled.mode(mode_).events.outputs()));
+    if (jumped) {
+        for (std::size_t i = 0; i < states_; ++i)
+            uncertain_[i] = state_roundoff * std::abs(before_[i]);
+        std::copy(before_.begin(), before_.end(), inputs_.begin());
+        compiled.jump(last_jump_).map.error_bounds(inputs_, uncertain_, values_, work_);
+    }
+    for (std::size_t i = 0; i < states_; ++i)
+        uncertain_[i] = std::max(state_roundoff * std::abs(state_[i]), jumped ? values_[i] : 0);
+    std::copy(state_.begin(), state_.end(), inputs_.begin());
+    compiled.mode(mode_).events.error_bounds(inputs_, uncertain_, values_, work_);
+    // An uncertainty of the size of the function itself would excuse anything.
+    return std::isfinite(values_[w]) ? std::min(values_[w], most_uncertain * size) : 0;
+}
+
+/// A motion that was left on a surface and is carried along it by a mode that does not watch it, as something at rest
+/// on a table, is found on it again to within the error of the steps made since.
+double Trajectory::drift(std::size_t event, double size) const {
+    const Hold& hold = holds_[event];
+    if (!hold.carried)
+        return 0;
+    const double steps = static_cast<double>(steps_ - hold.since + 1);
+    return std::min(steps * simulation_->options().tolerance, most_uncertain) * std::max(size, hold.size);
+}
+
+/// Remembers the surfaces on which the state is at s: that of a contact, and those that it shares.
+void Trajectory::hold_surfaces(std::size_t watched, double s) {
+    const auto& mode = simulation_->compiled().mode(mode_);
+    for (std::size_t w = 0; w < mode.watched.size(); ++w) {
+        const auto c = event_series(w);
+        const double size = series_size(c, std::max(s, previous_step_));
+        if (w == watched || std::abs(evaluate_polynomial(c, s)) <= served_roundoff * size)
+            holds_[mode.watched[w]] = {true, false, steps_, size};
+    }
+}
+
+/// Whether a section's function, zero at the start of an arc, was falling through zero already before the contact with
+/// which the arc begins: then that was one fall, which is not served again. At the start of a trajectory a section
+/// that falls has been passed, too.
+bool Trajectory::fell_before(std::size_t w, double at_surface) {
+    if (served_ == no_event && !stuck_)
+        return true;
+    const auto& mode = simulation_->compiled().mode(mode_);
+    std::copy(before_.begin(), before_.end(), inputs_.begin());
+    values_.resize(std::max(mode.events.outputs(), mode.event_gradients.outputs()));
+    mode.events.evaluate(inputs_, values_, work_);
+    if (!(std::abs(values_[w]) <= 2 * at_surface))
+        return false; // the jump has put it there
+    mode.event_gradients.evaluate(inputs_, values_, work_);
+    double rate = 0;
+    for (std::size_t i = 0; i < states_; ++i)
+        if (const double slope = values_[w * states_ + i]; slope != 0)
+            rate += slope * fields_[i];
+    return rate < 0;
 }
 
 /// Sums, for each coefficient of a watched event function, the sizes of what the states contribute to it. What cancels
@@ -111,9 +198,10 @@ void Trajectory::weigh_terms(std::size_t w) {
 
 /// The first coefficient after the zeroth that round-off cannot explain, which decides the sign just after the start
 /// of an arc; 0 if there is none. Call after weigh_terms.
-std::size_t Trajectory::leading_coefficient(std::size_t w, double step) {
+/// @param drift how far the motion may have drifted from a surface along which it was carried
+std::size_t Trajectory::leading_coefficient(std::size_t w, double step, double drift) {
     const auto c = event_series(w);
-    const double noise = roundoff * series_size(c, step);
+    const double noise = std::max(roundoff * series_size(c, step), drift);
     double power = 1;
     for (std::size_t k = 1; k < c.size(); ++k) {
         power *= step;

@@ -110,6 +110,7 @@ void Trajectory::stick(std::size_t w, std::size_t index, double remaining, doubl
         fields_[i] = series(i)[1];
         before_[i] = state_[i] + remaining * fields_[i] + (periods_[i] > 0 ? 0 : kick);
     }
+    hold_surfaces(w, 0);
     add_time(remaining);
     come_to_rest(event, index, c[1]);
 }

@@ -26,12 +26,13 @@ void Trajectory::make_contact(std::size_t w, double s) {
     if (tangents_) {
         row_.resize(tangents_->directions());
         tangents_->advance(mode_, state_, s, w, row_);
-        if (std::abs(rate) * previous_step_ <= roundoff * series_size(event_series(w), previous_step_))
+        if (is_grazing(w, s, rate))
             tangents_->invalidate();
         else
             for (double& shift : row_)
                 shift /= -rate;
     }
+    hold_surfaces(w, s);
     add_time(s);
     remember_contact(event, rate);
     histories_[event].transition = transition;
@@ -106,6 +107,7 @@ std::optional<std::size_t> Trajectory::next_mode(std::size_t transition, bool& e
 /// `row_` says.
 void Trajectory::enter(std::size_t jump, std::size_t mode) {
     const CompiledModel& compiled = simulation_->compiled();
+    last_jump_ = jump;
     if (tangents_) {
         jacobian_.resize(states_ * (states_ + parameters_.size()));
         std::copy(before_.begin(), before_.end(), inputs_.begin());

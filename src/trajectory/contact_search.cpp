@@ -5,6 +5,7 @@
 #include "trajectory/series.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,11 +17,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// How far round-off may have moved a root at s. Only what lies as close is simultaneous, which near the end of an
 /// accumulation is far less than the resolution of time.
-double root_uncertainty(std::span<const double> c, double s, double step) {
-    constexpr double epsilon = std::numeric_limits<double>::epsilon();
+/// @param left_behind what the function was at the start of an arc that began on its surface
+double root_uncertainty(std::span<const double> c, double s, double step, double left_behind) {
+    constexpr double epsilon = std::numeric_limits<double>::epsilon(), most_of_flight = 1e-6;
     const double uncertain_value = 4 * epsilon * series_size(c, s), rate = std::abs(evaluate_derivative(c, s));
     const double most = 8 * epsilon * step;
-    return uncertain_value < most * rate ? uncertain_value / rate : most;
+    const double by_start = left_behind > 0 ? std::min(left_behind / rate, most_of_flight * s) : 0;
+    return (uncertain_value < most * rate ? uncertain_value / rate : most) + by_start;
 }
 
 } // namespace
@@ -38,13 +41,15 @@ std::size_t Trajectory::find_contact(double& step, const Outlook& outlook, std::
         if (watch.side == 0)
             continue;
         const std::size_t event = mode.watched[w];
+        note_size(w);
         if (looked_ahead && first == no_event && watch.side > 0 && watch.strip == 0 &&
-            outlook.least(w, lane) > touch_distance(event, outlook.size(w, lane)))
+            outlook.least(w, lane) > std::max(touch_distance(event, outlook.size(w, lane)), least_touch(event)))
             continue;
         Root root{};
-        if (!find_fall(w, whole, std::min(whole, step + uncertain), root))
+        if (!find_fall(w, std::min(whole, step + uncertain), root))
             continue;
-        const double uncertain_too = root_uncertainty(shifted_series(w), root.at, whole);
+        const double uncertain_too =
+            root_uncertainty(shifted_series(w), root.at, whole, watch.strip == 1 ? std::abs(event_series(w)[0]) : 0);
         if (first != no_event && root.at >= step - (uncertain + uncertain_too)) {
             together_.push_back(event); // the search ended just behind the first
             continue;
@@ -54,11 +59,31 @@ std::size_t Trajectory::find_contact(double& step, const Outlook& outlook, std::
         first = w;
         step = root.at;
     }
+    if (first != no_event && step + uncertain >= whole)
+        look_beyond(first, step, uncertain);
     if (first != no_event && step > 0)
         step = std::min(on_surface(first, step), whole);
     std::stable_sort(touches_.begin(), touches_.end(),
                      [](const Touch& a, const Touch& b) { return a.root.at < b.root.at; });
     return first;
+}
+
+/// A contact at the end of a step has those at its time which round-off has put just behind.
+/// @param first may become one that comes before in the order of the mode
+void Trajectory::look_beyond(std::size_t& first, double step, double uncertain) {
+    const auto& watched = simulation_->compiled().mode(mode_).watched;
+    for (std::size_t w = 0; w < watched.size(); ++w) {
+        if (w == first || watches_[w].side <= 0 ||
+            std::find(together_.begin(), together_.end(), watched[w]) != together_.end())
+            continue;
+        const auto c = shifted_series(w);
+        const double reach = uncertain + root_uncertainty(c, step, step, 0);
+        const double value = evaluate_polynomial(c, step), rate = evaluate_derivative(c, step);
+        if (!(value > 0 && value + reach * rate <= 0))
+            continue;
+        together_.push_back(watched[w < first ? first : w]);
+        first = std::min(first, w);
+    }
 }
 
 /// The series of a watched event, without the factors that are zero at the start of an arc (but for one).
@@ -67,9 +92,9 @@ std::span<const double> Trajectory::shifted_series(std::size_t w) {
     return watches_[w].strip > 0 ? c.subspan(static_cast<std::size_t>(watches_[w].strip) - 1) : c;
 }
 
-/// Where a watched event's function first falls through zero within `length`, of a step of length `whole`. Notes the
+/// Where a watched event's function first falls through zero within `length`. Notes the
 /// touches before.
-bool Trajectory::find_fall(std::size_t w, double whole, double length, Root& root) {
+bool Trajectory::find_fall(std::size_t w, double length, Root& root) {
     const std::size_t event = simulation_->compiled().mode(mode_).watched[w];
     const Watch& watch = watches_[w];
     const auto c = shifted_series(w);
@@ -83,25 +108,87 @@ bool Trajectory::find_fall(std::size_t w, double whole, double length, Root& roo
     }
     const RootFinder::Enclosure enclosure = RootFinder::enclosure(c, length, start);
     // A deflated polynomial is a rate: its size is none of the function's.
-    const bool whole_function = start == RootStart::as_is && !(whole < previous_step_);
-    const double touch = touch_distance(
-        event, whole_function ? enclosure.size : series_size(event_series(w), std::max(length, previous_step_)));
+    const double size = start == RootStart::as_is ? enclosure.size : series_size(event_series(w), length);
+    const double touch = std::max({touch_distance(event, size), roundoff * size, least_touch(event)});
     // The deflated polynomial is positive where the polynomial itself may be as small as a touch.
     if (watch.side > 0 && enclosure.least > (start == RootStart::as_is ? touch : infinity))
         return false;
     found_touches_.clear();
     const bool found = roots_.first_falling(c, length, start, root, touch, &found_touches_);
-    if (simulation_->model().events[event].kind == EventKind::barrier && watch.strip <= 1)
-        for (const Root& found_touch : found_touches_)
-            touches_.push_back({w, found_touch});
+    if (watch.strip <= 1)
+        keep_touches(w, c);
     return found;
 }
 
-/// How close to zero a minimum is a touch. The size of an event's function is the greatest that its series has had.
-double Trajectory::touch_distance(std::size_t event, double size) {
+/// Of the minima that may be touches those that are: enclosures have overrated how large the function is.
+void Trajectory::keep_touches(std::size_t w, std::span<const double> c) {
+    const std::size_t event = simulation_->compiled().mode(mode_).watched[w];
+    const bool barrier = simulation_->model().events[event].kind == EventKind::barrier;
+    for (const Root& touch : found_touches_) {
+        double largest = 0;
+        constexpr int samples = 16;
+        for (int i = 0; i < samples; ++i)
+            largest = std::max(largest, std::abs(evaluate_polynomial(c, touch.at * i / samples)));
+        const bool grazing = touch.value <= roundoff * series_size(c, touch.at);
+        const bool close = touch.value <= touch_distance(event, largest) ||
+                           touch.value <= std::max(2 * RootFinder::resolution(c, touch.at), least_touch(event));
+        if ((barrier && close) || grazing)
+            touches_.push_back({w, touch, grazing});
+    }
+}
+
+/// Keeps account of the size of a watched event's function, from one step of an arc to the next: a maximum between them
+/// is where the polynomial of degree 5 has it that agrees with value, slope and curvature at both.
+void Trajectory::note_size(std::size_t w) {
+    EventSize& size = event_sizes_[simulation_->compiled().mode(mode_).watched[w]];
+    const Series& c = series_[states_ + w];
+    const double value = c[0], rate = c[1], length = time_ - size.time;
+    size.of_arc = std::max(size.of_arc, std::abs(value));
+    if (size.rate * rate < 0 && std::abs(size.value) + std::abs(size.rate) * length > size.largest) {
+        const double a = size.rate * length, b = size.half_second * length * length;
+        const double rise = value - size.value - a - b, slope = rate * length - a - 2 * b,
+                     bend = c[2] * length * length - b;
+        const std::array<double, 6> quintic{size.value,
+                                            a,
+                                            b,
+                                            10 * rise - 4 * slope + bend,
+                                            -15 * rise + 7 * slope - 2 * bend,
+                                            6 * rise - 3 * slope + bend};
+        constexpr int samples = 16;
+        for (int i = 1; i < samples; ++i)
+            size.largest = std::max(size.largest, std::abs(evaluate_polynomial(quintic, i / double(samples))));
+    }
+    size.largest = std::max(size.largest, std::abs(value));
+    size.time = time_;
+    size.value = value;
+    size.rate = rate;
+    size.half_second = c[2];
+}
+
+/// How close to zero a minimum is a touch, of a function that is now of this size.
+double Trajectory::touch_distance(std::size_t event, double size) const {
     const SimulationOptions& options = simulation_->options();
-    event_sizes_[event] = std::max(event_sizes_[event], size);
-    return options.touch > 0 ? options.touch : 100 * options.tolerance * event_sizes_[event];
+    return options.touch > 0 ? options.touch : 100 * options.tolerance * std::max(event_sizes_[event].largest, size);
+}
+
+/// What cannot be told from zero, because of what cancels in an event's function, is a touch in any case.
+double Trajectory::least_touch(std::size_t event) const {
+    return 4 * std::numeric_limits<double>::epsilon() * event_sizes_[event].terms;
+}
+
+/// Whether a contact at s is one without speed, to within round-off: the motion would go no deeper beyond the surface
+/// than nobody can tell. Derivatives do not exist there.
+bool Trajectory::is_grazing(std::size_t w, double s, double rate) {
+    const auto c = event_series(w);
+    if (std::abs(rate) * previous_step_ <= roundoff * series_size(c, previous_step_))
+        return true;
+    // A flight that leaves the surface and comes back is known relative to its own height.
+    const EventSize& sizes = event_sizes_[simulation_->compiled().mode(mode_).watched[w]];
+    const double noise = roundoff * std::max({sizes.of_arc, series_size(c, s), sizes.left_surface ? 0 : sizes.terms});
+    double second = 0;
+    for (std::size_t k = c.size(); k-- > 2;)
+        second = second * s + static_cast<double>(k * (k - 1)) * c[k];
+    return rate * rate <= 2 * std::abs(second) * noise;
 }
 
 /// Moves a root of the event polynomial onto the surface itself, from which the truncation of the polynomials of

@@ -4,6 +4,7 @@
 
 #include "trajectory/probe_tracker.hpp"
 #include "trajectory/series.hpp"
+#include "trajectory/tangents.hpp"
 
 #include <cmath>
 #include <limits>
@@ -66,6 +67,10 @@ void Trajectory::report_touches(double length) {
     const auto& mode = simulation_->compiled().mode(mode_);
     for (const Touch& touch : touches_) {
         if (touch.root.at > length)
+            continue;
+        if (touch.grazing && tangents_)
+            tangents_->invalidate();
+        if (simulation_->model().events[mode.watched[touch.watched]].kind == EventKind::section)
             continue;
         Contact contact;
         contact.kind = ContactKind::touch;

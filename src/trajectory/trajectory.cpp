@@ -28,7 +28,7 @@ Trajectory::Trajectory(const Simulation& simulation, std::span<const double> par
     before_.resize(states_);
     after_.resize(states_);
     inputs_.resize(states_ + parameters_.size());
-    work_.resize(compiled.workspace() + simulation.phase_values().workspace());
+    work_.resize(2 * compiled.workspace() + simulation.phase_values().workspace());
     std::copy(parameters_.begin(), parameters_.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
     series_.resize(states_ + most_watched + compiled.observed());
     watches_.resize(most_watched);
@@ -36,6 +36,8 @@ Trajectory::Trajectory(const Simulation& simulation, std::span<const double> par
     histories_.resize(compiled.model().events.size());
     event_sizes_.resize(histories_.size());
     surface_values_.resize(histories_.size());
+    holds_.resize(histories_.size());
+    uncertain_.resize(inputs_.size());
     periods_.resize(states_);
     compiled.periods().evaluate(parameters_, periods_, work_);
     std::vector<double> phase_values(simulation.probes().size());
@@ -76,6 +78,7 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     end_time_ = end_time;
     previous_step_ = largest_step_ = 0;
     arc_start_ = true;
+    branch_ahead_ = states_;
     stuck_ = false;
     served_ = no_event;
     stop_after_contact_ = false;
@@ -83,8 +86,9 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     together_.clear();
     touches_.clear();
     std::fill(histories_.begin(), histories_.end(), ContactHistory{});
-    std::fill(event_sizes_.begin(), event_sizes_.end(), 0.0);
+    std::fill(event_sizes_.begin(), event_sizes_.end(), EventSize{});
     std::fill(surface_values_.begin(), surface_values_.end(), 0.0);
+    std::fill(holds_.begin(), holds_.end(), Hold{});
     contacts_ = 0;
     contacts_now_ = 0;
     tangents_.reset();
@@ -106,6 +110,10 @@ void Trajectory::carry_tangents(std::span<const double> seeds, std::size_t direc
     if (seeds.size() != directions * (states_ + parameters_.size()))
         throw InputError("the directions of derivatives do not fit the model",
                          fmt::format("give {} numbers for each", states_ + parameters_.size()));
+    for (std::size_t k = 0; k < seeds.size(); ++k)
+        if (!std::isfinite(seeds[k]))
+            throw InputError(fmt::format("a direction of derivatives has the component {}", seeds[k]),
+                             "give finite numbers");
     tangents_ = std::make_unique<Tangents>(*simulation_, parameters_, seeds, directions);
 }
 
@@ -159,7 +167,11 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
     if (proposed_ < 32 * epsilon * std::max(time_ - start_time_, largest_step_)) {
         announce_contact();
-        return finish(Ending::singular, time_ + step_size_.radius(std::span(series_).first(states_)));
+        if (branch_ahead_ < states_)
+            return finish_at_branch(branch_ahead_);
+        // Where a series has only a few terms its last ones are round-off, and their ratio is no radius.
+        const double radius = step_size_.radius(std::span(series_).first(states_));
+        return finish(Ending::singular, time_ + std::min(radius, 16 * proposed_));
     }
     previous_step_ = proposed_;
     double step = proposed_;
@@ -279,58 +291,6 @@ void Trajectory::finish(Ending ending, double time, std::string detail) {
 
 std::string Trajectory::where() const {
     return fmt::format("in mode '{}' at time {:.15g}", simulation_->model().modes[mode_].name, time_);
-}
-
-/// A state whose rate the series do not follow at s; the number of states if there is none.
-std::size_t Trajectory::jumping_rate(double s, double length) {
-    for (std::size_t i = 0; i < states_; ++i)
-        inputs_[i] = evaluate_state(i, s);
-    values_.resize(states_);
-    simulation_->compiled().mode(mode_).rates.evaluate(inputs_, values_, work_);
-    const double share = std::max(1e-6, 1000 * simulation_->options().tolerance) / length;
-    for (std::size_t i = 0; i < states_; ++i) {
-        const double foreseen = evaluate_derivative(series(i), s), difference = std::abs(values_[i] - foreseen);
-        if (difference > 0.5 * (std::abs(values_[i]) + std::abs(foreseen)) &&
-            difference > share * series_size(series(i), length) && !is_roundoff(i, difference))
-            return i;
-    }
-    return states_;
-}
-
-/// Whether a rate differs from its series where the step begins as well, by nothing but round-off: of that a rate may
-/// consist altogether, as that of an antisymmetric mode of a beam at rest.
-bool Trajectory::is_roundoff(std::size_t state, double difference) {
-    constexpr double most = 1e4;
-    std::vector<double> rates(states_);
-    for (std::size_t i = 0; i < states_; ++i)
-        inputs_[i] = evaluate_state(i, 0);
-    simulation_->compiled().mode(mode_).rates.evaluate(inputs_, rates, work_);
-    return difference <= most * std::abs(rates[state] - evaluate_derivative(series(state), 0));
-}
-
-/// Where what is under a root has a double zero, series lead through it onto the other branch of the root, with no sign
-/// of it but that the rates found behind are others. (x' = -sqrt(x) has the solution (1 - t/2)^2 only until t = 2.)
-/// Ends the step there, before anything of what lies behind is seen. Returns the state whose rate jumps.
-std::size_t Trajectory::limit_to_branch(double& step) {
-    if (!simulation_->compiled().mode(mode_).has_roots || !(step > 0))
-        return states_;
-    const double whole = step;
-    const std::size_t jumping = jumping_rate(whole, whole);
-    if (jumping == states_)
-        return states_;
-    double low = 0, high = whole;
-    for (double middle = 0.5 * high; middle > low && middle < high; middle = 0.5 * (low + high))
-        (jumping_rate(middle, whole) == states_ ? low : high) = middle;
-    step = low;
-    return jumping;
-}
-
-void Trajectory::finish_at_branch(std::size_t state) {
-    finish(
-        Ending::undefined, time_,
-        fmt::format("the rate of state '{}' jumps {}: what stands under a root or a power reaches zero; end the mode "
-                    "by an event before it does",
-                    simulation_->model().states[state].name, where()));
 }
 
 void Trajectory::finish_undefined() {

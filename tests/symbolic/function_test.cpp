@@ -29,6 +29,48 @@ TEST_F(FunctionTest, EvaluatesEveryOperation) {
     EXPECT_EQ(function(std::vector{a, b}), expected);
 }
 
+TEST_F(FunctionTest, ErrorBoundsHoldAndAreNotMuchLarger) {
+    const std::vector<Expression> outputs{x + y - x,       (x + 1e6) - (y + 1e6),
+                                          x * y - 2 * x,   x / y,
+                                          pow(x, y),       sqrt(x),
+                                          exp(x) - exp(y), log(x + y),
+                                          sin(x),          cos(y),
+                                          tan(x),          asin(x / 2),
+                                          acos(x / 2),     atan(y),
+                                          sinh(x),         cosh(y),
+                                          tanh(x)};
+    const Function function(std::vector{x, y}, outputs);
+    std::vector<double> bounds(outputs.size()), work(2 * function.workspace());
+    for (const double a : {1e-3, 0.3, 1.3}) {
+        const double b = 1.7, error = 1e-9;
+        const std::vector<double> at{a, b};
+        function.error_bounds(at, std::vector{error, error}, bounds, work);
+        std::vector<double> worst(outputs.size());
+        const auto values = function(at);
+        for (const double da : {-error, error})
+            for (const double db : {-error, error}) {
+                const auto moved = function(std::vector{a + da, b + db});
+                for (std::size_t i = 0; i < worst.size(); ++i)
+                    worst[i] = std::max(worst[i], std::abs(moved[i] - values[i]));
+            }
+        for (std::size_t i = 0; i < worst.size(); ++i) {
+            EXPECT_GE(bounds[i], worst[i] * (1 - 1e-5)) << i;
+            EXPECT_LE(bounds[i], 10 * worst[i] + 1e-14) << i;
+        }
+    }
+    // Without errors of the inputs, what is left is round-off: also that of terms which cancel.
+    function.error_bounds(std::vector{0.3, 1.7}, std::vector{0.0, 0.0}, bounds, work);
+    EXPECT_GT(bounds[1], 1e6 * 1e-16);
+    EXPECT_LT(bounds[1], 1e6 * 1e-15);
+    EXPECT_LT(bounds[3], 1e-15);
+    // At the end of an operation's domain there is a bound all the same.
+    const Function ends(std::vector{x, y}, std::vector{sqrt(x), asin(y)});
+    std::vector<double> two(2), room(2 * ends.workspace());
+    ends.error_bounds(std::vector{0.0, 1.0}, std::vector{1e-16, 1e-16}, two, room);
+    EXPECT_LT(two[0], 1e-7);
+    EXPECT_LT(two[1], 1e-7);
+}
+
 TEST_F(FunctionTest, OutputsMayBeInputsNumbersOrRepeated) {
     const Function function(std::vector{x, y}, std::vector{y, graph->number(4), x, y, x * y});
     EXPECT_EQ(function(std::vector{2.0, 3.0}), (std::vector{3.0, 4.0, 2.0, 3.0, 6.0}));

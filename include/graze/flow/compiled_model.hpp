@@ -30,6 +30,7 @@ public:
         std::vector<std::size_t> watched;
         std::vector<std::size_t> transitions; ///< of each watched event
         bool has_roots = false;               ///< sqrt or powers that are not whole, which have two branches at zero
+        Function roots;                       ///< of those in the rates: what stands under one, and the exponent
     };
     struct CompiledJump {
         bool identity = false;
@@ -66,6 +67,7 @@ private:
     void compile_jumps();
     void compile_transitions();
     Function function_of(std::span<const Expression> outputs);
+    std::vector<Expression> roots_in(std::span<const Expression> expressions) const;
     std::vector<Expression> derivatives(std::span<const Expression> functions,
                                         std::span<const Expression> variables) const;
 

@@ -28,6 +28,14 @@ public:
     /// @param results as many as outputs(); may be the same memory as the inputs
     /// @param work    at least workspace(); its contents afterwards are unspecified
     void evaluate(std::span<const double> inputs, std::span<double> results, std::span<double> work) const;
+    /// How far results may be from those of exact arithmetic, to first order: each operation rounds, and passes on
+    /// what its operands are uncertain by. What cancels in a result does not hide there. Infinite or NaN where a
+    /// result is.
+    /// @param errors of the inputs, absolute, as many as inputs()
+    /// @param bounds as many as outputs()
+    /// @param work   at least 2 workspace()
+    void error_bounds(std::span<const double> inputs, std::span<const double> errors, std::span<double> bounds,
+                      std::span<double> work) const;
     /// Convenience that allocates.
     std::vector<double> operator()(std::span<const double> inputs) const;
 

@@ -73,6 +73,16 @@ private:
     struct Touch {
         std::size_t watched;
         Root root;
+        bool grazing; ///< zero to within round-off: neighbours meet the surface, or do not
+    };
+    /// How large an event's function has been.
+    struct EventSize {
+        double largest = 0;        ///< so far
+        double of_arc = 0;         ///< at the beginnings of steps since the last contact
+        double terms = 0;          ///< of what cancels in it, where the arc began
+        bool left_surface = false; ///< the arc began on its surface
+        /// The function and its rates at the beginning of the last step of the arc.
+        double time = 0, value = 0, rate = 0, half_second = 0;
     };
     /// The last contacts at one event, for telling when they accumulate.
     struct ContactHistory {
@@ -86,6 +96,13 @@ private:
         double speed = 0;           ///< of separation after the last
         double previous_speed = 0;  ///< and after the one before
     };
+    /// A surface on which the motion was left by a contact, for as long as no mode watches it.
+    struct Hold {
+        bool on = false;
+        bool carried = false;  ///< by a mode that does not watch it
+        std::size_t since = 0; ///< steps made before
+        double size = 0;       ///< of the event's function at the contact
+    };
     static constexpr std::size_t no_event = static_cast<std::size_t>(-1);
 
     // One step (trajectory.cpp)
@@ -94,13 +111,15 @@ private:
     void wrap_cyclic_states(bool snap);
     void reduce_cyclic_states(std::span<double> state) const;
     void add_time(double step);
-    std::size_t jumping_rate(double s, double length);
-    bool is_roundoff(std::size_t state, double difference);
-    std::size_t limit_to_branch(double& step);
-    void finish_at_branch(std::size_t state);
     void finish(Ending ending, double time, std::string detail = {});
     void finish_undefined();
     std::string where() const;
+    // Roots of what falls to zero (branch_point.cpp)
+    std::size_t jumping_rate(double s, double share);
+    bool is_roundoff(std::size_t state, double difference);
+    bool root_vanishes(double s);
+    std::size_t limit_to_branch(double& step);
+    void finish_at_branch(std::size_t state);
     // What the observer is told of it (report.cpp)
     bool make_step(double& length);
     void report_passage(std::size_t probe, double at, int direction, bool at_contact);
@@ -108,9 +127,14 @@ private:
     void report_minima(double step);
     // The contact that comes first in it (contact_search.cpp)
     std::size_t find_contact(double& step, const Outlook& outlook, std::size_t lane);
-    bool find_fall(std::size_t watched, double whole, double length, Root& root);
+    void look_beyond(std::size_t& first, double step, double uncertain);
+    bool find_fall(std::size_t watched, double length, Root& root);
     std::span<const double> shifted_series(std::size_t watched);
-    double touch_distance(std::size_t event, double size);
+    void note_size(std::size_t watched);
+    double touch_distance(std::size_t event, double size) const;
+    double least_touch(std::size_t event) const;
+    void keep_touches(std::size_t watched, std::span<const double> c);
+    bool is_grazing(std::size_t watched, double s, double rate);
     double on_surface(std::size_t watched, double s);
     void update_sides(double length);
     // Transitions (contact.cpp)
@@ -124,8 +148,12 @@ private:
     // The start of an arc (arc_start.cpp)
     void begin_arc(double step);
     bool classify(std::size_t watched, double step);
+    double uncertainty_at_start(std::size_t watched, double size);
+    double drift(std::size_t event, double size) const;
+    bool fell_before(std::size_t watched, double at_surface);
+    void hold_surfaces(std::size_t watched, double s);
     void weigh_terms(std::size_t watched);
-    std::size_t leading_coefficient(std::size_t watched, double step);
+    std::size_t leading_coefficient(std::size_t watched, double step, double drift);
     // Accumulations of contacts (chatter.cpp)
     void remember_contact(std::size_t event, double rate);
     bool complete_chatter(std::size_t watched, double step);
@@ -159,8 +187,10 @@ private:
     std::vector<Watch> watches_;
     std::vector<Touch> touches_;
     std::vector<Root> found_touches_;
-    std::vector<double> event_sizes_;    ///< largest size of each event's function so far, by which touches are judged
+    std::vector<EventSize> event_sizes_; ///< of each event's function, by which touches are judged
     std::vector<double> surface_values_; ///< of each event's function at the last contact, whichever event's it was
+    std::vector<Hold> holds_;            ///< for each event
+    std::vector<double> uncertain_;      ///< errors of the inputs of functions
     std::vector<std::size_t> together_;  ///< events at the time of the last contact, still to be served
 
     Outcome outcome_;
@@ -171,6 +201,8 @@ private:
     bool arc_start_ = true, stuck_ = false; ///< stuck: the arc begins where contacts have accumulated
     double proposed_ = 0;                   ///< step by the series alone
     std::size_t served_ = no_event;         ///< event of the contact at which the present arc began
+    std::size_t branch_ahead_ = 0;          ///< state whose rate jumps where the arc must end; their number if none
+    std::size_t last_jump_ = 0;             ///< that led to the present arc, unless it is the first
     std::optional<Contact> pending_;        ///< contact still to be announced, when the next jet is known
     std::vector<ContactHistory> histories_; ///< for each event
     std::size_t contacts_ = 0;

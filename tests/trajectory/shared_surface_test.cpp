@@ -1,0 +1,134 @@
+// Several events on one surface: relays without hysteresis, pulses, sections where a barrier is.
+
+#include "closed_form.hpp"
+#include "simulate.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace graze;
+using namespace graze::testing;
+
+namespace {
+
+std::string transition(const std::string& mode, const std::string& event, const std::string& next,
+                       const std::string& jump = "identity") {
+    return fmt::format("[[transitions]]\nmode = \"{}\"\nevent = \"{}\"\nnext = \"{}\"\njump = \"{}\"\n", mode, event,
+                       next, jump);
+}
+
+/// u = +1 or -1 as the relay has it; `force` is what drives it.
+Model relay(const std::string& kind, const std::string& states, const std::string& plus, const std::string& minus) {
+    return model_from(fmt::format("name = \"relay\"\nparameters = {{ width = 0, scale = 1 }}\nstates = {{ {} }}\n"
+                                  "[events]\n"
+                                  "off = {{ function = \"width - x\", kind = \"{}\" }}\n"
+                                  "on = {{ function = \"scale*(x + width)\", kind = \"{}\" }}\n"
+                                  "[modes]\nplus = {{ rates = {{ {} }}, watch = [\"off\"] }}\n"
+                                  "minus = {{ rates = {{ {} }}, watch = [\"on\"] }}\n[initial]\nmode = \"plus\"\n",
+                                  states, kind, kind, plus, minus) +
+                      transition("plus", "off", "minus") + transition("minus", "on", "plus"));
+}
+
+} // namespace
+
+TEST(SharedSurface, AnIdealRelayThatHasNowhereToGoMakesNoProgress) {
+    Random random(51);
+    for (int i = 0; i < 200; ++i) {
+        const std::string kind = random.chance(0.5) ? "section" : "barrier";
+        Model model = relay(kind, "x = -1", "x = \"scale\"", "x = \"-2*scale\"");
+        const double scale = random.log_uniform(1e-9, 1e9), from = -random.log_uniform(1e-6, 1e6);
+        model.set_parameter("scale", scale);
+        Experiment experiment(model, with_tolerance(random.log_uniform(1e-15, 1e-6)));
+        const double time = -from / scale;
+        const Outcome outcome = experiment.run_from({from}, 0, 3 * time);
+        EXPECT_EQ(outcome.ending, Ending::no_progress) << kind << " " << scale << " " << from;
+        EXPECT_NEAR(outcome.time, time, 1e-14 * time);
+    }
+}
+
+TEST(SharedSurface, ARelayWithAndWithoutHysteresisSwitchesAtEachPassage) {
+    // x'' = -1 or 1: half waves of 4 sqrt(...) each; with hysteresis they grow, without they repeat.
+    Random random(52);
+    for (int i = 0; i < 200; ++i) {
+        const std::string kind = random.chance(0.5) ? "section" : "barrier";
+        Model model = relay(kind, "x = -1, v = 0", "x = \"v\", v = 1", "x = \"v\", v = -1");
+        const double start = random.log_uniform(1e-3, 1e3), unit = std::sqrt(start);
+        model.set_parameter("scale", random.log_uniform(1e-9, 1e9));
+        Experiment experiment(model, with_tolerance(random.log_uniform(1e-15, 1e-6)));
+        const Outcome outcome = experiment.run_from({-start, 0}, 0, 40 * unit);
+        ASSERT_EQ(outcome.ending, Ending::end_time) << outcome.detail;
+        const auto& contacts = experiment.recorder.contacts();
+        ASSERT_EQ(contacts.size(), 14U) << kind << " " << start; // at sqrt(2) (1 + 2 k), k = 0..13
+        for (std::size_t k = 0; k < contacts.size(); ++k)
+            EXPECT_NEAR(contacts[k].contact.time, unit * std::sqrt(2.0) * (1.0 + 2.0 * static_cast<double>(k)),
+                        1e-12 * unit * (1.0 + static_cast<double>(k)));
+    }
+}
+
+TEST(SharedSurface, OneFallIsServedOnceThoughTwoSectionsAreThere) {
+    // Two modes hand over at each fall of sin(theta): a section each, with the same function.
+    Random random(53);
+    for (int i = 0; i < 100; ++i) {
+        const double rate = random.log_uniform(1e-9, 1e9), theta = random.uniform(0, 6.28);
+        Model model = model_from(fmt::format(
+            "name = \"pulses\"\nparameters = {{ w = 1, k = 1 }}\n[states]\nc = 0\n"
+            "theta = {{ initial = 0, period = \"2*pi\" }}\n"
+            "[events]\na = {{ function = \"sin(theta)\", kind = \"section\" }}\n"
+            "b = {{ function = \"k*sin(theta)\", kind = \"section\" }}\n"
+            "[modes]\none = {{ rates = {{ c = \"w\", theta = \"w\" }}, watch = [\"a\"] }}\n"
+            "two = {{ rates = {{ c = 0, theta = \"w\" }}, watch = [\"b\"] }}\n[initial]\nmode = \"one\"\n{}{}",
+            transition("one", "a", "two"), transition("two", "b", "one")));
+        model.set_parameter("w", rate);
+        model.set_parameter("k", random.log_uniform(1e-9, 1e9));
+        Experiment experiment(model, with_tolerance(random.log_uniform(1e-15, 1e-6)));
+        const Outcome outcome = experiment.run_from({0, theta}, 0, 62.9 / rate);
+        ASSERT_EQ(outcome.ending, Ending::end_time) << outcome.detail;
+        const double pi = 3.14159265358979323846;
+        const auto falls =
+            static_cast<std::size_t>(std::floor((theta + 62.9 + pi) / (2 * pi)) - std::floor((theta + pi) / (2 * pi)));
+        EXPECT_EQ(experiment.recorder.contacts().size(), falls) << rate << " " << theta;
+    }
+}
+
+TEST(SharedSurface, ASectionWhereABarrierIsIsServedAsWell) {
+    // A ball on a floor counts its contacts by a section that coincides with the floor, watched before or after it.
+    Random random(54);
+    for (int i = 0; i < 100; ++i) {
+        const bool first = random.chance(0.5);
+        const double e = random.uniform(0.3, 0.9), height = random.log_uniform(1e-9, 1e6);
+        const Model model = model_from(fmt::format(
+            "name = \"count\"\n[states]\nx = 1\nv = 0\nn = 0\n"
+            "[parameters]\ne = {:.17g}\n[events]\nfloor = \"x\"\nbelow = {{ function = \"3*x\", kind = \"section\" }}\n"
+            "[modes]\nflight = {{ rates = {{ x = \"v\", v = -1, n = 0 }}, watch = [{}] }}\n"
+            "rest = {{ rates = {{ x = 0, v = 0, n = 0 }} }}\n[initial]\nmode = \"flight\"\n"
+            "[jumps]\nhit = {{ v = \"-e*v\" }}\ncount = {{ n = \"n + 1\" }}\nland = {{ x = 0, v = 0 }}\n"
+            "{}chatter = {{ jump = \"land\", mode = \"rest\" }}\n{}",
+            e, first ? "\"below\", \"floor\"" : "\"floor\", \"below\"", transition("flight", "floor", "flight", "hit"),
+            transition("flight", "below", "flight", "count")));
+        Experiment experiment(model, with_tolerance(random.log_uniform(1e-15, 1e-6)));
+        const double fall = std::sqrt(2 * height), rest = fall * (1 + e) / (1 - e);
+        const double early = random.uniform(0.05, 0.3) * fall; // it starts with the speed that it has then
+        const double end = random.uniform(0.5, 0.9) * rest;
+        const Outcome outcome = experiment.run_from({height - early * early / 2, -early, 0}, 0, end - early);
+        ASSERT_EQ(outcome.ending, Ending::end_time) << outcome.detail;
+        double hits = 0;
+        for (double time = fall, flight = 2 * e * fall; time < end; time += flight, flight *= e)
+            ++hits;
+        // Served after the floor's jump, the section no longer falls: that is the documented order.
+        EXPECT_EQ(experiment.state()[2], first ? hits : 0) << e << " " << height;
+    }
+}
+
+TEST(SharedSurface, PressedAgainstTwoBarriersItSticksOnce) {
+    for (const char* order : {"\"a\", \"b\"", "\"b\", \"a\""}) {
+        const Model model = model_from(fmt::format(
+            "name = \"stop\"\nstates = {{ x = 1, v = 0 }}\n[events]\na = \"x\"\nb = \"3*x\"\n"
+            "[modes]\nflight = {{ rates = {{ x = \"v\", v = -1 }}, watch = [{}] }}\n"
+            "rest = {{ rates = {{ x = 0, v = 0 }} }}\n[initial]\nmode = \"flight\"\n[jumps]\nstop = {{ v = 0 }}\n"
+            "{}chatter = {{ mode = \"rest\" }}\n{}chatter = {{ mode = \"rest\" }}\n",
+            order, transition("flight", "a", "flight", "stop"), transition("flight", "b", "flight", "stop")));
+        Experiment experiment(model);
+        EXPECT_EQ(experiment.run(5).ending, Ending::end_time);
+        EXPECT_EQ(experiment.trajectory.mode(), 1U);
+        EXPECT_LE(experiment.recorder.contacts().size(), 3U);
+    }
+}
