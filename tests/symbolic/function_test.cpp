@@ -55,7 +55,8 @@ TEST_F(FunctionTest, ErrorBoundsHoldAndAreNotMuchLarger) {
             }
         for (std::size_t i = 0; i < worst.size(); ++i) {
             EXPECT_GE(bounds[i], worst[i] * (1 - 1e-5)) << i;
-            EXPECT_LE(bounds[i], 10 * worst[i] + 1e-14) << i;
+            EXPECT_LE(bounds[i], 20 * worst[i] + 1e-14)
+                << i; // operands that depend on one another are taken as independent
         }
     }
     // Without errors of the inputs, what is left is round-off: also that of terms which cancel.
