@@ -86,6 +86,11 @@ void CompiledModel::compile_modes(std::span<const Expression> observed) {
         outputs.insert(outputs.end(), observed.begin(), observed.end());
         compiled.tape = compile_tape(states, parameters, model_.expand(mode.rates), model_.expand(outputs));
         compiled.rates = function_of(mode.rates);
+        std::vector<Expression> all = mode.rates;
+        all.insert(all.end(), outputs.begin(), outputs.end());
+        compiled.evidence = function_of(all);
+        compiled.polynomial = std::all_of(compiled.tape.degrees.begin(), compiled.tape.degrees.end(),
+                                          [](std::uint32_t degree) { return degree != Tape::unbounded; });
         compiled.has_roots = std::any_of(compiled.tape.code.begin(), compiled.tape.code.end(), [](const auto& one) {
             return one.operation == SeriesOperation::sqrt || one.operation == SeriesOperation::power_constant;
         });

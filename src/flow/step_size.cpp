@@ -69,6 +69,18 @@ double StepSize::step_for(std::span<const Series> states, double reference) cons
     return step;
 }
 
+double StepSize::with_floors(std::span<const Series> states, double previous, std::span<const double> floors) const {
+    const double tolerance = std::exp2(log_tolerance_);
+    double step = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const double size = std::max(size_of(states[i], previous), floors[i]);
+        for (const std::size_t k : {order_, order_ - 1})
+            if (const double last = std::abs(states[i][k]); !(last <= 0))
+                step = std::min(step, std::pow(tolerance * size / last, 1.0 / static_cast<double>(k)));
+    }
+    return step;
+}
+
 double StepSize::size_of(const Series& c, double reference) const {
     double size = std::abs(c[0]) + reference * (std::abs(c[1]) + reference * std::abs(c[2]));
     if (size == 0)

@@ -1,6 +1,7 @@
 #include "graze/tape/jet.hpp"
 
 #include "tape/step_finder.hpp"
+#include "tape/tape_analysis.hpp"
 
 #include <algorithm>
 #include <new>
@@ -68,6 +69,17 @@ public:
     void find_steps(double log_tolerance, std::span<const double> references, std::span<double> steps) const override {
         table_.steps(series_.data(), series_.size(), order_, log_tolerance, references.data(), steps.data());
     }
+    void guard_steps(std::span<double> steps) const override {
+        if (!arguments_.empty() || !quotients_.empty())
+            table_.guard({arguments_.data(), kinds_.data(), arguments_.size(), quotients_.data(), quotients_.size()},
+                         order_, steps.data());
+    }
+    void evaluate_states(std::span<const double> times, std::span<double> values,
+                         std::span<double> slopes) const override {
+        for (std::size_t i = 0; i < states_; ++i)
+            table_.sum_and_slope(state(i), order_, times.data(), values.data() + i * layout_.number,
+                                 slopes.data() + i * layout_.number);
+    }
     void evaluate_states(std::span<const double> times, std::span<double> values) const override {
         for (std::size_t i = 0; i < states_; ++i)
             table_.sum(state(i), order_, times.data(), values.data() + i * layout_.number);
@@ -76,8 +88,8 @@ public:
         table_.sum(output(index), order_, times.data(), values.data());
     }
     void bound_output(std::size_t index, std::span<const double> lengths, std::span<double> least,
-                      std::span<double> sizes) const override {
-        table_.bound(output(index), order_, lengths.data(), least.data(), sizes.data());
+                      std::span<double> sizes, std::span<double> ends) const override {
+        table_.bound(output(index), order_, lengths.data(), least.data(), sizes.data(), ends.data());
     }
 
 private:
@@ -118,7 +130,9 @@ private:
     std::vector<KernelStep> constant_code_;
     std::vector<Copy> constant_copies_; ///< to rates and outputs that are constants
     std::vector<const double*> outputs_;
-    std::vector<Series> series_; ///< states and outputs
+    std::vector<Series> series_;                ///< states and outputs
+    std::vector<Series> arguments_, quotients_; ///< guards of the steps
+    std::vector<GuardKind> kinds_;              ///< of the arguments
 };
 
 TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
@@ -151,6 +165,13 @@ TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
         series_.push_back({state(i), layout_.number});
     for (const double* output : outputs_)
         series_.push_back({output, layout_.number});
+    const GuardingRegisters guards = guarding_registers(tape);
+    for (const auto& [index, kind] : guards.arguments) {
+        arguments_.push_back({register_at(index), layout_.number});
+        kinds_.push_back(kind);
+    }
+    for (const std::uint32_t index : guards.quotients)
+        quotients_.push_back({register_at(index), layout_.number});
     find_constants(tape, table);
     compute_constants();
 }

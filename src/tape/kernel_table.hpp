@@ -8,6 +8,8 @@
 #include "graze/tape/series.hpp"
 #include "graze/tape/tape.hpp"
 
+#include <cstddef>
+
 namespace graze {
 
 inline constexpr int operation_count = static_cast<int>(Operation::tanh) + 1;
@@ -37,6 +39,17 @@ struct KernelLink {
     Kernel kernel;
 };
 
+enum class GuardKind : unsigned char { other, exponential, hyperbolic_tangent };
+
+/// Intermediate series that say how far others may be followed, whatever their own share of the sums that they enter.
+struct Guards {
+    const Series* arguments; ///< of functions without singularities (exp, sin): how far they may change is bounded
+    const GuardKind* kinds;  ///< of their functions
+    std::size_t argument_count;
+    const Series* quotients; ///< and roots, which have singularities: they must converge
+    std::size_t quotient_count;
+};
+
 /// Linear combinations of fewer terms than this have kernels of their own; row 0 is for all others.
 inline constexpr int combination_kernels = 5;
 
@@ -61,9 +74,12 @@ struct KernelTable {
     Kernel sine_and_cosine;
     void (*literal)(double* result, double value);
     void (*sum)(const double* series, int order, const double* times, double* values);
-    void (*bound)(const double* series, int order, const double* lengths, double* least, double* sizes);
+    void (*sum_and_slope)(const double* series, int order, const double* times, double* values, double* slopes);
+    void (*bound)(const double* series, int order, const double* lengths, double* least, double* sizes, double* ends);
     void (*steps)(const Series* series, std::size_t count, int order, double log_tolerance, const double* references,
                   double* steps);
+    /// Shortens steps that are too long for intermediate series: see `guard_kernels.hpp`.
+    void (*guard)(const Guards& guards, int order, double* steps);
     Kernel constant[operation_count]; ///< on numbers; row `number` and `symbol` are empty
 };
 

@@ -2,6 +2,7 @@
 
 // Collects the kernels of one instruction set in tables. To be included only by its translation unit.
 
+#include "tape/guard_kernels.hpp"
 #include "tape/kernels.hpp"
 #include "tape/step_kernels.hpp"
 #include "tape/sum_kernels.hpp"
@@ -91,8 +92,10 @@ constexpr KernelTable make_table() {
     table.sine_and_cosine = &chained<&sine_and_cosine<V>>;
     table.literal = &literal<V>;
     table.sum = &sum<V>;
+    table.sum_and_slope = &sum_and_slope<V>;
     table.bound = &bound<V>;
     table.steps = &steps<V>;
+    table.guard = &guard<V>;
     fill_constants<V, Operation::add, Operation::subtract, Operation::multiply, Operation::divide, Operation::power,
                    Operation::negate, Operation::sqrt, Operation::exp, Operation::log, Operation::sin, Operation::cos,
                    Operation::tan, Operation::asin, Operation::acos, Operation::atan, Operation::sinh, Operation::cosh,

@@ -103,6 +103,22 @@ GRAZE_INLINE L integer_power(L a, int exponent) {
 /// Of the last two terms to the two before. At the optimal step of a series with a finite radius it is 0.02.
 inline constexpr double largest_growth = 0.5;
 
+/// How far the argument of an exponential or a sine may change over a step: twice as far as where these are the largest
+/// that there is, and not so far that the last terms of its series grow.
+constexpr double largest_change(int order) {
+    return order < 6 ? 0.7 * order : 4;
+}
+/// Of the last terms of a quotient, in its size: at 0.7 of its radius of convergence.
+constexpr double largest_share(int order) {
+    double share = 1;
+    for (int k = 1; k < order; k += 2)
+        share *= largest_growth;
+    return share;
+}
+
+/// What is smaller is rounded to few digits, or to none: nothing can be asked of its relative accuracy.
+inline constexpr double smallest_size = 1e-290;
+
 /// Shortens the step of one lane until no terms grow at the end of the series.
 inline double shortened(const Series* series, std::size_t count, std::size_t order, int lane, double step) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -112,6 +128,8 @@ inline double shortened(const Series* series, std::size_t count, std::size_t ord
         const double last = size_at(order), before = size_at(order - 1);
         const double earlier = size_at(order - 2), first = size_at(order - 3);
         if (earlier == 0 && first == 0)
+            continue;
+        if (integer_power(step, static_cast<int>(order) - 3) * greater(earlier * step, first) < smallest_size)
             continue;
         for (int sweep = 0; sweep < 20; ++sweep) {
             const double end = greater(last * step, before) * step * step, start = greater(earlier * step, first);
@@ -149,8 +167,9 @@ void steps(const Series* series, std::size_t count, int order, double log_tolera
         sum = sum + (last + before) + (c0 + c1 + c2) * 0.0;
         const L first_terms = absolute(c0) + reference * (absolute(c1) + reference * absolute(c2));
         const L size = where_zero(first_terms, (before + reference * last) * almost_all, first_terms);
-        high = greater(high, last / size);
-        low = greater(low, before / size);
+        const L measure = greater(size, number<L>(smallest_size));
+        high = greater(high, last / measure);
+        low = greater(low, before / measure);
     }
     const L at_last = (number<L>(log_tolerance) - logarithm(high)) * (1.0 / order);
     const L at_before = (number<L>(log_tolerance) - logarithm(low)) * (1.0 / (order - 1));

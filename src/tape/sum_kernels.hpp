@@ -45,12 +45,27 @@ void sum(const double* series, int order, const double* times, double* values) {
     Numbers<L>::store(values, value);
 }
 
+/// The same, and the derivative there.
+template <class V>
+void sum_and_slope(const double* series, int order, const double* times, double* values, double* slopes) {
+    using L = Plain<V>;
+    const L time = Numbers<L>::load(times);
+    L value = at<L>(series, order);
+    L slope = value;
+    for (int k = order; k-- > 1;) {
+        value = multiply_add(value, time, at<L>(series, k));
+        slope = multiply_add(slope, time, value);
+    }
+    Numbers<L>::store(slopes, slope);
+    Numbers<L>::store(values, multiply_add(value, time, at<L>(series, 0)));
+}
+
 /// With S_m = c_0 + ... + c_m h^m and x = s / h, summation by parts gives
 ///   p(s) = sum_{m<n} S_m (x^m - x^{m+1}) + S_n x^n,
 /// a convex combination: p is at least the least partial sum at h. Each term is reduced by its share of the round-off:
 /// k u for the power, n u for the sums, 4 u for the coefficient itself.
 template <class V>
-void bound(const double* series, int order, const double* lengths, double* least, double* sizes) {
+void bound(const double* series, int order, const double* lengths, double* least, double* sizes, double* ends) {
     using L = Plain<V>;
     constexpr int width = Numbers<V>::width;
     const double share = -0x1p-53 * (2 * order + 10);
@@ -66,6 +81,7 @@ void bound(const double* series, int order, const double* lengths, double* least
     }
     Numbers<L>::store(sizes, size);
     Numbers<L>::store(least, bound);
+    Numbers<L>::store(ends, partial - size * share);
     for (int lane = 0; lane < width; ++lane)
         if (!(sizes[lane] <= 0x1.fffffffffffffp1023))
             least[lane] = -__builtin_inf();

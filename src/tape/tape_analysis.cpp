@@ -92,6 +92,50 @@ std::vector<bool> needed_registers(const Tape& tape, bool only_values) {
     return needed;
 }
 
+GuardingRegisters guarding_registers(const Tape& tape) {
+    GuardingRegisters guards;
+    const auto add = [&](std::uint32_t reg, GuardKind kind) {
+        const std::pair guard{reg, kind};
+        if (std::find(guards.arguments.begin(), guards.arguments.end(), guard) == guards.arguments.end())
+            guards.arguments.push_back(guard);
+    };
+    for (const Instruction& instruction : tape.code) {
+        // A sine of a phase is of size one itself and shows what it does.
+        const std::uint32_t argument_degree = tape.degrees[instruction.third];
+        switch (instruction.operation) {
+        case SeriesOperation::sin:
+        case SeriesOperation::cos:
+            if (argument_degree > 1)
+                add(instruction.third, GuardKind::other);
+            break;
+        case SeriesOperation::sinh:
+        case SeriesOperation::cosh:
+            if (argument_degree > 0)
+                add(instruction.third, GuardKind::other);
+            break;
+        case SeriesOperation::exp:
+            if (argument_degree > 0)
+                add(instruction.third, GuardKind::exponential);
+            break;
+        case SeriesOperation::tanh:
+            if (argument_degree > 0)
+                add(instruction.third, GuardKind::hyperbolic_tangent);
+            break;
+        case SeriesOperation::divide:
+        case SeriesOperation::reciprocal:
+        case SeriesOperation::sqrt:
+        case SeriesOperation::power_constant:
+        case SeriesOperation::tan:
+            if (tape.degrees[instruction.result] > 1)
+                guards.quotients.push_back(instruction.result);
+            break;
+        default:
+            break;
+        }
+    }
+    return guards;
+}
+
 void remove_unneeded(Tape& tape) {
     const std::vector<bool> needed = needed_registers(tape, false);
     std::vector<std::uint32_t> number(tape.registers, 0);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/tape/tape.hpp"
+#include "tape/kernel_table.hpp"
 
 #include <vector>
 
@@ -50,6 +51,14 @@ void find_degrees(Tape& tape, const std::vector<bool>& rate_is_zero);
 
 /// The registers that rates and outputs depend on; states are always among them.
 std::vector<bool> needed_registers(const Tape& tape, bool only_values);
+
+/// Registers whose series tell how far others may be followed, whatever their share of the sums that they enter:
+/// arguments of functions without singularities, or quotients, roots and other functions that have some.
+struct GuardingRegisters {
+    std::vector<std::pair<std::uint32_t, GuardKind>> arguments;
+    std::vector<std::uint32_t> quotients;
+};
+GuardingRegisters guarding_registers(const Tape& tape);
 
 /// Removes instructions that nothing needs and renumbers registers.
 void remove_unneeded(Tape& tape);

@@ -4,29 +4,6 @@
 
 namespace graze {
 
-JetSet::JetSet(const Simulation& simulation, LaneKind kind, InstructionSet set)
-    : simulation_(&simulation), kind_(kind), set_(set), width_(kind == LaneKind::single     ? 1
-                                                               : kind == LaneKind::ensemble ? lanes_of(kind, set)
-                                                                                            : 1 + lanes_of(kind, set)),
-      jets_(simulation.model().modes.size()) {}
-
-Jet& JetSet::operator()(std::size_t mode) {
-    auto& jet = jets_[mode];
-    if (!jet) {
-        jet = make_jet(simulation_->compiled().mode(mode).tape, simulation_->order(), kind_, set_);
-        if (!parameters_.empty())
-            jet->set_parameters(parameters_);
-    }
-    return *jet;
-}
-
-void JetSet::set_parameters(std::span<const double> parameters) {
-    parameters_.assign(parameters.begin(), parameters.end());
-    for (auto& jet : jets_)
-        if (jet)
-            jet->set_parameters(parameters_);
-}
-
 void run(Trajectory& trajectory, JetSet& jets) {
     if (&trajectory.simulation() != &jets.simulation())
         throw std::invalid_argument("a trajectory of one simulation cannot run on the jets of another");
@@ -40,7 +17,7 @@ void run(Trajectory& trajectory, JetSet& jets) {
         outlook.lengths()[0] = trajectory.previous_step();
         outlook.find_steps(jet);
         outlook.lengths()[0] = trajectory.propose(jet, outlook.length(0));
-        outlook.look(jet, trajectory.mode());
+        outlook.look(jet, jets.end_jet(trajectory.mode()), trajectory.mode());
         trajectory.advance(outlook);
     }
 }

@@ -12,10 +12,18 @@
 
 namespace graze {
 
+namespace {
+
+/// A step longer than the last one by more than this is looked at more closely.
+constexpr double longest_leap = 2;
+
+} // namespace
+
 Trajectory::Trajectory(const Simulation& simulation, std::span<const double> parameters, Observer& observer)
     : simulation_(&simulation), observer_(&observer), parameters_(parameters.begin(), parameters.end()),
-      step_size_(simulation.order(), simulation.options().tolerance), roots_(simulation.order()),
-      states_(simulation.compiled().states()), order_(simulation.order()) {
+      step_size_(simulation.order(), simulation.options().tolerance),
+      step_check_(simulation.compiled(), simulation.order(), simulation.options().tolerance),
+      roots_(simulation.order()), states_(simulation.compiled().states()), order_(simulation.order()) {
     const CompiledModel& compiled = simulation.compiled();
     if (parameters_.size() != compiled.parameters())
         throw InputError(
@@ -38,6 +46,7 @@ Trajectory::Trajectory(const Simulation& simulation, std::span<const double> par
     surface_values_.resize(histories_.size());
     holds_.resize(histories_.size());
     uncertain_.resize(inputs_.size());
+    step_check_.set_parameters(parameters_);
     periods_.resize(states_);
     compiled.periods().evaluate(parameters_, periods_, work_);
     std::vector<double> phase_values(simulation.probes().size());
@@ -76,7 +85,8 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     time_ = start_time_ = time;
     time_low_ = 0;
     end_time_ = end_time;
-    previous_step_ = largest_step_ = 0;
+    previous_step_ = largest_step_ = believed_ = descent_start_ = 0;
+    floored_ = false;
     arc_start_ = true;
     branch_ahead_ = states_;
     stuck_ = false;
@@ -147,12 +157,64 @@ std::span<const double> Trajectory::series(std::size_t index) {
 double Trajectory::propose(const Jet& jet, double step, std::size_t lane) {
     find_series(jet, lane);
     // Event functions and whatever else is observed must be as accurate as the states.
-    if (!(previous_step_ > 0) || std::isinf(step))
+    step = limited_by_floors(step);
+    const bool unlimited = !(previous_step_ > 0) || std::isinf(step);
+    leap_ = !(step <= longest_leap * previous_step_) && !std::isnan(step) &&
+            !simulation_->compiled().mode(mode_).polynomial;
+    if ((leap_ || unlimited) && !floored_)
         step = step_size_(std::span(series_).first(loaded_), previous_step_);
     const double remaining = (end_time_ - time_) - time_low_;
     proposed_ = !std::isinf(step) ? step : std::isinf(remaining) ? 1.0 : std::max(remaining, 1.0);
+    if (believed_ > 0)
+        proposed_ = std::min(proposed_, believed_);
+    if (leap_) {
+        guarded_.assign(static_cast<std::size_t>(jet.width()), 0.0);
+        guarded_[lane] = proposed_;
+        jet.guard_steps(guarded_);
+        proposed_ = guarded_[lane];
+    }
     const double largest = simulation_->options().largest_step;
     return std::min(largest > 0 ? std::min(proposed_, largest) : proposed_, std::max(remaining, 0.0));
+}
+
+/// Steps that shrink on and on lead to a singularity, or to a multiple zero of a state or event function, whose
+/// relative accuracy they are after. From when they have become far shorter, sizes are no longer let go below what they
+/// are.
+double Trajectory::limited_by_floors(double step) {
+    constexpr double far_shorter = 1e-3;
+    if (std::isnan(step))
+        return step;
+    if (arc_start_ || !(step < previous_step_)) {
+        floored_ = false;
+        descent_start_ = std::isinf(step) ? previous_step_ : step;
+        return step;
+    }
+    const std::span<const Series> all = std::span(series_).first(loaded_);
+    if (!floored_ && step < far_shorter * descent_start_) {
+        floored_ = true;
+        floors_.resize(series_.size());
+        for (std::size_t i = 0; i < loaded_; ++i)
+            floors_[i] = step_size_.size_of(all[i], previous_step_);
+    }
+    return floored_ ? step_size_.with_floors(all, previous_step_, std::span(floors_).first(loaded_)) : step;
+}
+
+/// Shortens a step until polynomials and model agree at its end, and within as well if it is a leap. Returns false if
+/// they do so nowhere.
+bool Trajectory::check_step(double& step, const Outlook& outlook, std::size_t lane) {
+    if (outlook.agrees(lane) && !leap_ && step == outlook.length(lane)) {
+        if (believed_ > 0)
+            believed_ = proposed_ < believed_ ? 0 : 2 * proposed_;
+        return true;
+    }
+    const double longest =
+        step_check_.longest(mode_, std::span(series_).first(loaded_), step, leap_,
+                            floored_ ? std::span(floors_).first(loaded_) : std::span<const double>{});
+    if (longest < step) {
+        believed_ = 2 * longest;
+        step = proposed_ = longest;
+    }
+    return step > 0;
 }
 
 void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
@@ -173,13 +235,18 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
         const double radius = step_size_.radius(std::span(series_).first(states_));
         return finish(Ending::singular, time_ + std::min(radius, 16 * proposed_));
     }
+    double step = outlook.length(lane);
+    const std::size_t jumping = limit_to_branch(step);
+    const double limited = step;
+    if (step > 0 && !check_step(step, outlook, lane)) {
+        announce_contact();
+        return finish_unresolved();
+    }
     previous_step_ = proposed_;
-    double step = proposed_;
-    if (simulation_->options().largest_step > 0)
-        step = std::min(step, simulation_->options().largest_step);
 
     if (arc_start_) {
-        begin_arc(step);
+        begin_arc(simulation_->options().largest_step > 0 ? std::min(proposed_, simulation_->options().largest_step)
+                                                          : proposed_);
         if (finished() || arc_start_)
             return;
         if (observer_->stop() || stop_after_contact_)
@@ -191,10 +258,6 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
         return finish(Ending::step_limit, time_,
                       fmt::format("{} steps were not enough; ask for a shorter time or raise the limit", steps_));
     bool last = step >= remaining;
-    step = last ? remaining : step;
-    const double whole = step;
-    const std::size_t jumping = limit_to_branch(step);
-    last = last && step == whole;
     std::size_t watched = step > 0 ? find_contact(step, outlook, lane) : no_event;
     const double contact_at = step;
     bool stopped = make_step(step);
@@ -214,7 +277,7 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
         make_contact(watched, step);
     } else {
         move_along(step, last, outlook, lane);
-        if (jumping != states_ && !stopped)
+        if (jumping != states_ && step == limited && !stopped)
             return finish_at_branch(jumping);
     }
     if (!finished() && (stopped || observer_->stop()))
@@ -291,6 +354,13 @@ void Trajectory::finish(Ending ending, double time, std::string detail) {
 
 std::string Trajectory::where() const {
     return fmt::format("in mode '{}' at time {:.15g}", simulation_->model().modes[mode_].name, time_);
+}
+
+void Trajectory::finish_unresolved() {
+    finish(Ending::undefined, time_,
+           fmt::format("no step could be found over which the rates are those that their series foretell {}: make what "
+                       "changes abruptly an event, or smooth it",
+                       where()));
 }
 
 void Trajectory::finish_undefined() {

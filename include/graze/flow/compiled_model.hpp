@@ -26,9 +26,11 @@ public:
         Tape tape;                ///< outputs: the watched events in their order, then the observed expressions
         Function rates;           ///< the vector field alone
         Function events;          ///< the watched event functions alone
+        Function evidence;        ///< rates, watched event functions, observed expressions: by which series are judged
         Function event_gradients; ///< and their derivatives with respect to the states, row by row
         std::vector<std::size_t> watched;
         std::vector<std::size_t> transitions; ///< of each watched event
+        bool polynomial = false;              ///< all series end by themselves: whatever their length, steps are exact
         bool has_roots = false;               ///< sqrt or powers that are not whole, which have two branches at zero
         Function roots;                       ///< of those in the rates: what stands under one, and the exponent
     };

@@ -28,6 +28,13 @@ public:
     ///         not finite
     double operator()(std::span<const Series> states, double previous) const;
 
+    /// The same where states are allowed not to be known to less than a size of their own, and nothing is made of how
+    /// their terms grow: close to a multiple zero, which relative accuracy would never let a trajectory reach.
+    /// @param floors one for each state
+    double with_floors(std::span<const Series> states, double previous, std::span<const double> floors) const;
+    /// Sum of the first terms of a series at s = reference, or of all if those are zero.
+    double size_of(const Series& c, double reference) const;
+
     /// Estimate of the radius of convergence, from the last coefficients (for reporting singularities).
     double radius(std::span<const Series> states) const;
 
@@ -39,8 +46,6 @@ private:
     /// For a state that is a polynomial of lower degree, any step is exact: one over which it changes by about its
     /// own size keeps sizes meaningful (they are what round-off is measured by).
     double polynomial_step(const Series& c, double size) const;
-    /// Sum of the first terms of a series at s = reference, or of all if those are zero.
-    double size_of(const Series& c, double reference) const;
     double step_for(std::span<const Series> states, double reference) const;
 
     std::size_t order_;

@@ -63,18 +63,26 @@ public:
     /// @param steps [lane] infinity where all last two terms are zero, NaN where something is not finite
     virtual void find_steps(double log_tolerance, std::span<const double> references,
                             std::span<double> steps) const = 0;
+    /// Shortens steps over which arguments of exponentials, sines and the like change so much, or quotients and roots
+    /// come so close to their singularities, that series of this order cannot follow them, even where they are lost
+    /// beside what they are added to: far from a narrow peak or a steep slope nothing else shows it. (Not for tangent
+    /// jets.) @param steps [lane] finite; 0 for lanes that do not matter
+    virtual void guard_steps(std::span<double> steps) const = 0;
 
     /// Sums the series of all states, in each lane at its own time.
     /// @param times [lane]; all equal in a tangent jet, whose other lanes are derivatives at fixed time
     /// @param values [state * width() + lane]
     virtual void evaluate_states(std::span<const double> times, std::span<double> values) const = 0;
+    /// The same, and their derivatives with respect to time there. @param slopes [state * width() + lane]
+    virtual void evaluate_states(std::span<const double> times, std::span<double> values,
+                                 std::span<double> slopes) const = 0;
     /// The same for one output. @param values [lane]
     virtual void evaluate_output(std::size_t index, std::span<const double> times, std::span<double> values) const = 0;
     /// Bounds an output from below on [0, lengths[lane]] by its partial sums at the end, of which it is a convex
     /// combination throughout, less their round-off; -infinity if it is not finite. (Not for tangent jets.)
-    /// @param sizes of the series: sum |c_k| length^k
+    /// @param sizes of the series: sum |c_k| length^k; @param ends values at the end
     virtual void bound_output(std::size_t index, std::span<const double> lengths, std::span<double> least,
-                              std::span<double> sizes) const = 0;
+                              std::span<double> sizes, std::span<double> ends) const = 0;
 
 protected:
     Jet() = default;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/tape/jet.hpp"
+#include "graze/trajectory/jet_set.hpp"
 #include "graze/trajectory/simulation.hpp"
 
 #include <cstddef>
@@ -10,8 +11,8 @@
 namespace graze {
 
 /// What the lanes of a jet lead to, computed for all of them at once: the lengths of steps; where steps of given
-/// lengths end; and bounds that show which watched events cannot happen within. Nearly all steps need no more than
-/// this.
+/// lengths end, and whether the model agrees with the polynomials there (see StepCheck); and bounds that show which
+/// watched events cannot happen within. Nearly all steps need no more than this.
 class Outlook {
 public:
     Outlook(const Simulation& simulation, int width);
@@ -20,20 +21,30 @@ public:
     /// Then what `find_steps` has found: lengths to be looked at, to be adjusted before `look`.
     std::span<double> lengths() { return lengths_; }
     void find_steps(const Jet& jet);
-    void look(const Jet& jet, std::size_t mode);
+    /// @param end_jet of the same mode, lanes and parameters
+    void look(const Jet& jet, Jet& end_jet, std::size_t mode);
 
     double length(std::size_t lane) const { return lengths_[lane]; }
     double state(std::size_t index, std::size_t lane) const { return states_[index * width_ + lane]; }
+    /// Whether polynomials and model agree at the end of the step.
+    bool agrees(std::size_t lane) const { return disagreement_[lane] <= 0; }
     /// Lower bound of the function of a watched event of the mode.
     double least(std::size_t watched, std::size_t lane) const { return least_[watched * width_ + lane]; }
     /// Size of its series: sum |c_k| length^k.
     double size(std::size_t watched, std::size_t lane) const { return sizes_[watched * width_ + lane]; }
 
 private:
+    void compare_rates(const Jet& jet, const Jet& end_jet);
+    void compare_values(const Jet& jet, const Jet& end_jet, std::size_t mode);
+    void note(std::size_t lane, double excess) {
+        // What is no number is no agreement.
+        disagreement_[lane] = excess <= disagreement_[lane] ? disagreement_[lane] : excess;
+    }
+
     const Simulation* simulation_;
     std::size_t width_;
-    double log_tolerance_;
-    std::vector<double> lengths_, states_, least_, sizes_;
+    double log_tolerance_, tolerance_;
+    std::vector<double> lengths_, states_, slopes_, least_, sizes_, ends_, disagreement_;
 };
 
 } // namespace graze

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "graze/flow/roots.hpp"
+#include "graze/flow/step_check.hpp"
 #include "graze/flow/step_size.hpp"
+#include "graze/trajectory/jet_set.hpp"
 #include "graze/trajectory/observer.hpp"
 #include "graze/trajectory/outcome.hpp"
 #include "graze/trajectory/outlook.hpp"
@@ -107,12 +109,15 @@ private:
 
     // One step (trajectory.cpp)
     void find_series(const Jet& jet, std::size_t lane);
+    double limited_by_floors(double step);
+    bool check_step(double& step, const Outlook& outlook, std::size_t lane);
     void move_along(double step, bool last, const Outlook& outlook, std::size_t lane);
     void wrap_cyclic_states(bool snap);
     void reduce_cyclic_states(std::span<double> state) const;
     void add_time(double step);
     void finish(Ending ending, double time, std::string detail = {});
     void finish_undefined();
+    void finish_unresolved();
     std::string where() const;
     // Roots of what falls to zero (branch_point.cpp)
     std::size_t jumping_rate(double s, double share);
@@ -173,6 +178,7 @@ private:
     Observer* observer_;
     std::vector<double> parameters_;
     StepSize step_size_;
+    StepCheck step_check_;
     RootFinder roots_;
     std::unique_ptr<ProbeTracker> probes_;
     std::unique_ptr<Tangents> tangents_;
@@ -180,7 +186,7 @@ private:
     int order_ = 0;
 
     std::vector<double> state_, inputs_, work_, periods_, fields_, jacobian_, row_, kick_, conditions_, before_, after_,
-        values_;
+        values_, guarded_, floors_;
     std::vector<double> terms_; ///< what adds up to each coefficient of an event function, without signs
     std::vector<Series> series_;
     std::vector<double> gathered_; ///< coefficients from a jet of many lanes, side by side: made where needed
@@ -200,6 +206,10 @@ private:
     bool stop_after_contact_ = false;       ///< the observer stopped at a passage where a contact happens too
     bool arc_start_ = true, stuck_ = false; ///< stuck: the arc begins where contacts have accumulated
     double proposed_ = 0;                   ///< step by the series alone
+    double believed_ = 0;                   ///< bound on the next step where the last was found too long; 0: none
+    double descent_start_ = 0;              ///< length from which steps have been shrinking
+    bool floored_ = false;                  ///< whether they have shrunk so far that sizes have floors
+    bool leap_ = false;                     ///< the step is far longer than the one before
     std::size_t served_ = no_event;         ///< event of the contact at which the present arc began
     std::size_t branch_ahead_ = 0;          ///< state whose rate jumps where the arc must end; their number if none
     std::size_t last_jump_ = 0;             ///< that led to the present arc, unless it is the first
@@ -207,26 +217,6 @@ private:
     std::vector<ContactHistory> histories_; ///< for each event
     std::size_t contacts_ = 0;
     int contacts_now_ = 0;
-};
-
-/// Jets for the modes of a simulation, made when first needed.
-class JetSet {
-public:
-    JetSet(const Simulation& simulation, LaneKind kind, InstructionSet set = best_instruction_set());
-    /// The jet of a mode.
-    Jet& operator()(std::size_t mode);
-    /// Parameters [parameter * width + lane] for all modes, also those made later.
-    void set_parameters(std::span<const double> parameters);
-    int width() const { return width_; }
-    const Simulation& simulation() const { return *simulation_; }
-
-private:
-    const Simulation* simulation_;
-    LaneKind kind_;
-    InstructionSet set_;
-    int width_;
-    std::vector<double> parameters_;
-    std::vector<std::unique_ptr<Jet>> jets_;
 };
 
 /// Drives one trajectory to its end.

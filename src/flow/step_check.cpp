@@ -1,0 +1,167 @@
+#include "graze/flow/step_check.hpp"
+
+#include "graze/flow/roots.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity(), unit = 0x1p-53;
+/// Of the bounds on round-off, which are to first order and of one evaluation: coefficients have round-off of their
+/// own, which recurrences magnify.
+constexpr double roundoff_allowance = 16;
+constexpr int most_attempts = 200;
+/// Where a step is looked at inside: no simple fractions, so that nothing periodic hides there.
+constexpr double first_inside = 0.3819, second_inside = 0.7071;
+
+/// Sum of |c_k| |s|^k, and of k |c_k| |s|^k.
+struct Sizes {
+    double value = 0, slope = 0;
+};
+Sizes sizes_at(const Series& c, std::size_t order, double s) {
+    Sizes sizes;
+    for (std::size_t k = order + 1; k-- > 0;) {
+        sizes.slope = sizes.slope * s + sizes.value;
+        sizes.value = sizes.value * s + std::abs(c[k]);
+    }
+    sizes.slope *= s;
+    return sizes;
+}
+
+/// Keeps the largest; what is no number is larger than any.
+void keep_most(double& most, double ratio) {
+    most = std::isnan(ratio) ? infinity : std::max(most, ratio);
+}
+
+} // namespace
+
+StepCheck::StepCheck(const CompiledModel& model, int order, double tolerance)
+    : model_(&model), states_(model.states()), order_(static_cast<std::size_t>(order)), tolerance_(tolerance),
+      inputs_(states_ + model.parameters()), input_errors_(inputs_.size()), slopes_(states_), seen_(states_) {
+    std::size_t outputs = 0, workspace = 0;
+    for (std::size_t m = 0; m < model.model().modes.size(); ++m) {
+        outputs = std::max(outputs, model.mode(m).evidence.outputs());
+        workspace = std::max(workspace, model.mode(m).evidence.workspace());
+    }
+    truth_.resize(outputs);
+    errors_.resize(outputs);
+    work_.resize(2 * workspace);
+}
+
+void StepCheck::set_parameters(std::span<const double> parameters) {
+    std::copy(parameters.begin(), parameters.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
+}
+
+/// The polynomials' states at s, and what the model makes of them.
+void StepCheck::evaluate(std::size_t mode, double s) {
+    const Function& evidence = model_->mode(mode).evidence;
+    for (std::size_t i = 0; i < states_; ++i) {
+        double value = series_[i][order_], slope = value;
+        for (std::size_t k = order_; k-- > 1;) {
+            value = value * s + series_[i][k];
+            slope = slope * s + value;
+        }
+        inputs_[i] = value * s + series_[i][0];
+        slopes_[i] = slope;
+        input_errors_[i] = 4 * unit * sizes_at(series_[i], order_, std::abs(s)).value;
+    }
+    evidence.evaluate(inputs_, truth_, work_);
+    evidence.error_bounds(inputs_, input_errors_, errors_, work_);
+}
+
+/// A state that starts without value, rate and acceleration has no size of its own yet. It is measured by that to which
+/// a longer step led: errors of its beginning are small beside what it grows to.
+double StepCheck::size_of_state(std::size_t i, double s) const {
+    const Series& c = series_[i];
+    double size = size_over(c[0], c[1], inputs_[i], truth_[i], s);
+    if (c[0] == 0 && c[1] == 0 && c[2] == 0)
+        size = std::max({seen_[i], sizes_at(c, order_, s).value, smallest_size});
+    return floors_.empty() ? size : std::max(size, floors_[i]);
+}
+
+double StepCheck::misfit_of_rates(double s) {
+    double most = 0;
+    const double length = std::abs(s);
+    for (std::size_t i = 0; i < states_; ++i) {
+        const double difference = std::abs(slopes_[i] - truth_[i]) * length;
+        if (difference == 0)
+            continue;
+        double allowed = allowance * tolerance_ * size_of_state(i, length);
+        if (!(difference <= allowed))
+            allowed += roundoff_allowance * (length * errors_[i] + unit * sizes_at(series_[i], order_, length).slope);
+        keep_most(most, difference / allowed);
+    }
+    return most;
+}
+
+double StepCheck::misfit_of_values(double s) {
+    double most = 0;
+    const double length = std::abs(s);
+    for (std::size_t j = states_; j < series_.size(); ++j) {
+        const Series& c = series_[j];
+        const double value = evaluate_polynomial(c, order_ + 1, s), difference = std::abs(value - truth_[j]);
+        if (difference == 0)
+            continue;
+        const double sum = sizes_at(c, order_, length).value,
+                     first = std::abs(c[0]) + length * (std::abs(c[1]) + length * std::abs(c[2]));
+        const double size = std::max(first > 0 ? first : sum, floors_.empty() ? 0 : floors_[j]);
+        keep_most(most,
+                  difference / (value_allowance * tolerance_ * size + roundoff_allowance * (errors_[j] + unit * sum)));
+    }
+    return most;
+}
+
+/// Terms that are far larger than their sum leave nothing but round-off of it.
+double StepCheck::misfit_of_sums(double s) {
+    double most = 0;
+    const double length = std::abs(s);
+    for (std::size_t i = 0; i < states_; ++i) {
+        const double size = size_of_state(i, length);
+        if (const double noise = 4 * unit * sizes_at(series_[i], order_, length).value; noise > 0)
+            keep_most(most, noise / (std::max(tolerance_, 64 * unit) * size));
+    }
+    return most;
+}
+
+double StepCheck::misfit(std::size_t mode, std::span<const Series> series, double s) {
+    series_ = series;
+    floors_ = {};
+    std::fill(seen_.begin(), seen_.end(), 0.0);
+    evaluate(mode, s);
+    return std::max(misfit_of_rates(s), misfit_of_values(s));
+}
+
+double StepCheck::longest(std::size_t mode, std::span<const Series> series, double length, bool inside,
+                          std::span<const double> floors) {
+    series_ = series;
+    floors_ = floors;
+    std::fill(seen_.begin(), seen_.end(), 0.0);
+    const double last_power = -1.0 / static_cast<double>(order_ + 1);
+    double s = length;
+    for (int attempt = 0; attempt < most_attempts && s != 0; ++attempt) {
+        double most = 0;
+        for (const double share : {1.0, second_inside, first_inside}) {
+            if (share < 1 && !inside)
+                break;
+            const double at = share * s;
+            evaluate(mode, at);
+            for (std::size_t i = 0; i < states_; ++i)
+                if (const double reached = std::abs(at * truth_[i]); std::isfinite(reached))
+                    seen_[i] = std::max(seen_[i], reached);
+            keep_most(most, misfit_of_rates(at));
+            keep_most(most, misfit_of_values(at));
+            if (inside)
+                keep_most(most, misfit_of_sums(at));
+        }
+        if (most <= 1)
+            return s;
+        s *= std::isfinite(most) ? std::clamp(0.9 * std::pow(most, last_power), 0.1, 0.8) : 0.3;
+    }
+    return 0;
+}
+
+} // namespace graze

@@ -1,0 +1,90 @@
+#pragma once
+
+// Series that must be followed no farther than they are known, although nothing of that shows in states and outputs:
+// far from a steep place the terms of exp(-(30 x)^2) or 1/(x^2 + 1e-12) are lost beside a 1 that they are added to. To
+// be included only by the translation unit of an instruction set.
+
+#include "tape/kernel_table.hpp"
+#include "tape/step_kernels.hpp"
+
+namespace graze::GRAZE_INSTRUCTION_SET {
+
+/// Size of coefficient k in a lane.
+inline double size_of(const Series& series, int k, int lane) {
+    return __builtin_fabs(series.first[static_cast<std::size_t>(k) * series.stride + static_cast<std::size_t>(lane)]);
+}
+
+/// How far an argument may change from where it is. Where the function is constant to the last digit, up to where it
+/// begins to be seen; a function that is seen limits the step by its own coefficients.
+inline double allowed_change(const Guards& guards, std::size_t argument, int order, int lane) {
+    constexpr double exponential_seen = 40, tangent_seen = 17, tangent_constant = 19;
+    const double now = guards.arguments[argument].first[lane];
+    if (guards.kinds[argument] == GuardKind::exponential && -now - exponential_seen > largest_change(order))
+        return -now - exponential_seen;
+    if (guards.kinds[argument] == GuardKind::hyperbolic_tangent && __builtin_fabs(now) > tangent_constant)
+        return __builtin_fabs(now) - tangent_seen;
+    return largest_change(order);
+}
+
+/// Shortens the step of one lane until its guards allow it.
+inline double guarded(const Guards& guards, int order, int lane, double step) {
+    for (std::size_t i = 0; i < guards.argument_count; ++i) {
+        const double allowed = allowed_change(guards, i, order, lane);
+        for (int sweep = 0; sweep < 100; ++sweep) {
+            double change = 0;
+            for (int k = order; k > 0; --k)
+                change = (change + size_of(guards.arguments[i], k, lane)) * step;
+            if (!(change > allowed))
+                break;
+            // At least as much as the highest power asks for, so that a few sweeps are enough.
+            const double ratio = allowed / change;
+            step *= change < 1e300 ? greater(0.99 * ::pow(ratio, 1.0 / order), 0.9 * ratio) : 0.1;
+        }
+    }
+    for (std::size_t i = 0; i < guards.quotient_count; ++i) {
+        const Series& series = guards.quotients[i];
+        for (int sweep = 0; sweep < 100; ++sweep) {
+            const double last = greater(size_of(series, order, lane) * step, size_of(series, order - 1, lane)) *
+                                integer_power(step, order - 1);
+            const double size =
+                size_of(series, 0, lane) + step * (size_of(series, 1, lane) + step * size_of(series, 2, lane));
+            if (!(last > size * largest_share(order)))
+                break;
+            step *= last < 1e300 ? 0.99 * ::pow(size * largest_share(order) / last, 1.0 / (order - 1)) : 0.1;
+        }
+    }
+    return step;
+}
+
+/// Shortens steps that are too long.
+template <class V>
+void guard(const Guards& guards, int order, double* steps) {
+    using L = Plain<V>;
+    const L step = Numbers<L>::load(steps);
+    double excess[Numbers<V>::width];
+    L most = number<L>(0);
+    const auto at = [](const Series& series, int k) __attribute__((always_inline)) {
+        return absolute(Numbers<L>::load(series.first + static_cast<std::size_t>(k) * series.stride));
+    };
+    for (std::size_t i = 0; i < guards.argument_count; ++i) {
+        L change = at(guards.arguments[i], order);
+        for (int k = order; k-- > 1;)
+            change = multiply_add(change, step, at(guards.arguments[i], k));
+        most = greater(most, multiply_add(change, step, number<L>(-largest_change(order))));
+    }
+    if (guards.quotient_count > 0) {
+        const L power = integer_power(step, order - 1);
+        for (std::size_t i = 0; i < guards.quotient_count; ++i) {
+            const Series& series = guards.quotients[i];
+            const L last = greater(at(series, order) * step, at(series, order - 1)) * power;
+            const L size = at(series, 0) + step * (at(series, 1) + step * at(series, 2));
+            most = greater(most, last - size * largest_share(order));
+        }
+    }
+    Numbers<L>::store(excess, most);
+    for (int lane = 0; lane < Numbers<V>::width; ++lane)
+        if (excess[lane] > 0 || excess[lane] != excess[lane])
+            steps[lane] = guarded(guards, order, lane, steps[lane]);
+}
+
+} // namespace graze::GRAZE_INSTRUCTION_SET
