@@ -181,8 +181,9 @@ double Trajectory::propose(const Jet& jet, double step, std::size_t lane) {
 /// relative accuracy they are after. From when they have become far shorter, sizes are no longer let go below what they
 /// are.
 double Trajectory::limited_by_floors(double step) {
-    constexpr double far_shorter = 1e-3;
-    if (std::isnan(step))
+    constexpr double far_shorter = 1e-6;
+    // What falls to zero under a root ends there.
+    if (std::isnan(step) || simulation_->compiled().mode(mode_).has_roots)
         return step;
     if (arc_start_ || !(step < previous_step_)) {
         floored_ = false;
@@ -210,11 +211,16 @@ bool Trajectory::check_step(double& step, const Outlook& outlook, std::size_t la
     const double longest =
         step_check_.longest(mode_, std::span(series_).first(loaded_), step, leap_,
                             floored_ ? std::span(floors_).first(loaded_) : std::span<const double>{});
-    if (longest < step) {
-        believed_ = 2 * longest;
-        step = proposed_ = longest;
-    }
-    return step > 0;
+    if (longest == step)
+        return true;
+    believed_ = 2 * longest;
+    step = proposed_ = longest;
+    return step > shortest_step();
+}
+
+/// Below it, time hardly tells a step from none.
+double Trajectory::shortest_step() const {
+    return 32 * std::numeric_limits<double>::epsilon() * std::max(time_ - start_time_, largest_step_);
 }
 
 void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
@@ -226,8 +232,7 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
     }
     const double remaining = (end_time_ - time_) - time_low_;
     largest_step_ = std::max(largest_step_, std::min(proposed_, remaining));
-    constexpr double epsilon = std::numeric_limits<double>::epsilon();
-    if (proposed_ < 32 * epsilon * std::max(time_ - start_time_, largest_step_)) {
+    if (proposed_ < shortest_step()) {
         announce_contact();
         if (branch_ahead_ < states_)
             return finish_at_branch(branch_ahead_);
@@ -262,7 +267,7 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
     const double contact_at = step;
     bool stopped = make_step(step);
     if (stopped && watched != no_event &&
-        contact_at - step <= 64 * epsilon * std::max(std::abs(time_), largest_step_)) {
+        contact_at - step <= 64 * std::numeric_limits<double>::epsilon() * std::max(std::abs(time_), largest_step_)) {
         // A contact at the very passage belongs to it: were it left for later, a clock that is set back at the end of
         // its period would have passed it by.
         step = contact_at;

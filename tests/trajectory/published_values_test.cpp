@@ -135,8 +135,9 @@ TEST(MemsSwitch, ClosureEndsTheMotionInEveryMode) {
         singular += outcome.ending == Ending::singular ? 1 : 0;
         terminal += outcome.ending == Ending::terminal ? 1 : 0;
         EXPECT_LE(experiment.trajectory.state()[0], 1 + 1e-12) << excess;
-        if (outcome.ending == Ending::terminal)
+        if (outcome.ending == Ending::terminal) {
             EXPECT_NEAR(experiment.trajectory.state()[0], 1, 1e-12) << excess;
+        }
     }
     EXPECT_EQ(singular + terminal, 60);
     EXPECT_GT(terminal, 0);

@@ -110,6 +110,7 @@ private:
     // One step (trajectory.cpp)
     void find_series(const Jet& jet, std::size_t lane);
     double limited_by_floors(double step);
+    double shortest_step() const;
     bool check_step(double& step, const Outlook& outlook, std::size_t lane);
     void move_along(double step, bool last, const Outlook& outlook, std::size_t lane);
     void wrap_cyclic_states(bool snap);
