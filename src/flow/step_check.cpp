@@ -58,7 +58,6 @@ void StepCheck::set_parameters(std::span<const double> parameters) {
 
 /// The polynomials' states at s, and what the model makes of them.
 void StepCheck::evaluate(std::size_t mode, double s) {
-    const Function& evidence = model_->mode(mode).evidence;
     for (std::size_t i = 0; i < states_; ++i) {
         double value = series_[i][order_], slope = value;
         for (std::size_t k = order_; k-- > 1;) {
@@ -67,10 +66,20 @@ void StepCheck::evaluate(std::size_t mode, double s) {
         }
         inputs_[i] = value * s + series_[i][0];
         slopes_[i] = slope;
-        input_errors_[i] = 4 * unit * sizes_at(series_[i], order_, std::abs(s)).value;
     }
-    evidence.evaluate(inputs_, truth_, work_);
-    evidence.error_bounds(inputs_, input_errors_, errors_, work_);
+    mode_ = mode;
+    errors_known_ = false;
+    model_->mode(mode).evidence.evaluate(inputs_, truth_, work_);
+}
+
+/// What round-off may have done to what the model makes of them.
+void StepCheck::find_errors(double s) {
+    if (errors_known_)
+        return;
+    errors_known_ = true;
+    for (std::size_t i = 0; i < states_; ++i)
+        input_errors_[i] = 4 * unit * sizes_at(series_[i], order_, std::abs(s)).value;
+    model_->mode(mode_).evidence.error_bounds(inputs_, input_errors_, errors_, work_);
 }
 
 /// A state that starts without value, rate and acceleration has no size of its own yet. It is measured by that to which
@@ -91,8 +100,10 @@ double StepCheck::misfit_of_rates(double s) {
         if (difference == 0)
             continue;
         double allowed = allowance * tolerance_ * size_of_state(i, length);
-        if (!(difference <= allowed))
+        if (!(difference <= allowed)) {
+            find_errors(s);
             allowed += roundoff_allowance * (length * errors_[i] + unit * sizes_at(series_[i], order_, length).slope);
+        }
         keep_most(most, difference / allowed);
     }
     return most;
@@ -109,8 +120,12 @@ double StepCheck::misfit_of_values(double s) {
         const double sum = sizes_at(c, order_, length).value,
                      first = std::abs(c[0]) + length * (std::abs(c[1]) + length * std::abs(c[2]));
         const double size = std::max(first > 0 ? first : sum, floors_.empty() ? 0 : floors_[j]);
-        keep_most(most,
-                  difference / (value_allowance * tolerance_ * size + roundoff_allowance * (errors_[j] + unit * sum)));
+        double allowed = value_allowance * tolerance_ * size;
+        if (!(difference <= allowed)) {
+            find_errors(s);
+            allowed += roundoff_allowance * (errors_[j] + unit * sum);
+        }
+        keep_most(most, difference / allowed);
     }
     return most;
 }

@@ -17,12 +17,15 @@ constexpr double allowance = 50;
 constexpr double smallest_share = 1e-14;
 /// Share of an arc over which sizes are taken where the start alone does not show them.
 constexpr double first_share = 1e-10;
+/// A step longer than the last one by more than this is looked at within as well.
+constexpr double longest_leap = 2;
 
 } // namespace
 
 ArcFlow::ArcFlow(const Simulation& simulation, std::vector<std::size_t> free)
     : simulation_(&simulation), free_(std::move(free)), states_(simulation.compiled().states()),
       directions_(states_ + free_.size()), step_size_(simulation.order(), simulation.options().tolerance),
+      step_check_(simulation.compiled(), simulation.order(), simulation.options().tolerance),
       tolerance_(allowance * simulation.options().tolerance), single_(simulation, LaneKind::single),
       tangent_(simulation, LaneKind::tangent) {
     lanes_ = static_cast<std::size_t>(tangent_.width()) - 1;
@@ -31,6 +34,7 @@ ArcFlow::ArcFlow(const Simulation& simulation, std::vector<std::size_t> free)
     parameter_lanes_.resize(parameters_.size() * width);
     seeds_.resize(states_ * width);
     sums_.resize(std::max<std::size_t>(states_, 1) * width);
+    slopes_.resize(sums_.size());
     next_.resize(states_ * directions_);
     matrix_.resize(states_ * directions_);
     times_.resize(width);
@@ -39,6 +43,7 @@ ArcFlow::ArcFlow(const Simulation& simulation, std::vector<std::size_t> free)
 void ArcFlow::set_parameters(std::span<const double> parameters) {
     std::copy(parameters.begin(), parameters.end(), parameters_.begin());
     single_.set_parameters(parameters_);
+    step_check_.set_parameters(parameters_);
     const std::size_t width = lanes_ + 1;
     std::fill(parameter_lanes_.begin(), parameter_lanes_.end(), 0.0);
     for (std::size_t j = 0; j < parameters_.size(); ++j)
@@ -50,18 +55,27 @@ void ArcFlow::set_parameters(std::span<const double> parameters) {
     }
 }
 
-/// Length of the next step, with the sign of what remains. @param watched events are looked at, whose functions must
-/// then be as accurate as the states
-double ArcFlow::step_of(const Jet& jet, double remaining, bool watched) {
-    const std::span<const Series> series = watched ? jet.series() : jet.series().first(states_);
+/// Length of the next step, with the sign of what remains: chosen from the series, and believed as far as the model
+/// agrees with them. @param watched events are looked at, whose functions must then be as accurate as the states
+double ArcFlow::step_of(std::size_t mode, const Jet& jet, double remaining, bool watched) {
+    const std::span<const Series> all = jet.series(), series = watched ? all : all.first(states_);
     double step = step_size_(series, previous_);
     // A state that starts at almost zero, such as a phase of 1e-18, is no measure of its own changes.
     if (previous_ == 0 && step < smallest_share * std::abs(remaining))
         step = step_size_(series, first_share * std::abs(remaining));
-    if (!(step < std::numeric_limits<double>::infinity())) // NaN stays
-        return std::isnan(step) ? step : remaining;
-    previous_ = step;
-    return std::copysign(std::min(step, std::abs(remaining)), remaining);
+    if (std::isnan(step))
+        return step;
+    const bool leap = !(step <= longest_leap * previous_) && !simulation_->compiled().mode(mode).polynomial;
+    const bool bounded = step < std::numeric_limits<double>::infinity();
+    guarded_.assign(static_cast<std::size_t>(jet.width()), 0.0);
+    guarded_[0] = std::min(step, std::abs(remaining));
+    jet.guard_steps(guarded_);
+    const double longest = std::abs(step_check_.longest(mode, series, std::copysign(guarded_[0], remaining), leap));
+    if (longest < std::min(step, std::abs(remaining)))
+        previous_ = longest;
+    else if (bounded)
+        previous_ = step;
+    return longest < std::abs(remaining) ? std::copysign(longest, remaining) : remaining;
 }
 
 ArcFlow::Ending ArcFlow::run(std::size_t mode, std::span<double> state, double duration, const StepVisitor& visit) {
@@ -74,7 +88,7 @@ ArcFlow::Ending ArcFlow::run(std::size_t mode, std::span<double> state, double d
         if (count >= most_steps)
             return Ending::too_long;
         jet.compute(state);
-        const double step = step_of(jet, remaining, static_cast<bool>(visit));
+        const double step = step_of(mode, jet, remaining, static_cast<bool>(visit));
         if (std::isnan(step))
             return Ending::undefined;
         if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining)
@@ -100,6 +114,7 @@ void ArcFlow::load(std::size_t mode, std::span<const double> state, std::size_t 
             for (std::size_t l = 0; l < lanes_; ++l)
                 parameter_lanes_[free_[f] * width + 1 + l] = first + l == states_ + f ? 1 : 0;
         tangent_(mode).set_parameters(parameter_lanes_);
+        tangent_.end_jet(mode).set_parameters(parameter_lanes_);
     }
     for (std::size_t i = 0; i < states_; ++i) {
         seeds_[i * width] = state[i];
@@ -130,18 +145,18 @@ ArcFlow::Ending ArcFlow::run(std::size_t mode, std::span<double> state, double d
                 load(mode, state, first, here);
                 jet.compute(seeds_);
                 if (step == 0)
-                    step = step_of(jet, remaining, false);
+                    step = step_of(mode, jet, remaining, false);
                 if (std::isnan(step))
                     return Ending::undefined;
-                const double reach = tangent_reach(jet, states_, here, tolerance_, std::abs(step));
-                if (reach < std::abs(step)) {
-                    step = std::copysign(reach, step);
+                const double reach = std::copysign(tangent_reach(jet, states_, here, tolerance_, std::abs(step)), step);
+                const double followed = follow_tangents(jet, tangent_.end_jet(mode), states_, here, tolerance_, reach,
+                                                        times_, sums_, slopes_);
+                if (std::abs(followed) < std::abs(step)) {
+                    step = followed;
                     done = first == 0; // derivatives computed before need the shorter step as well
                 }
                 if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining)
                     return Ending::singular;
-                std::fill(times_.begin(), times_.end(), step);
-                jet.evaluate_states(times_, sums_);
                 for (std::size_t i = 0; i < states_; ++i)
                     std::copy_n(&sums_[i * width + 1], here, &next_[i * directions_ + first]);
             }

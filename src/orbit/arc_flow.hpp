@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/flow/step_check.hpp"
 #include "graze/flow/step_size.hpp"
 #include "graze/trajectory/simulation.hpp"
 #include "graze/trajectory/trajectory.hpp"
@@ -36,16 +37,17 @@ public:
     std::size_t steps() const { return steps_; } ///< since it was made
 
 private:
-    double step_of(const Jet& jet, double remaining, bool watched);
+    double step_of(std::size_t mode, const Jet& jet, double remaining, bool watched);
     void load(std::size_t mode, std::span<const double> state, std::size_t first, std::size_t count);
 
     const Simulation* simulation_;
     std::vector<std::size_t> free_;
     std::size_t states_, directions_, lanes_;
     StepSize step_size_;
+    StepCheck step_check_;
     double tolerance_;
     JetSet single_, tangent_;
-    std::vector<double> parameters_, parameter_lanes_, seeds_, sums_, next_, times_;
+    std::vector<double> parameters_, parameter_lanes_, seeds_, sums_, slopes_, next_, times_, guarded_;
     std::vector<double> matrix_; ///< states x directions, row by row
     double previous_ = 0;
     std::size_t steps_ = 0;

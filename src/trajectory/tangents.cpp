@@ -20,7 +20,7 @@ Tangents::Tangents(const Simulation& simulation, std::span<const double> paramet
       tolerance_(allowance * simulation.options().tolerance), jets_(simulation, LaneKind::tangent),
       lanes_(static_cast<std::size_t>(jets_.width()) - 1), parameters_(parameters.begin(), parameters.end()),
       parameter_seeds_(parameter_count_ * directions), matrix_(states_ * directions), next_(states_ * directions),
-      seeds_(states_ * (lanes_ + 1)), sums_(std::max<std::size_t>(states_, 1) * (lanes_ + 1)),
+      seeds_(states_ * (lanes_ + 1)), sums_(std::max<std::size_t>(states_, 1) * (lanes_ + 1)), slopes_(sums_.size()),
       parameter_lanes_(parameter_count_ * (lanes_ + 1)) {
     for (std::size_t d = 0; d < directions; ++d) {
         const auto seed = seeds.subspan(d * (states_ + parameter_count_), states_ + parameter_count_);
@@ -51,6 +51,7 @@ const Jet& Tangents::compute(std::size_t mode, std::span<const double> state, st
     if (directions_ > lanes_) {
         fill(parameter_lanes_, parameters_, parameter_seeds_, first);
         jet.set_parameters(parameter_lanes_);
+        jets_.end_jet(mode).set_parameters(parameter_lanes_);
     }
     fill(seeds_, state, matrix, first);
     jet.compute(seeds_);
@@ -66,7 +67,10 @@ double Tangents::step(std::size_t mode, std::span<const double> state, std::span
     for (std::size_t first = 0; first < directions_;) {
         const Jet& jet = compute(mode, state, matrix, first);
         const std::size_t count = std::min(lanes_, directions_ - first);
-        const double reach = tangent_reach(jet, states_, count, tolerance_, step);
+        const double wanted = tangent_reach(jet, states_, count, tolerance_, step);
+        times_.resize(width);
+        const double reach =
+            follow_tangents(jet, jets_.end_jet(mode), states_, count, tolerance_, wanted, times_, sums_, slopes_);
         if (reach < step) {
             step = reach;
             if (first > 0) { // directions that are done already need the shorter step as well
@@ -74,8 +78,6 @@ double Tangents::step(std::size_t mode, std::span<const double> state, std::span
                 continue;
             }
         }
-        times_.assign(width, step);
-        jet.evaluate_states(times_, sums_);
         for (std::size_t i = 0; i < states_; ++i) {
             std::copy_n(&sums_[i * width + 1], count, &after_[i * directions_ + first]);
             moved_[i] = sums_[i * width];

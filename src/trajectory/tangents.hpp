@@ -61,7 +61,7 @@ private:
     double tolerance_;
     JetSet jets_;
     std::size_t lanes_; ///< directions a pass
-    std::vector<double> parameters_, parameter_seeds_, matrix_, next_, seeds_, sums_, times_, parameter_lanes_;
+    std::vector<double> parameters_, parameter_seeds_, matrix_, next_, seeds_, sums_, slopes_, times_, parameter_lanes_;
     std::vector<double> middle_, after_, between_, moved_; ///< within arcs that are followed in parts
     bool valid_ = true;
 };

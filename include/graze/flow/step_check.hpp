@@ -55,9 +55,11 @@ private:
     double misfit_of_sums(double s);
     double size_of_state(std::size_t i, double s) const;
     void evaluate(std::size_t mode, double s);
+    void find_errors(double s);
 
     const CompiledModel* model_;
-    std::size_t states_, order_;
+    std::size_t states_, order_, mode_ = 0;
+    bool errors_known_ = false;
     double tolerance_;
     std::span<const Series> series_;
     std::span<const double> floors_;

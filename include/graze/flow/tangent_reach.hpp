@@ -3,6 +3,7 @@
 #include "graze/tape/jet.hpp"
 
 #include <cstddef>
+#include <span>
 
 namespace graze {
 
@@ -14,5 +15,13 @@ namespace graze {
 /// @param tolerance of the derivatives: the last two terms are some orders of magnitude larger than what is cut off
 /// @return the step itself, or less
 double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, double tolerance, double step);
+
+/// Follows the series of a tangent jet for a step, or for a part of it over which the derivatives' polynomials are what
+/// the variational equations say at the end, as StepCheck asks of states.
+/// @param end_jet of order 1, with the same lanes and parameters; @param times, sums, slopes room to work in, as
+/// `Jet::evaluate_states` needs it; sums are those at the end
+/// @param tolerance that derivatives are allowed; @return the step, or the part
+double follow_tangents(const Jet& jet, Jet& end_jet, std::size_t states, std::size_t count, double tolerance,
+                       double step, std::span<double> times, std::span<double> sums, std::span<double> slopes);
 
 } // namespace graze
