@@ -69,6 +69,13 @@ public:
     void find_steps(double log_tolerance, std::span<const double> references, std::span<double> steps) const override {
         table_.steps(series_.data(), series_.size(), order_, log_tolerance, references.data(), steps.data());
     }
+    bool compute_from(const Jet& values, std::span<const double> states) override;
+    void find_disagreement(const Jet& ends, std::span<const double> lengths, std::span<const double> values,
+                           std::span<const double> slopes, double allowed, double smallest,
+                           std::span<double> worst) const override {
+        table_.disagreement(series_.data(), ends.series().data(), states_, lengths.data(), values.data(), slopes.data(),
+                            allowed, smallest, worst.data());
+    }
     void guard_steps(std::span<double> steps) const override {
         if (!arguments_.empty() || !quotients_.empty())
             table_.guard({arguments_.data(), kinds_.data(), arguments_.size(), quotients_.data(), quotients_.size()},
@@ -119,8 +126,9 @@ private:
 
     const KernelTable& table_;
     int order_;
-    std::size_t states_;
+    std::size_t states_, registers_;
     std::size_t parameters_;
+    bool values_known_ = false; ///< all of order 0 is that of the states and parameters
     Layout layout_;
     AlignedNumbers memory_;
     std::vector<TermOperands> terms_;
@@ -136,7 +144,7 @@ private:
 };
 
 TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
-    : table_(table), order_(order), states_(tape.states), parameters_(tape.parameters),
+    : table_(table), order_(order), states_(tape.states), registers_(tape.registers), parameters_(tape.parameters),
       layout_(tape, order, table.width), memory_(layout_.size) {
     const auto register_at = [&](std::uint32_t index) {
         return memory_.data() + layout_.registers + index * layout_.series;
@@ -148,7 +156,6 @@ TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
     const StepFinder finder(tape, table, layout_, memory_.data(), terms_);
     for (int k = 0; k <= order; ++k)
         add_segment(finder.steps(k));
-    add_segment(finder.value_steps());
     add_segment(finder.rate_steps());
 
     std::size_t constant_outputs = 0;
@@ -226,6 +233,7 @@ void TapeJet::compute_constants() {
 void TapeJet::set_parameters(std::span<const double> parameters) {
     if (parameters.size() != parameters_ * layout_.number)
         throw std::invalid_argument("wrong number of parameters for a jet");
+    values_known_ = false;
     std::ranges::copy(parameters, memory_.data());
     compute_constants();
 }
@@ -248,15 +256,39 @@ void TapeJet::set_states(std::span<const double> states) {
 }
 
 void TapeJet::compute(std::span<const double> states) {
+    values_known_ = false;
     set_states(states);
     for (int k = 0; k <= order_; ++k)
         run(segments_[static_cast<std::size_t>(k)], k);
 }
 
+bool TapeJet::compute_from(const Jet& values, std::span<const double> states) {
+    const auto* from = dynamic_cast<const TapeJet*>(&values);
+    if (!from || !from->values_known_)
+        return false;
+    const std::size_t number = layout_.number;
+    const double* source = from->memory_.data() + from->layout_.registers;
+    for (std::size_t i = 0; i < states_; ++i)
+        if (!std::equal(source + i * from->layout_.series, source + i * from->layout_.series + number,
+                        states.data() + i * number))
+            return false;
+    double* to = memory_.data() + layout_.registers;
+    for (std::size_t r = 0; r < registers_; ++r, source += from->layout_.series, to += layout_.series)
+        for (std::size_t l = 0; l < number; ++l)
+            to[l] = source[l];
+    std::copy_n(from->memory_.data() + from->layout_.reciprocals, layout_.constant_outputs - layout_.reciprocals,
+                memory_.data() + layout_.reciprocals);
+    for (int k = 1; k <= order_; ++k)
+        run(segments_[static_cast<std::size_t>(k)], k);
+    return true;
+}
+
 void TapeJet::compute_values(std::span<const double> states) {
     set_states(states);
-    run(segments_[static_cast<std::size_t>(order_) + 1], 0);
-    run(segments_[static_cast<std::size_t>(order_) + 2], 1);
+    // All of order 0, also what only derivatives need: `compute_from` goes on from it.
+    run(segments_[0], 0);
+    run(segments_[static_cast<std::size_t>(order_) + 1], 1);
+    values_known_ = true;
 }
 
 } // namespace

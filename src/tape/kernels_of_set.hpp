@@ -93,6 +93,7 @@ constexpr KernelTable make_table() {
     table.literal = &literal<V>;
     table.sum = &sum<V>;
     table.sum_and_slope = &sum_and_slope<V>;
+    table.disagreement = &disagreement<V>;
     table.bound = &bound<V>;
     table.steps = &steps<V>;
     table.guard = &guard<V>;

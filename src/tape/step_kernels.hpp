@@ -116,8 +116,8 @@ constexpr double largest_share(int order) {
     return share;
 }
 
-/// What is smaller is rounded to few digits, or to none: nothing can be asked of its relative accuracy.
-inline constexpr double smallest_size = 1e-290;
+/// Squares of what is smaller vanish or have few digits: nothing can be asked of its relative accuracy.
+inline constexpr double smallest_size = 1e-150;
 
 /// Shortens the step of one lane until no terms grow at the end of the series.
 inline double shortened(const Series* series, std::size_t count, std::size_t order, int lane, double step) {

@@ -60,6 +60,39 @@ void sum_and_slope(const double* series, int order, const double* times, double*
     Numbers<L>::store(values, multiply_add(value, time, at<L>(series, 0)));
 }
 
+/// By how much slopes and rates differ more than is allowed, the worst of all states: h |slope - rate| less `allowed`
+/// times the size, which is that of StepCheck. What is not finite is infinite.
+template <class V>
+void disagreement(const Series* series, const Series* ends, std::size_t count, const double* lengths,
+                  const double* values, const double* slopes, double allowed, double smallest, double* worst) {
+    using L = Plain<V>;
+    constexpr int width = Numbers<V>::width;
+    const auto magnitude = [](L a) __attribute__((always_inline)) {
+        return absolute(a);
+    };
+    const auto larger = [](L a, L b) __attribute__((always_inline)) {
+        return -lesser(-a, -b);
+    };
+    const L length = Numbers<L>::load(lengths);
+    L most = Numbers<L>::of(0), sum = most;
+    for (std::size_t i = 0; i < count; ++i) {
+        const L start = Numbers<L>::load(series[i].first), start_rate = at<L>(series[i].first, 1);
+        const L end = Numbers<L>::load(values + i * width), end_rate = at<L>(ends[i].first, 1);
+        const L rates = larger(magnitude(start_rate), magnitude(end_rate)) * length;
+        const L size = larger(magnitude(start), magnitude(end)) + Numbers<L>::of(smallest) + rates * 0.25;
+        const L difference = magnitude(Numbers<L>::load(slopes + i * width) - end_rate) * length;
+        const L excess = difference - size * allowed;
+        most = larger(most, excess);
+        sum = sum + excess * 0.0;
+    }
+    double sums[width];
+    Numbers<L>::store(worst, most);
+    Numbers<L>::store(sums, sum);
+    for (int lane = 0; lane < width; ++lane)
+        if (sums[lane] != 0)
+            worst[lane] = __builtin_inf();
+}
+
 /// With S_m = c_0 + ... + c_m h^m and x = s / h, summation by parts gives
 ///   p(s) = sum_{m<n} S_m (x^m - x^{m+1}) + S_n x^n,
 /// a convex combination: p is at least the least partial sum at h. Each term is reduced by its share of the round-off:

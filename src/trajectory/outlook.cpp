@@ -41,32 +41,21 @@ void Outlook::look(const Jet& jet, Jet& end_jet, std::size_t mode) {
         jet.bound_output(w, lengths_, std::span(least_).subspan(w * width_, width_),
                          std::span(sizes_).subspan(w * width_, width_), std::span(ends_).subspan(w * width_, width_));
     end_jet.compute_values(states_);
-    std::fill(disagreement_.begin(), disagreement_.end(), 0.0);
-    compare_rates(jet, end_jet);
+    jet.find_disagreement(end_jet, lengths_, states_, slopes_, StepCheck::allowance * tolerance_,
+                          StepCheck::smallest_size, disagreement_);
     compare_values(jet, end_jet, mode);
-}
-
-void Outlook::compare_rates(const Jet& jet, const Jet& end_jet) {
-    const double allowed = StepCheck::allowance * tolerance_;
-    for (std::size_t i = 0; i < simulation_->compiled().states(); ++i) {
-        const double* c = jet.state(i);
-        const double* rates = end_jet.state(i) + width_;
-        for (std::size_t l = 0; l < width_; ++l) {
-            const double size =
-                StepCheck::size_over(c[l], c[width_ + l], states_[i * width_ + l], rates[l], lengths_[l]);
-            note(l, lengths_[l] * std::abs(slopes_[i * width_ + l] - rates[l]) - allowed * size);
-        }
-    }
 }
 
 void Outlook::compare_values(const Jet& jet, const Jet& end_jet, std::size_t mode) {
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
     const double allowed = StepCheck::value_allowance * tolerance_;
+    const std::span<const Series> series = jet.series().subspan(simulation_->compiled().states());
+    const std::span<const Series> truth = end_jet.series().subspan(simulation_->compiled().states());
     const auto compare = [&](std::size_t output, std::size_t l, double value, double sum) {
-        const double* c = jet.output(output);
+        const double* c = series[output].first + l;
         const double h = lengths_[l];
-        const double size = std::abs(c[l]) + h * (std::abs(c[width_ + l]) + h * std::abs(c[2 * width_ + l]));
-        note(l, std::abs(value - end_jet.output(output)[l]) - (allowed * size + 8 * epsilon * sum));
+        const double size = std::abs(c[0]) + h * (std::abs(c[width_]) + h * std::abs(c[2 * width_]));
+        note(l, std::abs(value - truth[output].first[l]) - (allowed * size + 8 * epsilon * sum));
     };
     const std::size_t watched = simulation_->compiled().mode(mode).watched.size();
     for (std::size_t w = 0; w < watched; ++w)
@@ -75,7 +64,7 @@ void Outlook::compare_values(const Jet& jet, const Jet& end_jet, std::size_t mod
     // Sections and observed quantities are few.
     for (std::size_t o = watched; o < watched + simulation_->compiled().observed(); ++o)
         for (std::size_t l = 0; l < width_; ++l) {
-            const double* c = jet.output(o);
+            const double* c = series[o].first;
             double value = 0, sum = 0;
             for (auto k = static_cast<std::size_t>(jet.order()) + 1; k-- > 0;) {
                 value = value * lengths_[l] + c[k * width_ + l];

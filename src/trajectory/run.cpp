@@ -12,8 +12,7 @@ void run(Trajectory& trajectory, JetSet& jets) {
     jets.set_parameters(trajectory.parameters());
     Outlook outlook(trajectory.simulation(), 1);
     while (!trajectory.finished()) {
-        Jet& jet = jets(trajectory.mode());
-        jet.compute(trajectory.state());
+        const Jet& jet = jets.computed(trajectory.mode(), trajectory.state());
         outlook.lengths()[0] = trajectory.previous_step();
         outlook.find_steps(jet);
         outlook.lengths()[0] = trajectory.propose(jet, outlook.length(0));

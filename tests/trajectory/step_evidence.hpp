@@ -88,7 +88,7 @@ rates = {{ y = "{0}*q*(q*s)^{1}*cos((q*s)^{0})", s = 1 }}
 
 /// y' = f(k (s - c)) with the integral F(k (s - c))/k.
 inline Family steep(const std::string& name, const std::string& rate,
-                    const std::function<long double(long double)>& integral, double largest) {
+                    const std::function<long double(long double)>& integral, double steepest = 1e4) {
     return {name,
             fmt::format(R"toml(
 parameters = {{ k = 1, c = 0 }}
@@ -99,9 +99,9 @@ s = 0
 rates = {{ y = "{}", s = 1 }}
 )toml",
                         rate),
-            [integral](Random& random) {
+            [integral, steepest](Random& random) {
                 ClosedMotion one;
-                const double k = random.log_uniform(1, 1e4), c = random.uniform(-1, 1);
+                const double k = random.log_uniform(1, steepest), c = random.uniform(-1, 1);
                 one.parameters = {k, c};
                 one.state = {0, -1};
                 one.end = random.uniform(0.5, 3);
@@ -120,24 +120,22 @@ inline std::vector<Family> all_families() {
     for (int n = 2; n <= 12; ++n)
         families.push_back(chirp(n));
     using Long = long double;
-    families.push_back(steep(
-        "tanh", "tanh(k*(s - c))", [](Long a) { return std::abs(a) + std::log1p(std::exp(-2 * std::abs(a))); }, 1));
-    families.push_back(steep(
-        "bell", "exp(-(k*(s - c))^2)", [](Long a) { return std::erf(a) * 0.886226925452758013649L; }, 1));
-    families.push_back(steep(
-        "peak", "1/(1 + (k*(s - c))^2)", [](Long a) { return std::atan(a); }, 1));
-    families.push_back(steep(
-        "peak on one", "1 + 1/(1 + (k*(s - c))^2)", [](Long a) { return a + std::atan(a); }, 1));
-    families.push_back(steep(
-        "small peak", "1 + 1e-9/(1 + (k*(s - c))^2)", [](Long a) { return a + 1e-9L * std::atan(a); }, 1));
-    families.push_back(steep(
-        "step on one", "3 + tanh(k*(s - c))",
-        [](Long a) { return 3 * a + std::abs(a) + std::log1p(std::exp(-2 * std::abs(a))); }, 1));
+    families.push_back(
+        steep("tanh", "tanh(k*(s - c))", [](Long a) { return std::abs(a) + std::log1p(std::exp(-2 * std::abs(a))); }));
+    families.push_back(
+        steep("bell", "exp(-(k*(s - c))^2)", [](Long a) { return std::erf(a) * 0.886226925452758013649L; }));
+    families.push_back(steep("peak", "1/(1 + (k*(s - c))^2)", [](Long a) { return std::atan(a); }));
+    families.push_back(steep("peak on one", "1 + 1/(1 + (k*(s - c))^2)", [](Long a) { return a + std::atan(a); }));
+    families.push_back(
+        steep("small peak", "1 + 1e-9/(1 + (k*(s - c))^2)", [](Long a) { return a + 1e-9L * std::atan(a); }));
+    families.push_back(steep("step on one", "3 + tanh(k*(s - c))",
+                             [](Long a) { return 3 * a + std::abs(a) + std::log1p(std::exp(-2 * std::abs(a))); }));
     families.push_back(steep(
         "logistic", "1/(1 + exp(-k*(s - c)))",
-        [](Long a) { return a > 0 ? a + std::log1p(std::exp(-a)) : std::log1p(std::exp(a)); }, 1));
-    families.push_back(steep(
-        "switch", "atan(k*(s - c))", [](Long a) { return a * std::atan(a) - std::log1p(a * a) / 2; }, 1));
+        [](Long a) { return a > 0 ? a + std::log1p(std::exp(-a)) : std::log1p(std::exp(a)); },
+        300)); // beyond, exp(-k (s - c)) is no number
+    families.push_back(
+        steep("switch", "atan(k*(s - c))", [](Long a) { return a * std::atan(a) - std::log1p(a * a) / 2; }));
     return families;
 }
 

@@ -22,8 +22,8 @@ public:
     /// What is allowed of the tolerance. Over a step that is chosen from the last coefficients, rates differ by 1 to 5
     /// tolerances, values by a fifth of one.
     static constexpr double allowance = 20, value_allowance = 4;
-    /// What is smaller is rounded to few digits.
-    static constexpr double smallest_size = 1e-290;
+    /// Squares of what is smaller vanish or have few digits.
+    static constexpr double smallest_size = 1e-150;
     /// The size of a state by which its rates are judged, over a step of length h.
     /// @param start, start_rate, end, end_rate the state there, and its rate
     static double size_over(double start, double start_rate, double end, double end_rate, double h) {

@@ -44,6 +44,9 @@ public:
     virtual void set_parameters(std::span<const double> parameters) = 0;
     /// Computes coefficients 0 .. order() from states [state * width() + lane].
     virtual void compute(std::span<const double> states) = 0;
+    /// The same from what `compute_values` has made of the same states and parameters in another jet of the tape.
+    /// @return false, and nothing is computed, where its states are others
+    virtual bool compute_from(const Jet& values, std::span<const double> states) = 0;
     /// Computes only coefficient 0 of outputs, and the rates, which become coefficient 1 of the states: cheap
     /// evaluation at a point. All other coefficients are left undefined.
     virtual void compute_values(std::span<const double> states) = 0;
@@ -76,7 +79,14 @@ public:
     /// The same, and their derivatives with respect to time there. @param slopes [state * width() + lane]
     virtual void evaluate_states(std::span<const double> times, std::span<double> values,
                                  std::span<double> slopes) const = 0;
-    /// The same for one output. @param values [lane]
+    /// Whether a step's end is what the model says: by how much h |slope - rate| exceeds `allowed` times the size of
+    /// each state over the step, the worst of all; 0 where none does, infinity where something is not finite.
+    /// @param ends a jet of the same tape whose values have been computed at the ends of the steps
+    /// @param lengths [lane]; @param values, slopes as `evaluate_states` has given; @param smallest added to sizes
+    virtual void find_disagreement(const Jet& ends, std::span<const double> lengths, std::span<const double> values,
+                                   std::span<const double> slopes, double allowed, double smallest,
+                                   std::span<double> worst) const = 0;
+    /// Sums the series of one output, in each lane at its own time. @param values [lane]
     virtual void evaluate_output(std::size_t index, std::span<const double> times, std::span<double> values) const = 0;
     /// Bounds an output from below on [0, lengths[lane]] by its partial sums at the end, of which it is a convex
     /// combination throughout, less their round-off; -infinity if it is not finite. (Not for tangent jets.)
