@@ -48,9 +48,9 @@ inline double guarded(const Guards& guards, int order, int lane, double step) {
                                 integer_power(step, order - 1);
             const double size =
                 size_of(series, 0, lane) + step * (size_of(series, 1, lane) + step * size_of(series, 2, lane));
-            if (!(last > size * largest_share(order)))
+            if (!(last > size * largest_share.of[order - 1]))
                 break;
-            step *= last < 1e300 ? 0.99 * ::pow(size * largest_share(order) / last, 1.0 / (order - 1)) : 0.1;
+            step *= last < 1e300 ? 0.99 * ::pow(size * largest_share.of[order - 1] / last, 1.0 / (order - 1)) : 0.1;
         }
     }
     return step;
@@ -78,7 +78,7 @@ void guard(const Guards& guards, int order, double* steps) {
             const Series& series = guards.quotients[i];
             const L last = greater(at(series, order) * step, at(series, order - 1)) * power;
             const L size = at(series, 0) + step * (at(series, 1) + step * at(series, 2));
-            most = greater(most, last - size * largest_share(order));
+            most = greater(most, last - size * largest_share.of[order - 1]);
         }
     }
     Numbers<L>::store(excess, most);

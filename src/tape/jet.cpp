@@ -263,8 +263,8 @@ void TapeJet::compute(std::span<const double> states) {
 }
 
 bool TapeJet::compute_from(const Jet& values, std::span<const double> states) {
-    const auto* from = dynamic_cast<const TapeJet*>(&values);
-    if (!from || !from->values_known_)
+    const auto* from = static_cast<const TapeJet*>(&values); // there is no other kind
+    if (!from->values_known_ || from->order_ != 1)
         return false;
     const std::size_t number = layout_.number;
     const double* source = from->memory_.data() + from->layout_.registers;
@@ -273,9 +273,12 @@ bool TapeJet::compute_from(const Jet& values, std::span<const double> states) {
                         states.data() + i * number))
             return false;
     double* to = memory_.data() + layout_.registers;
-    for (std::size_t r = 0; r < registers_; ++r, source += from->layout_.series, to += layout_.series)
-        for (std::size_t l = 0; l < number; ++l)
-            to[l] = source[l];
+    if (number == 1)
+        for (std::size_t r = 0; r < registers_; ++r)
+            to[r * layout_.series] = source[2 * r];
+    else
+        for (std::size_t r = 0; r < registers_; ++r)
+            std::copy_n(source + r * from->layout_.series, number, to + r * layout_.series);
     std::copy_n(from->memory_.data() + from->layout_.reciprocals, layout_.constant_outputs - layout_.reciprocals,
                 memory_.data() + layout_.reciprocals);
     for (int k = 1; k <= order_; ++k)

@@ -109,15 +109,18 @@ constexpr double largest_change(int order) {
     return order < 6 ? 0.7 * order : 4;
 }
 /// Of the last terms of a quotient, in its size: at 0.7 of its radius of convergence.
-constexpr double largest_share(int order) {
-    double share = 1;
-    for (int k = 1; k < order; k += 2)
-        share *= largest_growth;
-    return share;
-}
+struct LargestShares {
+    double of[highest_order + 1] = {};
+    constexpr LargestShares() {
+        of[0] = 1;
+        for (int k = 1; k <= highest_order; ++k)
+            of[k] = of[k - 1] * (k % 2 == 1 ? largest_growth : 1);
+    }
+};
+inline constexpr LargestShares largest_share;
 
-/// Squares of what is smaller vanish or have few digits: nothing can be asked of its relative accuracy.
-inline constexpr double smallest_size = 1e-150;
+/// What is smaller is rounded to few digits, or to none: nothing can be asked of its relative accuracy.
+inline constexpr double smallest_size = 1e-290;
 
 /// Shortens the step of one lane until no terms grow at the end of the series.
 inline double shortened(const Series* series, std::size_t count, std::size_t order, int lane, double step) {
