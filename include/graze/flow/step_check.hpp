@@ -19,8 +19,8 @@ namespace graze {
 /// (n + 1) times the first term left out, divided by the time: a factor that `allowance` leaves room for.
 class StepCheck {
 public:
-    /// What is allowed of the tolerance. Over a step that is chosen from the last coefficients, rates differ by 1 to 5
-    /// tolerances, values by a fifth of one.
+    /// What is allowed of the tolerance. Over a step that is chosen from the last coefficients, rates differ by a few
+    /// tolerances, values by a fraction of one.
     static constexpr double allowance = 20, value_allowance = 4;
     /// Squares of what is smaller vanish or have few digits.
     static constexpr double smallest_size = 1e-150;
