@@ -156,12 +156,12 @@ TEST_F(BranchRun, what_is_read_is_what_was_written) {
         EXPECT_EQ(a.solution.certificate.admissible, b.solution.certificate.admissible);
         EXPECT_EQ(a.solution.half_multipliers, b.solution.half_multipliers);
         const auto minima = [](const SpecialPoint& point) {
-            std::vector<std::tuple<std::size_t, std::size_t, double, double>> all;
+            std::vector<std::tuple<std::size_t, std::size_t, double, double>> rows;
             for (const OrbitMinimum& one : point.solution.certificate.minima)
-                all.emplace_back(one.segment, one.event, one.time, one.value);
+                rows.emplace_back(one.segment, one.event, one.time, one.value);
             for (const EndValue& one : point.solution.certificate.end_values)
-                all.emplace_back(one.segment, one.event, one.value, one.rate);
-            return all;
+                rows.emplace_back(one.segment, one.event, one.value, one.rate);
+            return rows;
         };
         EXPECT_EQ(minima(a), minima(b));
         details += minima(a).size();
