@@ -229,7 +229,8 @@ private:
 /// A string of the Graphviz language.
 std::string dot_string(const std::string& text) {
     std::string line = text, result = "\"";
-    std::replace_if(line.begin(), line.end(), [](char c) { return c == '\n' || c == '\t' || c == '\r'; }, ' ');
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c == '\n' || c == '\t' || c == '\r'; }, ' ');
     for (const char c : printable_line(line)) {
         if (c == '"' || c == '\\')
             result += '\\';

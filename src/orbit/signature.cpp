@@ -227,8 +227,8 @@ Signature parse_signature(const Model& model, std::string_view text, const Place
     }
     const auto signature = choose(model, places);
     if (!signature)
-        reader.fail("no cycle of the model's graph has these transitions", "graze check MODEL lists the transitions; --graph FILE draws them",
-                    names.front().column);
+        reader.fail("no cycle of the model's graph has these transitions",
+                    "graze check MODEL lists the transitions; --graph FILE draws them", names.front().column);
     return *signature;
 }
 

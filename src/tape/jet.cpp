@@ -70,11 +70,9 @@ public:
         table_.steps(series_.data(), series_.size(), order_, log_tolerance, references.data(), steps.data());
     }
     bool compute_from(const Jet& values, std::span<const double> states) override;
-    void find_disagreement(const Jet& ends, std::span<const double> lengths, std::span<const double> values,
-                           std::span<const double> slopes, double allowed, double smallest,
+    void find_disagreement(const EndCheck& check, std::span<const double> lengths,
                            std::span<double> worst) const override {
-        table_.disagreement(series_.data(), ends.series().data(), states_, lengths.data(), values.data(), slopes.data(),
-                            allowed, smallest, worst.data());
+        table_.disagreement(check, lengths.data(), worst.data());
     }
     void guard_steps(std::span<double> steps) const override {
         if (!arguments_.empty() || !quotients_.empty())

@@ -75,8 +75,7 @@ struct KernelTable {
     void (*literal)(double* result, double value);
     void (*sum)(const double* series, int order, const double* times, double* values);
     void (*sum_and_slope)(const double* series, int order, const double* times, double* values, double* slopes);
-    void (*disagreement)(const Series* series, const Series* ends, std::size_t count, const double* lengths,
-                         const double* values, const double* slopes, double allowed, double smallest, double* worst);
+    void (*disagreement)(const EndCheck& check, const double* lengths, double* worst);
     void (*bound)(const double* series, int order, const double* lengths, double* least, double* sizes, double* ends);
     void (*steps)(const Series* series, std::size_t count, int order, double log_tolerance, const double* references,
                   double* steps);

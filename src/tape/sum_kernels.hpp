@@ -20,14 +20,19 @@ template <class V>
 using Plain = typename PlainNumbers<V>::Type;
 
 GRAZE_INLINE double absolute(double a) {
-    return a < 0 ? -a : a;
+    return __builtin_fabs(a);
+}
+/// The sign bits cleared.
+GRAZE_INLINE Pack absolute(Pack a) {
+    typedef long long Bits __attribute__((vector_size(8 * lanes)));
+    return __builtin_bit_cast(Pack, __builtin_bit_cast(Bits, a) & 0x7fffffffffffffff);
 }
 GRAZE_INLINE double lesser(double a, double b) {
     return b < a ? b : a;
 }
 template <int n>
 GRAZE_INLINE Packs<n> absolute(Packs<n> a) {
-    return GRAZE_FOR_PARTS(Packs<n>, a.part[i] < 0 ? -a.part[i] : a.part[i]);
+    return GRAZE_FOR_PARTS(Packs<n>, absolute(a.part[i]));
 }
 template <int n>
 GRAZE_INLINE Packs<n> lesser(Packs<n> a, Packs<n> b) {
@@ -60,34 +65,43 @@ void sum_and_slope(const double* series, int order, const double* times, double*
     Numbers<L>::store(values, multiply_add(value, time, at<L>(series, 0)));
 }
 
-/// By how much slopes and rates differ more than is allowed, the worst of all states: h |slope - rate| less `allowed`
-/// times the size, which is that of StepCheck. What is not finite is infinite.
+/// By how much ends of steps differ more than is allowed from what the model says there, the worst of all: slopes of
+/// states by h |slope - rate|, values of outputs by themselves. What is not finite is infinite.
 template <class V>
-void disagreement(const Series* series, const Series* ends, std::size_t count, const double* lengths,
-                  const double* values, const double* slopes, double allowed, double smallest, double* worst) {
+void disagreement(const EndCheck& check, const double* lengths, double* worst) {
     using L = Plain<V>;
     constexpr int width = Numbers<V>::width;
-    const auto magnitude = [](L a) __attribute__((always_inline)) {
-        return absolute(a);
-    };
+    constexpr double round_off = 0x1p-49;
     const auto larger = [](L a, L b) __attribute__((always_inline)) {
         return -lesser(-a, -b);
     };
     const L length = Numbers<L>::load(lengths);
     L most = Numbers<L>::of(0), sum = most;
-    for (std::size_t i = 0; i < count; ++i) {
-        const L start = Numbers<L>::load(series[i].first), start_rate = at<L>(series[i].first, 1);
-        const L end = Numbers<L>::load(values + i * width), end_rate = at<L>(ends[i].first, 1);
-        const L rates = larger(magnitude(start_rate), magnitude(end_rate)) * length;
-        const L size = larger(magnitude(start), magnitude(end)) + Numbers<L>::of(smallest) + rates * 0.25;
-        const L difference = magnitude(Numbers<L>::load(slopes + i * width) - end_rate) * length;
-        const L excess = difference - size * allowed;
+    for (std::size_t i = 0; i < check.states; ++i) {
+        const double* series = check.series[i].first;
+        const L end_rate = at<L>(check.truth[i].first, 1);
+        const L rates = larger(absolute(at<L>(series, 1)), absolute(end_rate)) * length;
+        const L size = larger(absolute(at<L>(series, 0)), absolute(Numbers<L>::load(check.values + i * width))) +
+                       Numbers<L>::of(check.smallest) + rates * 0.25;
+        const L difference = absolute(Numbers<L>::load(check.slopes + i * width) - end_rate) * length;
+        const L excess = difference - size * check.rate_allowance;
         most = larger(most, excess);
-        sum = sum + excess * 0.0;
+        sum = sum + excess;
+    }
+    for (std::size_t j = 0; j < check.outputs; ++j) {
+        const double* series = check.series[check.states + j].first;
+        const L size =
+            absolute(at<L>(series, 0)) + length * (absolute(at<L>(series, 1)) + length * absolute(at<L>(series, 2)));
+        const L difference =
+            absolute(Numbers<L>::load(check.ends + j * width) - at<L>(check.truth[check.states + j].first, 0));
+        const L excess =
+            difference - (size * check.value_allowance + Numbers<L>::load(check.sizes + j * width) * round_off);
+        most = larger(most, excess);
+        sum = sum + excess;
     }
     double sums[width];
     Numbers<L>::store(worst, most);
-    Numbers<L>::store(sums, sum);
+    Numbers<L>::store(sums, sum * 0.0);
     for (int lane = 0; lane < width; ++lane)
         if (sums[lane] != 0)
             worst[lane] = __builtin_inf();

@@ -41,36 +41,41 @@ void Outlook::look(const Jet& jet, Jet& end_jet, std::size_t mode) {
         jet.bound_output(w, lengths_, std::span(least_).subspan(w * width_, width_),
                          std::span(sizes_).subspan(w * width_, width_), std::span(ends_).subspan(w * width_, width_));
     end_jet.compute_values(states_);
-    jet.find_disagreement(end_jet, lengths_, states_, slopes_, StepCheck::allowance * tolerance_,
-                          StepCheck::smallest_size, disagreement_);
-    compare_values(jet, end_jet, mode);
+    const std::size_t states = simulation_->compiled().states();
+    const std::size_t watched = simulation_->compiled().mode(mode).watched.size();
+    EndCheck check;
+    check.states = states;
+    check.outputs = watched;
+    check.series = jet.series().data();
+    check.truth = end_jet.series().data();
+    check.values = states_.data();
+    check.slopes = slopes_.data();
+    check.ends = ends_.data();
+    check.sizes = sizes_.data();
+    check.rate_allowance = StepCheck::allowance * tolerance_;
+    check.value_allowance = StepCheck::value_allowance * tolerance_;
+    check.smallest = StepCheck::smallest_size;
+    jet.find_disagreement(check, lengths_, disagreement_);
+    if (simulation_->compiled().observed() > 0)
+        compare_observed(check);
 }
 
-void Outlook::compare_values(const Jet& jet, const Jet& end_jet, std::size_t mode) {
+/// Sections and observed quantities are few.
+void Outlook::compare_observed(EndCheck check) {
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
-    const double allowed = StepCheck::value_allowance * tolerance_;
-    const std::span<const Series> series = jet.series().subspan(simulation_->compiled().states());
-    const std::span<const Series> truth = end_jet.series().subspan(simulation_->compiled().states());
-    const auto compare = [&](std::size_t output, std::size_t l, double value, double sum) {
-        const double* c = series[output].first + l;
-        const double h = lengths_[l];
-        const double size = std::abs(c[0]) + h * (std::abs(c[width_]) + h * std::abs(c[2 * width_]));
-        note(l, std::abs(value - truth[output].first[l]) - (allowed * size + 8 * epsilon * sum));
-    };
-    const std::size_t watched = simulation_->compiled().mode(mode).watched.size();
-    for (std::size_t w = 0; w < watched; ++w)
-        for (std::size_t l = 0; l < width_; ++l)
-            compare(w, l, ends_[w * width_ + l], sizes_[w * width_ + l]);
-    // Sections and observed quantities are few.
-    for (std::size_t o = watched; o < watched + simulation_->compiled().observed(); ++o)
+    const auto terms = static_cast<std::size_t>(simulation_->order()) + 1;
+    const std::size_t first = check.states + check.outputs;
+    for (std::size_t o = first; o < first + simulation_->compiled().observed(); ++o)
         for (std::size_t l = 0; l < width_; ++l) {
-            const double* c = series[o].first;
+            const double* c = check.series[o].first + l;
+            const double h = lengths_[l];
             double value = 0, sum = 0;
-            for (auto k = static_cast<std::size_t>(jet.order()) + 1; k-- > 0;) {
-                value = value * lengths_[l] + c[k * width_ + l];
-                sum = sum * lengths_[l] + std::abs(c[k * width_ + l]);
+            for (std::size_t k = terms; k-- > 0;) {
+                value = value * h + c[k * width_];
+                sum = sum * h + std::abs(c[k * width_]);
             }
-            compare(o, l, value, sum);
+            const double size = std::abs(c[0]) + h * (std::abs(c[width_]) + h * std::abs(c[2 * width_]));
+            note(l, std::abs(value - check.truth[o].first[l]) - (check.value_allowance * size + 8 * epsilon * sum));
         }
 }
 

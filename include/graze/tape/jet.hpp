@@ -26,6 +26,17 @@ enum class LaneKind {
 /// Highest order for which kernels exist.
 inline constexpr int highest_order = 32;
 
+/// Ends of steps, compared with what the model says there. Numbers are [index * width + lane].
+struct EndCheck {
+    std::size_t states = 0, outputs = 0;               ///< the first of each that are compared
+    const Series* series = nullptr;                    ///< of the steps: all states, then outputs
+    const Series* truth = nullptr;                     ///< the same of a jet whose values are those at the ends
+    const double *values = nullptr, *slopes = nullptr; ///< of the states' polynomials at the ends
+    const double *ends = nullptr, *sizes = nullptr;    ///< of the outputs' polynomials: values, sums of |terms|
+    double rate_allowance = 0, value_allowance = 0;    ///< shares of sizes that differences may come to
+    double smallest = 0;                               ///< added to sizes of states
+};
+
 /// Computes Taylor coefficients of states and outputs of a tape (Jorba and Zou 2005; Griewank and Walther 2008,
 /// chapter 13). Every number is stored `width()` times over: coefficient k of a series, lane l, is at
 /// [k * width() + l]. The arithmetic of lane 0 of `single`, of each lane of `ensemble` and of lane 0 of `tangent`
@@ -79,12 +90,10 @@ public:
     /// The same, and their derivatives with respect to time there. @param slopes [state * width() + lane]
     virtual void evaluate_states(std::span<const double> times, std::span<double> values,
                                  std::span<double> slopes) const = 0;
-    /// Whether a step's end is what the model says: by how much h |slope - rate| exceeds `allowed` times the size of
-    /// each state over the step, the worst of all; 0 where none does, infinity where something is not finite.
-    /// @param ends a jet of the same tape whose values have been computed at the ends of the steps
-    /// @param lengths [lane]; @param values, slopes as `evaluate_states` has given; @param smallest added to sizes
-    virtual void find_disagreement(const Jet& ends, std::span<const double> lengths, std::span<const double> values,
-                                   std::span<const double> slopes, double allowed, double smallest,
+    /// Whether ends of steps are what the model says: by how much differences exceed what is allowed, the worst of all
+    /// states and outputs; at most 0 where none does, infinity where something is not finite.
+    /// @param check whose series are those of this jet; @param lengths [lane]
+    virtual void find_disagreement(const EndCheck& check, std::span<const double> lengths,
                                    std::span<double> worst) const = 0;
     /// Sums the series of one output, in each lane at its own time. @param values [lane]
     virtual void evaluate_output(std::size_t index, std::span<const double> times, std::span<double> values) const = 0;

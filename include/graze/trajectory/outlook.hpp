@@ -34,7 +34,7 @@ public:
     double size(std::size_t watched, std::size_t lane) const { return sizes_[watched * width_ + lane]; }
 
 private:
-    void compare_values(const Jet& jet, const Jet& end_jet, std::size_t mode);
+    void compare_observed(EndCheck check);
     void note(std::size_t lane, double excess) {
         // What is no number is no agreement.
         disagreement_[lane] = excess <= disagreement_[lane] ? disagreement_[lane] : excess;
