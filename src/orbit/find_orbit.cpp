@@ -92,7 +92,9 @@ OrbitSolution find_orbit(const Model& model, const AttractorOptions& settle, con
         run(search->trajectory(), jets);
     while (search->proceed());
     const PointResult& result = search->result();
-    if (result.label != Label::periodic)
+    // At sections of a clock an equilibrium returns like any orbit.
+    const bool returns = result.label == Label::equilibrium && result.period > 0;
+    if (result.label != Label::periodic && !returns)
         throw InputError(fmt::format("the motion does not settle on a periodic orbit: it is {}{}{}",
                                      name_of(result.label), result.outcome.detail.empty() ? "" : ", ",
                                      result.outcome.detail),

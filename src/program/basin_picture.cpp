@@ -8,7 +8,7 @@ namespace graze {
 
 namespace {
 
-/// Tells attractors apart: by what they are and, for orbits, which Newton's method has computed to many digits, by the
+/// Tells attractors apart: by what they are and, for orbits and equilibria, which Newton's method has computed to many digits, by the
 /// mean, least and greatest of every value along them, which do not depend on where along the orbit one begins.
 class AttractorNames {
 public:
@@ -49,7 +49,7 @@ std::size_t colour_of(const std::string& kind, std::size_t attractors) {
     if (kind == name_of(Label::singular) || kind == name_of(Label::failed))
         return FigureSeries::black;
     if (kind == name_of(Label::escaped) || kind == name_of(Label::ended) || kind == name_of(Label::chattering) ||
-        kind == name_of(Label::unsettled))
+        kind == name_of(Label::unsettled) || kind == name_of(Label::unbounded))
         return FigureSeries::grey;
     return attractors;
 }
@@ -83,8 +83,9 @@ ResultPicture basin_picture(const StudyPicture& picture, const ResultFile& file)
     std::size_t attractors = 0;
     while (rows.next()) {
         std::vector<double> marks(3 * run.record.values.size());
-        const bool periodic = rows.text(2) == name_of(Label::periodic);
-        for (std::size_t v = 0; periodic && v < marks.size(); ++v)
+        const bool told_apart =
+            rows.text(2) == name_of(Label::periodic) || rows.text(2) == name_of(Label::equilibrium);
+        for (std::size_t v = 0; told_apart && v < marks.size(); ++v)
             marks[v] = rows.number(6 + v);
         const std::size_t index = names.index(kind_text(rows), marks, spreads);
         if (index >= panel.series.size()) {

@@ -10,6 +10,10 @@ std::string_view name_of(Label label) {
         return "quasi-periodic";
     case Label::chaotic:
         return "chaotic";
+    case Label::equilibrium:
+        return "equilibrium";
+    case Label::unbounded:
+        return "unbounded";
     case Label::unsettled:
         return "unsettled";
     case Label::escaped:

@@ -1,6 +1,7 @@
 #include "sweep/attractor_search.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "sweep/approach.hpp"
+#include "sweep/quasi_periodic.hpp"
 #include "sweep/transient_search.hpp"
 
 #include <fmt/format.h>
@@ -15,18 +16,20 @@ namespace graze {
 namespace {
 
 constexpr double forever = std::numeric_limits<double>::infinity();
-constexpr double soonest = 1e-3;  ///< share of the time of a return before which none can come
-constexpr double on_orbit = 1e-9; ///< distance from an orbit at which a motion is on it
-constexpr double linear = 0.1;    ///< share of its contraction by which the motion may differ from its linear part
+constexpr double soonest = 1e-3; ///< share of the time of a return before which none can come
 constexpr std::size_t most_disturbances = 3;
-constexpr double clear_of_zero = 3;     ///< standard errors
-constexpr double least_growth = 5;      ///< logarithm, of a small distance over all returns, that shows chaos
-constexpr double neutral = 0.02;        ///< growth per return that counts as none
-constexpr double very_close = 1e-5;     ///< relative to the extent of the states
-constexpr double equal_averages = 1e-6; ///< relative to the extent of a state
+constexpr double share_left = 0.1;    ///< of a displacement, within which a motion has not been displaced yet
+constexpr double clear_of_zero = 3;   ///< standard errors
+constexpr double least_growth = 5;    ///< logarithm, of a small distance over all returns, that shows chaos
+constexpr double outward_share = 0.5; ///< of the growth of a small distance, that is due to the motion's own
+constexpr double much_growth = 20;    ///< logarithm, of the extent of the states, after which growth is looked at
+constexpr double any_growth = 138;    ///< and by which it has outgrown whatever a model may hold: 60 decades
 constexpr std::size_t least_extension = 400;
 constexpr std::size_t returns_between_looks = 25;
-constexpr std::size_t extension = 4; ///< of the largest period, in the last part of a search
+constexpr std::size_t extension = 4;   ///< of the largest period, in the last part of a search
+constexpr double at_rest = 1e-8;       ///< distance between an orbit and an equilibrium that are the same
+constexpr std::size_t most_tries = 50; ///< of Newton's method
+constexpr double longest_step = 8;     ///< in periods of the section's clock: a passage ends a step anyway
 
 /// Names of transitions, those that change nothing left out; a name and its repetitions are written once.
 std::string signature_of(const Model& model, std::span<const std::uint32_t> contacts) {
@@ -51,88 +54,13 @@ std::string signature_of(const Model& model, std::span<const std::uint32_t> cont
     return text;
 }
 
-/// Averages along a quasi-periodic motion converge faster than any power of their length when its ends have no weight
-/// (Das, Sander, Saiki and Yorke 2016); along a chaotic one they differ by the root of it.
-double weighted_average(std::span<const double> states, std::size_t stride, std::size_t state, std::size_t first,
-                        std::size_t count) {
-    double sum = 0, weights = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-        const double t = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
-        const double weight = std::exp(-1 / (t * (1 - t)));
-        sum += weight * states[(first + k) * stride + state];
-        weights += weight;
-    }
-    return sum / weights;
-}
-
-std::vector<Probe> probes_of(const Model& model, const AttractorOptions& options,
-                             const SampleRecorder::Layout& layout) {
-    std::vector<Probe> probes = layout.probes();
-    // Last, since it ends trajectories: what happens at the same time is to be seen before.
-    probes.push_back(section_probe(model, options.section));
-    return probes;
-}
-
-class AttractorSearches : public SearchFactory {
-public:
-    AttractorSearches(const Model& model, const AttractorOptions& options, const std::vector<Sampling>& samplings,
-                      const std::vector<Expression>& values, const SimulationOptions& simulation_options)
-        : setting_(model, options, samplings, values, simulation_options) {}
-
-    const Simulation& simulation() const override { return setting_.simulation; }
-    std::unique_ptr<PointSearch> make() const override { return std::make_unique<AttractorSearch>(setting_); }
-
-private:
-    AttractorSetting setting_;
-};
-
-[[noreturn]] void refuse(const std::string& problem, const std::string& remedy) {
-    throw InputError(problem, remedy);
-}
-
 } // namespace
-
-void AttractorOptions::validate(const Model& model) const {
-    if (section.empty())
-        refuse("no section says what a return is", "name one that the model declares under [sections]");
-    section_probe(model, section);
-    if (cycles < 1 || cycles > 100'000'000)
-        refuse(fmt::format("{} cycles are out of range", cycles), "give 1 to 100 million");
-    if (keep < 1)
-        refuse("no returns are kept", "keep at least one");
-    if (largest_period < 1 || largest_period > 1000)
-        refuse(fmt::format("a largest period of {} returns is out of range", largest_period), "give 1 to 1000");
-    if (!(recurrence > 0 && recurrence <= 0.1))
-        refuse(fmt::format("a recurrence of {} is out of range", recurrence), "give more than 0, up to 0.1");
-    if (!(disturbance >= 0 && disturbance <= 0.1))
-        refuse(fmt::format("a disturbance of {} is out of range", disturbance), "give 0 to 0.1");
-    if (!(longest_return >= 0))
-        refuse("the longest time of a return is negative", "give a positive time, or 0 for no bound");
-    for (const auto& [state, range] : bounds)
-        if (state >= model.states.size() || !(range.first < range.second))
-            refuse("bounds of a state are not in order", "give the least value, then the greatest");
-}
-
-AttractorSetting::AttractorSetting(const Model& model, const AttractorOptions& given,
-                                   const std::vector<Sampling>& samplings, const std::vector<Expression>& values,
-                                   const SimulationOptions& simulation_options)
-    : options((given.validate(model), given)), layout(model, samplings, values),
-      simulation(model, probes_of(model, options, layout), {}, simulation_options),
-      map(simulation, simulation.probes().size() - 1) {
-    if (model.symmetries.empty())
-        return;
-    std::vector<Expression> inputs = model.state_symbols();
-    for (const Expression& symbol : model.parameter_symbols())
-        inputs.push_back(symbol);
-    image = Function(inputs, model.expand(model.symmetries.front().map));
-    image_modes = model.symmetries.front().modes;
-}
 
 AttractorSearch::AttractorSearch(const AttractorSetting& setting)
     : setting_(&setting),
       watcher_(setting.map, 2 * extension * setting.options.largest_period + 1, setting.options.bounds),
       recorder_(setting.layout, 0), finder_(setting.map, setting.layout, setting.image, setting.image_modes),
-      exponent_(setting.map) {}
+      exponent_(setting.map), equilibria_(setting.field), growth_(setting.field, setting.map) {}
 
 void AttractorSearch::begin(std::span<const double> parameters, std::span<const double> state, std::size_t mode) {
     const CompiledModel& compiled = setting_->simulation.compiled();
@@ -147,13 +75,22 @@ void AttractorSearch::begin(std::span<const double> parameters, std::span<const 
     thresholds_.assign(extension * setting_->options.largest_period + 1, setting_->options.recurrence);
     watcher_.watch_recurrence(&thresholds_, setting_->options.largest_period);
     watcher_.allow_any_steps(setting_->options.longest_return > 0);
+    watcher_.watch_rest(true);
     watcher_.start_leg(0, 0);
     exponent_.clear();
-    visited_.clear();
+    equilibria_.begin(parameters, periods_);
+    growth_.begin(parameters, periods_);
+    visited_ = {};
+    for (std::size_t i = 0; i < periods_.size(); ++i)
+        if (setting_->map.takes_part(i))
+            visited_.periods.push_back(periods_[i]);
     limit_ = setting_->options.cycles;
-    disturbances_ = 0;
-    finding_ = confirming_ = false;
+    disturbances_ = tries_ = 0;
+    finding_ = confirming_ = centre_tried_ = limits_tried_ = guessed_ = near_stable_ = false;
+    guesses_.clear();
+    growth_seen_ = much_growth;
     result_ = {};
+    limit_steps(state, mode);
     main_->start(state, mode, 0, setting_->options.longest_return > 0 ? setting_->options.longest_return : forever);
     const std::size_t before = std::min(limit_, setting_->options.lyapunov_cycles);
     watcher_.stop_after(limit_ > before ? limit_ - before : 1);
@@ -169,115 +106,252 @@ bool AttractorSearch::proceed() {
     if (finder_.proceed())
         return true;
     finding_ = false;
-    result_.periods_run += finder_.returns();
+    result_.periods_run += finder_.returns_run();
     return consider_orbit();
+}
+
+/// A step that spans many periods of a clock would only be cut at its first passage of the section.
+void AttractorSearch::limit_steps(std::span<const double> state, std::size_t mode) {
+    if (!setting_->map.is_phase())
+        return;
+    const std::size_t clock = setting_->simulation.probes()[setting_->map.probe()].state;
+    const CompiledModel& compiled = setting_->simulation.compiled();
+    std::vector<double> inputs(state.begin(), state.end()), rates(state.size()), work(compiled.workspace());
+    inputs.insert(inputs.end(), parameters_.begin(), parameters_.end());
+    compiled.mode(mode).rates.evaluate(inputs, rates, work);
+    const double longest = longest_step * periods_[clock] / std::abs(rates[clock]);
+    main_->limit_step(std::isfinite(longest) ? longest : 0);
+    finder_.limit_step(std::isfinite(longest) ? longest : 0);
 }
 
 /// The motion has stopped.
 bool AttractorSearch::settle() {
     const Ending ending = main_->outcome().ending;
+    if (ending != Ending::stopped && growth_.since_start(watcher_) > any_growth)
+        return finish(Label::unbounded);
     if (ending == Ending::end_time)
+        return finish(Label::unsettled);
+    if (ending == Ending::singular && hardly_moves())
         return finish(Label::unsettled);
     if (ending != Ending::stopped)
         return finish(label_of(ending));
     if (watcher_.escaped())
         return finish(Label::escaped);
+    if (watcher_.looking())
+        return look();
     if (watcher_.stuck())
         return finish(Label::unsettled);
     return examine_return();
 }
 
+/// Whether nothing happened in a time as long as all that has passed: the end of the range of numbers is no
+/// singularity.
+bool AttractorSearch::hardly_moves() {
+    constexpr double hardly = 1e-6; ///< relative to what the motion has gone through
+    const std::span<const double> rates = equilibria_.rates(main_->state(), main_->mode());
+    for (std::size_t i = 0; i < rates.size(); ++i)
+        if (!(periods_[i] > 0) && setting_->map.takes_part(i) &&
+            !(std::abs(rates[i]) * main_->time() <= hardly * watcher_.widest()[i]))
+            return false;
+    return true;
+}
+
+/// No return has come for long: the motion may come to rest, or grow.
+bool AttractorSearch::look() {
+    if (const auto next = consider_rest(main_->state(), main_->mode()))
+        return *next;
+    if (growth_.since_start(watcher_) > much_growth &&
+        growth_.goes_on(main_->state(), main_->mode(), watcher_.widest()))
+        return finish(Label::unbounded);
+    if (watcher_.stuck())
+        return finish(Label::unsettled);
+    extend();
+    return true;
+}
+
+void AttractorSearch::extend() {
+    const double longest = setting_->options.longest_return;
+    main_->extend(longest > 0 ? main_->time() + longest : forever);
+}
+
 bool AttractorSearch::examine_return() {
     if (exponent_.begun() && !confirming_)
         exponent_.add_return(*main_);
+    const Return& last = watcher_.recent(0);
     if (watcher_.returns() > setting_->options.cycles)
-        visited_.insert(visited_.end(), watcher_.recent(0).state.begin(), watcher_.recent(0).state.end());
+        for (std::size_t i = 0; i < last.state.size(); ++i)
+            if (setting_->map.takes_part(i))
+                visited_.values.push_back(last.state[i]);
+    if (const double grown = growth_.since_start(watcher_); grown > growth_seen_) {
+        growth_seen_ = 2 * grown;
+        if (growth_.goes_on(watcher_))
+            return finish(Label::unbounded);
+    }
     const std::size_t n = watcher_.recurrent();
     if (n == 0)
         return go_on();
+    if (const auto next = consider_rest(last.state, last.mode))
+        return *next;
+    return find_orbit(last.state, n, watcher_.scale());
+}
+
+bool AttractorSearch::find_orbit(std::span<const double> point, std::size_t period, std::span<const double> scale) {
     finding_ = true;
-    finder_.begin(parameters_, periods_, watcher_.recent(0).state, watcher_.recent(0).mode, n, watcher_.scale(),
-                  watcher_.recent(0).time - watcher_.recent(n).time);
+    finder_.begin(parameters_, periods_, point, watcher_.recent(0).mode, period, scale,
+                  watcher_.recent(0).time - watcher_.recent(period).time);
     return true;
 }
 
 void AttractorSearch::start_exponent() {
     exponent_.begin(parameters_, watcher_.scale(), main_->time());
     exponent_.seed(*main_);
+    growth_.mark(watcher_);
     std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
 }
 
 bool AttractorSearch::go_on() {
     const std::size_t returns = watcher_.returns();
     const bool look_again = limit_ > setting_->options.cycles && returns % returns_between_looks == 0 && !confirming_;
-    if ((returns >= limit_ || look_again) && conclude())
-        return false;
+    if (returns >= limit_ || look_again)
+        if (const auto next = conclude())
+            return *next;
     const std::size_t before = std::min(setting_->options.cycles, setting_->options.lyapunov_cycles);
     if (confirming_) {
         watcher_.stop_after(limit_);
-        const double longest_confirmed = setting_->options.longest_return;
-        main_->extend(longest_confirmed > 0 ? main_->time() + longest_confirmed : forever);
+        extend();
         return true;
     }
     if (before > 0 && !exponent_.begun() && returns + before >= setting_->options.cycles)
         start_exponent();
     watcher_.stop_after(exponent_.begun() ? returns + 1 : setting_->options.cycles - before);
-    const double longest = setting_->options.longest_return;
-    main_->extend(longest > 0 ? main_->time() + longest : forever);
+    extend();
     return true;
+}
+
+/// Whether the motion rests, or will, is seen from the field alone.
+/// @return what `proceed` returns, if anything was found
+std::optional<bool> AttractorSearch::consider_rest(std::span<const double> state, std::size_t mode) {
+    const auto equilibrium = equilibria_.find(state, mode, watcher_.widest());
+    if (!equilibrium)
+        return std::nullopt;
+    const double distance = equilibria_.distance(*equilibrium, state);
+    if (equilibrium->is_stable()) {
+        if (equilibria_.is_linear_within(*equilibrium, distance, true) ||
+            (comes_closer(*equilibrium) && equilibria_.is_linear_within(*equilibrium, distance, false)))
+            return finish_equilibrium(*equilibrium);
+        return std::nullopt;
+    }
+    return equilibrium->is_unstable() ? leave_equilibrium(*equilibrium, distance) : std::nullopt;
+}
+
+/// Whether a motion about a stable equilibrium has come closer from return to return, at least half as fast as its
+/// linear part foretells. Weakly damped motions are linear to that degree only when next to nothing is left of them.
+bool AttractorSearch::comes_closer(const Equilibrium& equilibrium) {
+    constexpr std::size_t fewest = 4;
+    const std::size_t last = std::min<std::size_t>(watcher_.remembered(), 2 * fewest + 1);
+    if (last <= fewest)
+        return false;
+    std::vector<double> distances;
+    for (std::size_t k = 0; k < last; ++k) {
+        const Return& one = watcher_.recent(k);
+        if (one.mode != equilibrium.mode || !one.contacts.empty())
+            return false;
+        distances.push_back(equilibria_.distance(equilibrium, one.state));
+        if (k > 0 && !(distances[k - 1] < distances[k]))
+            return false;
+    }
+    const double time = watcher_.recent(0).time - watcher_.recent(last - 1).time;
+    return std::log(distances.front() / distances.back()) <= 0.5 * equilibrium.growth() * time;
+}
+
+/// A motion that sits on an unstable equilibrium is displaced.
+std::optional<bool> AttractorSearch::leave_equilibrium(const Equilibrium& equilibrium, double distance) {
+    const double size = setting_->options.disturbance, usual = AttractorOptions{}.disturbance;
+    const std::vector<double> state = equilibria_.displaced(equilibrium, size > 0 ? size : usual);
+    if (!(distance <= share_left * equilibria_.distance(equilibrium, state)))
+        return std::nullopt;
+    if (size == 0)
+        return finish_still();
+    if (disturbances_ >= most_disturbances)
+        return std::nullopt;
+    ++disturbances_;
+    displace(state, equilibrium.mode, watcher_.returns() > 1 ? watcher_.recent(0).time - watcher_.recent(1).time : 0);
+    return true;
+}
+
+void AttractorSearch::displace(std::span<const double> state, std::size_t mode, double duration) {
+    std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
+    restart(state, mode, duration);
+    if (exponent_.begun() && !confirming_)
+        start_exponent();
+}
+
+/// The motion sits on something unstable, and is not to be displaced.
+bool AttractorSearch::finish_still() {
+    finish(Label::unsettled);
+    result_.outcome.detail = "the motion sits on an unstable orbit or equilibrium; allow a disturbance to displace it";
+    return false;
 }
 
 /// An orbit may have been found near the last return.
 bool AttractorSearch::consider_orbit() {
     const std::size_t n = watcher_.recurrent();
-    if (finder_.found() && is_attracting())
-        return finish_periodic();
-    if (finder_.found() && leave_unstable_orbit())
-        return true;
+    if (finder_.found()) {
+        // An orbit on which nothing but clocks moves is an equilibrium.
+        auto equilibrium = equilibria_.find(finder_.point(), finder_.mode(), watcher_.widest());
+        bool rests =
+            equilibrium && finder_.contacts().empty() && equilibria_.distance(*equilibrium, finder_.point()) < at_rest;
+        if (!rests && does_not_move()) {
+            // Motions come to it more slowly than any linear one.
+            equilibrium.emplace();
+            equilibrium->state.assign(finder_.point().begin(), finder_.point().end());
+            equilibrium->mode = finder_.mode();
+            equilibrium->driven = true;
+            rests = finder_.multipliers().empty() || std::abs(finder_.multipliers().front()) < 1;
+        }
+        if (approaches(finder_, watcher_, periods_, setting_->simulation.options().tolerance))
+            return rests ? finish_equilibrium(*equilibrium) : finish_periodic();
+        if (const auto next = leave_unstable_orbit(rests ? &*equilibrium : nullptr))
+            return *next;
+        near_stable_ = near_stable_ || (guessed_ && is_near(finder_, watcher_, periods_));
+    }
+    if (const auto next = try_next_guess())
+        return *next;
+    guessed_ = false;
     // Worth another try when the motion has come clearly closer.
-    thresholds_[n] = watcher_.distance(watcher_.recent(0).state, watcher_.recent(n).state) / 3;
+    if (n > 0)
+        thresholds_[n] =
+            ++tries_ > most_tries ? -1 : watcher_.distance(watcher_.recent(0).state, watcher_.recent(n).state) / 3;
     return go_on();
 }
 
-/// Whether the motion is seen to approach the orbit that was found: it is stable, and from one period to the next the
-/// distance has become what the multipliers say. That excludes orbits which Newton's method found further away.
-bool AttractorSearch::is_attracting() const {
-    double radius = 0;
-    for (const auto& multiplier : finder_.multipliers())
-        radius = std::max(radius, std::abs(multiplier));
-    const std::size_t n = finder_.period();
-    if (!(radius < 1) || watcher_.remembered() <= n)
+/// Whether nothing but clocks moves along the orbit that was found.
+bool AttractorSearch::does_not_move() const {
+    constexpr double nothing = 1e-10; ///< relative to the states and what the motion has gone through
+    if (!finder_.contacts().empty())
         return false;
-    const std::span<const double> scale = watcher_.scale();
-    const auto size = static_cast<Eigen::Index>(scale.size());
-    std::vector<double> now(scale.size()), before(scale.size());
-    subtract_states(watcher_.recent(0).state, finder_.point(), periods_, now);
-    subtract_states(watcher_.recent(n).state, finder_.point(), periods_, before);
-    double distance = 0, distance_before = 0, difference = 0;
-    for (Eigen::Index i = 0; i < size; ++i) {
-        const auto state = static_cast<std::size_t>(i);
-        if (!finder_.is_active(state))
-            continue;
-        double foreseen = 0;
-        for (Eigen::Index j = 0; j < size; ++j)
-            if (finder_.is_active(static_cast<std::size_t>(j)))
-                foreseen += finder_.jacobian()(i, j) * before[static_cast<std::size_t>(j)];
-        distance = std::max(distance, std::abs(now[state]) / scale[state]);
-        distance_before = std::max(distance_before, std::abs(before[state]) / scale[state]);
-        difference = std::max(difference, std::abs(now[state] - foreseen) / scale[state]);
-    }
-    if (distance < on_orbit)
-        return true;
-    return difference <= linear * (1 - radius) * distance_before && watcher_.contacts(n) == finder_.contacts();
+    for (std::size_t i = 0; i < periods_.size(); ++i)
+        if (finder_.is_active(i) &&
+            !(finder_.extents()[i] <= nothing * std::max(watcher_.range(i), std::abs(finder_.point()[i]))))
+            return false;
+    return true;
 }
 
 /// A motion on an unstable orbit would stay there until round-off has grown: it is displaced.
-bool AttractorSearch::leave_unstable_orbit() {
-    const double size = setting_->options.disturbance;
-    if (finder_.multipliers().empty() || std::abs(finder_.multipliers().front()) < 1 || size == 0 ||
-        disturbances_ >= most_disturbances || watcher_.distance(watcher_.recent(0).state, finder_.point()) > size)
-        return false;
+std::optional<bool> AttractorSearch::leave_unstable_orbit(const Equilibrium* equilibrium) {
+    const double size = setting_->options.disturbance, usual = AttractorOptions{}.disturbance;
+    if (finder_.multipliers().empty() || std::abs(finder_.multipliers().front()) <= 1 ||
+        disturbances_ >= most_disturbances ||
+        watcher_.distance(watcher_.recent(0).state, finder_.point()) > (size > 0 ? size : usual))
+        return std::nullopt;
+    if (size == 0)
+        return finish_still();
     ++disturbances_;
+    const double duration = finder_.duration() / static_cast<double>(finder_.period());
+    if (equilibrium) {
+        displace(equilibria_.displaced(*equilibrium, size), finder_.mode(), duration);
+        return true;
+    }
     const std::span<const double> scale = watcher_.scale();
     std::vector<double> state(finder_.point().begin(), finder_.point().end()), deviation(state.size());
     subtract_states(watcher_.recent(0).state, state, periods_, deviation);
@@ -289,13 +363,10 @@ bool AttractorSearch::leave_unstable_orbit() {
         along += component * deviation[i] / scale[i];
     }
     if (!(length > 0))
-        return false;
+        return std::nullopt;
     for (std::size_t i = 0; i < state.size(); ++i)
         state[i] += (along < 0 ? -size : size) * direction[static_cast<Eigen::Index>(i)] / length;
-    std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
-    restart(state, finder_.mode(), finder_.duration() / static_cast<double>(finder_.period()));
-    if (exponent_.begun() && !confirming_)
-        exponent_.seed(*main_);
+    displace(state, finder_.mode(), duration);
     return true;
 }
 
@@ -314,73 +385,104 @@ void AttractorSearch::restart(std::span<const double> state, std::size_t mode, d
     main_->start(state, mode, time, longest > 0 ? time + longest : forever);
 }
 
-/// After all cycles. @return whether the point is done
-bool AttractorSearch::conclude() {
+/// After all cycles, and every now and then in the time that is added to them.
+/// @return what `proceed` returns, if the point is done or something else is to be run
+std::optional<bool> AttractorSearch::conclude() {
     if (confirming_)
-        return !finish(Label::chaotic);
+        return finish(Label::chaotic);
+    if (const auto next = consider_rest(watcher_.recent(0).state, watcher_.recent(0).mode))
+        return next;
     if (!exponent_.begun())
-        return !finish(Label::unsettled);
+        return finish(Label::unsettled);
     if (exponent_.known()) {
         const double growth = exponent_.value() * exponent_.time_per_return();
-        if (exponent_.value() > clear_of_zero * exponent_.error() &&
-            growth * static_cast<double>(exponent_.returns()) > least_growth) {
+        const double all = growth * static_cast<double>(exponent_.returns());
+        const bool positive =
+            exponent_.value() > exponent_.error() && exponent_.value() > clear_of_zero * exponent_.standard_error();
+        const bool outward = positive && growth_.outward(watcher_) > outward_share * all;
+        if (outward && growth_.goes_on(watcher_))
+            return finish(Label::unbounded);
+        if (outward && watcher_.returns() < limit_) // to be averaged where the motion is going
+            start_exponent();
+        if (positive && !outward && all > least_growth) {
             confirm_chaos();
-            return false;
+            return std::nullopt;
         }
-        if (watcher_.returns() >= limit_ && limit_ > setting_->options.cycles &&
-            std::abs(growth) * static_cast<double>(exponent_.returns()) < neutral && is_quasi_periodic())
-            return !finish(Label::quasi_periodic);
+        if (fills_a_torus()) {
+            if (centre_tried_)
+                return finish(Label::quasi_periodic);
+            // About a stable orbit, so close that nothing is seen to shrink, there is no torus.
+            centre_tried_ = true;
+            guesses_ = {middle_of(watcher_, setting_->map, 1, periods_)};
+            return try_next_guess();
+        }
     }
     if (watcher_.returns() < limit_)
+        return std::nullopt;
+    if (!limits_tried_) {
+        limits_tried_ = true;
+        guesses_ = slow_limits(watcher_, setting_->map, setting_->options.largest_period, periods_);
+        if (const auto next = try_next_guess())
+            return next;
+    }
+    if (limit_ > setting_->options.cycles && !may_fill_a_torus())
+        return finish(Label::unsettled);
+    lengthen();
+    return std::nullopt;
+}
+
+/// Looks for an orbit near the next of the states where it may be.
+std::optional<bool> AttractorSearch::try_next_guess() {
+    if (guesses_.empty())
+        return std::nullopt;
+    const Guess guess = guesses_.front();
+    guesses_.erase(guesses_.begin());
+    guessed_ = true;
+    // Where the motion creeps, its last returns extend through less than Newton's method has to go.
+    std::vector<double> scale(watcher_.scale().begin(), watcher_.scale().end());
+    for (std::size_t i = 0; i < scale.size(); ++i)
+        scale[i] = periods_[i] > 0 ? scale[i] : std::max(scale[i], watcher_.range(i));
+    return find_orbit(guess.state, guess.period, scale);
+}
+
+/// Averages agree, and the length of small distances varies between bounds.
+bool AttractorSearch::fills_a_torus() {
+    constexpr double even = 1e-2;      ///< averages, as no chaotic motion has them
+    constexpr double very_even = 1e-4; ///< and these whatever becomes of neighbours
+    constexpr double most = 10;        ///< variation of the logarithm of a small distance
+    if (near_stable_ || std::abs(exponent_.value()) > exponent_.error() || exponent_.error() * exponent_.time() > most)
         return false;
-    if (limit_ > setting_->options.cycles)
-        return !finish(Label::unsettled);
-    // Slow transients and quasi-periodic motions are worth a longer look.
+    const double difference = unevenness(visited_, extents_of_visited());
+    return difference < very_even || (difference < even && exponent_.is_bounded());
+}
+
+/// Whether the motion is worth being followed still longer.
+bool AttractorSearch::may_fill_a_torus() {
+    constexpr std::size_t most_extensions = 4;
+    constexpr double rather_even = 3;
+    const std::size_t cycles = setting_->options.cycles;
+    return !near_stable_ && exponent_.known() && exponent_.is_bounded() &&
+           limit_ < cycles + most_extensions * std::max(least_extension, 2 * cycles) &&
+           std::abs(exponent_.value()) <= exponent_.error() && unevenness(visited_, extents_of_visited()) < rather_even;
+}
+
+/// Slow transients and quasi-periodic motions are worth a longer look.
+void AttractorSearch::lengthen() {
+    limits_tried_ = false;
     limit_ += std::max(least_extension, 2 * setting_->options.cycles);
     std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
     const std::size_t largest = setting_->options.largest_period;
     std::fill(thresholds_.begin() + static_cast<std::ptrdiff_t>(largest) + 1, thresholds_.end(),
               setting_->options.recurrence / 100);
     watcher_.watch_recurrence(&thresholds_, extension * largest);
-    return false;
 }
 
-/// Whether the motion has been very close to where it is now: then its period is only too long to be tried.
-bool AttractorSearch::comes_back() {
-    const std::size_t stride = periods_.size(), count = visited_.size() / stride;
-    const std::span<const double> states(visited_);
-    for (std::size_t k = 0; k + 1 < count; ++k)
-        if (watcher_.distance(states.subspan(k * stride, stride), states.last(stride)) < very_close)
-            return true;
-    return false;
-}
-
-bool AttractorSearch::is_quasi_periodic() {
-    const std::size_t stride = periods_.size(), count = visited_.size() / stride / 2;
-    if (count < least_extension / 4)
-        return false;
-    if (comes_back())
-        return false;
-    bool moves = false;
-    for (std::size_t i = 0; i < stride; ++i) {
-        if (!setting_->map.takes_part(i) || periods_[i] > 0)
-            continue;
-        double extent[2];
-        for (std::size_t half = 0; half < 2; ++half) {
-            double least = forever, greatest = -forever;
-            for (std::size_t k = half * count; k < (half + 1) * count; ++k) {
-                least = std::min(least, visited_[k * stride + i]);
-                greatest = std::max(greatest, visited_[k * stride + i]);
-            }
-            extent[half] = greatest - least;
-        }
-        const double difference =
-            weighted_average(visited_, stride, i, count, count) - weighted_average(visited_, stride, i, 0, count);
-        if (std::abs(difference) > equal_averages * watcher_.scale()[i] || extent[1] < 0.95 * extent[0])
-            return false;
-        moves = moves || extent[1] > setting_->options.recurrence * watcher_.scale()[i];
-    }
-    return moves;
+std::vector<double> AttractorSearch::extents_of_visited() const {
+    std::vector<double> extents;
+    for (std::size_t i = 0; i < periods_.size(); ++i)
+        if (setting_->map.takes_part(i))
+            extents.push_back(watcher_.scale()[i]);
+    return extents;
 }
 
 bool AttractorSearch::finish_periodic() {
@@ -401,6 +503,32 @@ bool AttractorSearch::finish_periodic() {
     return false;
 }
 
+bool AttractorSearch::finish_equilibrium(const Equilibrium& equilibrium) {
+    finish(Label::equilibrium);
+    result_.state = equilibrium.state;
+    result_.mode = equilibrium.mode;
+    result_.lyapunov.reset();
+    result_.lyapunov_error.reset();
+    if (!equilibrium.driven && equilibrium.values.size() > 0)
+        result_.lyapunov = equilibrium.growth();
+    if (setting_->map.is_phase() && watcher_.remembered() > 1) {
+        // Returns go on, and say the same of it as of an orbit.
+        result_.period = 1;
+        result_.duration = watcher_.recent(0).time - watcher_.recent(1).time;
+        if (equilibrium.driven) {
+            result_.multipliers = finder_.multipliers();
+            if (!result_.multipliers.empty() && std::abs(result_.multipliers.front()) > 0)
+                result_.lyapunov = std::log(std::abs(result_.multipliers.front())) / finder_.duration();
+        }
+        for (const std::complex<double> value : equilibrium.values)
+            if (!equilibrium.driven)
+                result_.multipliers.push_back(std::exp(value * result_.duration));
+    }
+    recorder_.rest(main_->time(), result_.state);
+    result_.samples = std::move(recorder_.samples());
+    return false;
+}
+
 bool AttractorSearch::finish(Label label) {
     result_.label = label;
     result_.cycles = watcher_.returns();
@@ -409,6 +537,8 @@ bool AttractorSearch::finish(Label label) {
     result_.state.assign(main_->state().begin(), main_->state().end());
     result_.mode = main_->mode();
     result_.outcome = main_->outcome();
+    if (label == Label::unbounded)
+        result_.outcome.detail.clear(); // that numbers end somewhere is no fault of the model
     if (watcher_.stuck())
         result_.outcome.detail = "no return to the section came; choose another section";
     if (exponent_.known()) {
@@ -419,6 +549,23 @@ bool AttractorSearch::finish(Label label) {
     result_.samples = std::move(recorder_.samples());
     return false;
 }
+
+namespace {
+
+class AttractorSearches : public SearchFactory {
+public:
+    AttractorSearches(const Model& model, const AttractorOptions& options, const std::vector<Sampling>& samplings,
+                      const std::vector<Expression>& values, const SimulationOptions& simulation_options)
+        : setting_(model, options, samplings, values, simulation_options) {}
+
+    const Simulation& simulation() const override { return setting_.simulation; }
+    std::unique_ptr<PointSearch> make() const override { return std::make_unique<AttractorSearch>(setting_); }
+
+private:
+    AttractorSetting setting_;
+};
+
+} // namespace
 
 std::unique_ptr<SearchFactory> attractor_searches(const Model& model, const AttractorOptions& options,
                                                   const std::vector<Sampling>& samplings,

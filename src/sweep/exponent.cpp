@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::size_t batches = 10;
 constexpr std::size_t returns_to_settle = 10;
+constexpr double student = 2.26;          ///< 95 % of Student's distribution of nine degrees of freedom
+constexpr double integration_errors = 10; ///< of growth over a return, in tolerances
 /// Of a tangent vector that a sticking contact has made vanish.
 constexpr double least_growth = -100;
 
@@ -71,27 +73,65 @@ bool Exponent::known() const {
     return begun_ && growth_.size() >= 2 * batches;
 }
 
+double Exponent::time() const {
+    return std::accumulate(times_.begin(), times_.end(), 0.0);
+}
+
 double Exponent::time_per_return() const {
-    return std::accumulate(times_.begin(), times_.end(), 0.0) / static_cast<double>(times_.size());
+    return time() / static_cast<double>(times_.size());
 }
 
 double Exponent::value() const {
     return std::accumulate(growth_.begin(), growth_.end(), 0.0) / std::accumulate(times_.begin(), times_.end(), 0.0);
 }
 
-double Exponent::error() const {
+double Exponent::growth(std::size_t first, std::size_t last) const {
+    double growth = 0, time = 0;
+    for (std::size_t k = first; k < last; ++k) {
+        growth += growth_[k];
+        time += times_[k];
+    }
+    return growth / time;
+}
+
+double Exponent::standard_error() const {
     const std::size_t size = growth_.size() / batches;
     const double mean = value();
     double square = 0;
-    for (std::size_t b = 0; b < batches; ++b) {
-        double growth = 0, time = 0;
-        for (std::size_t k = b * size; k < (b + 1) * size; ++k) {
-            growth += growth_[k];
-            time += times_[k];
-        }
-        square += std::pow(growth / time - mean, 2);
-    }
+    for (std::size_t b = 0; b < batches; ++b)
+        square += std::pow(growth(b * size, (b + 1) * size) - mean, 2);
     return std::sqrt(square / static_cast<double>(batches * (batches - 1)));
+}
+
+double Exponent::variation(std::size_t first, std::size_t last) const {
+    const double mean = growth(first, last);
+    double sum = 0, least = 0, greatest = 0;
+    for (std::size_t k = first; k < last; ++k) {
+        sum += growth_[k] - mean * times_[k];
+        least = std::min(least, sum);
+        greatest = std::max(greatest, sum);
+    }
+    return greatest - least;
+}
+
+bool Exponent::is_bounded() const {
+    constexpr double not_more = 1.3; ///< than over either half: the root of time would make it 1.4
+    const std::size_t count = growth_.size(), half = count / 2;
+    return variation() <= not_more * std::max(variation(0, half), variation(half, count));
+}
+
+double Exponent::error() const {
+    const std::size_t count = growth_.size(), half = count / 2;
+    // What is random: the mean of ten batches has Student's distribution.
+    const double random = student * standard_error();
+    // What converges like the inverse of time, since the vector's length varies between bounds.
+    const double time = std::accumulate(times_.begin(), times_.end(), 0.0);
+    const double bounded = variation() / time;
+    // What converges more slowly, as where neighbours part in proportion to time.
+    const double drifting = std::abs(growth(0, half) - growth(half, count));
+    const double integration =
+        map_->simulation().options().tolerance * integration_errors * static_cast<double>(count) / time;
+    return std::max({random, bounded, drifting}) + integration;
 }
 
 } // namespace graze

@@ -8,14 +8,20 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_iterations = 10;
+/// Close to a bifurcation corrections shrink by a third or a half at first.
+constexpr std::size_t most_shrinking = 40;
+constexpr double shrinking = 0.8;
 /// Relative to the extent of the states. Newton's method doubles the digits of the last correction.
 constexpr double small_correction = 1e-9;
-constexpr double large_correction = 0.1;
-/// Multiplier of an orbit that motions leave before it matters whether they are on it.
+constexpr double large_correction = 0.5;
+/// Multiplier of an orbit that motions leave before it matters whether they are on it, unless they are as close to it
+/// as this.
 constexpr double clearly_unstable = 2;
+constexpr double sits = 1e-6;
 /// How well a recorded orbit must close, and how different its returns are to be if they are different.
 constexpr double closed = 1e-8;
 constexpr double same = 1e-7;
+constexpr double resolution = 1e-7; ///< relative to the states themselves
 /// Share of the time of a return before which none can come.
 constexpr double soonest = 1e-3;
 
@@ -40,6 +46,7 @@ void OrbitFinder::begin(std::span<const double> parameters, std::span<const doub
     symmetric_.reset();
     workspace_ = map_->workspace(parameters);
     trajectory_.emplace(map_->simulation(), parameters, watcher_);
+    trajectory_->limit_step(longest_step_);
     const std::size_t states = map_->states(), stride = states + parameters.size();
     seeds_.assign(states * stride, 0);
     for (std::size_t i = 0; i < states; ++i)
@@ -100,14 +107,23 @@ bool OrbitFinder::iterate() {
     subtract_states(image, point_, periods_, {defect.data(), map_->states()});
     const Eigen::VectorXd correction = newton_correction(jacobian_, defect, scale_);
     const double size = correction.cwiseQuotient(scale_).cwiseAbs().maxCoeff();
-    if (!std::isfinite(size) || size > large_correction || ++iterations_ > most_iterations)
+    if (!std::isfinite(size) || size > large_correction || ++iterations_ > most_shrinking)
         return fail();
-    multipliers_ = return_multipliers(*map_, jacobian_, scale_, direction_);
-    if (!multipliers_.empty() && std::abs(multipliers_.front()) > clearly_unstable)
+    // Next to a bifurcation an orbit is known no better than this, but that it is one is.
+    const bool closes = defect.cwiseQuotient(scale_).cwiseAbs().maxCoeff() < map_->simulation().options().tolerance;
+    const bool stalls = iterations_ > most_iterations && size > shrinking * correction_;
+    if (stalls && !closes)
+        return fail();
+    correction_ = size;
+    auto spectrum = return_spectrum(*map_, jacobian_, scale_);
+    if (!spectrum)
+        return fail();
+    spectrum_ = std::move(*spectrum);
+    if (!multipliers().empty() && std::abs(multipliers().front()) > clearly_unstable && size > sits)
         return fail();
     for (std::size_t i = 0; i < point_.size(); ++i)
         point_[i] += correction[static_cast<Eigen::Index>(i)];
-    if (size > small_correction) {
+    if (size > small_correction && !stalls) {
         start_iteration();
         return true;
     }
@@ -139,12 +155,29 @@ bool OrbitFinder::record() {
     duration_ = watcher_.recent(0).time;
     contacts_ = watcher_.contacts(period_);
     recorded_.clear();
+    extents_.assign(map_->states(), 0);
+    for (std::size_t i = 0; i < extents_.size(); ++i) {
+        double least = point_[i], greatest = point_[i];
+        for (std::size_t k = 0; k < period_; ++k) {
+            least = std::min(least, watcher_.recent(k).least[i]);
+            greatest = std::max(greatest, watcher_.recent(k).greatest[i]);
+        }
+        extents_[i] = greatest - least;
+    }
     for (std::size_t k = period_; k-- > 0;)
         recorded_.push_back(watcher_.recent(k).state);
+    // States of which nothing is known but that they are the same.
+    const auto indistinct = [&](std::span<const double> a, std::span<const double> b) {
+        Eigen::VectorXd difference(scale_.size());
+        subtract_states(a, b, periods_, {difference.data(), map_->states()});
+        return std::all_of(jacobian_.active.begin(), jacobian_.active.end(), [&](std::size_t i) {
+            return std::abs(difference[static_cast<Eigen::Index>(i)]) <= resolution * std::abs(b[i]);
+        });
+    };
     // The orbit may close after fewer returns.
     for (std::size_t d = 1; d < period_; ++d)
         if (period_ % d == 0 && watcher_.recent(period_ - d).mode == mode_ &&
-            distance(recorded_[d - 1], point_) < same) {
+            (distance(recorded_[d - 1], point_) < same || indistinct(recorded_[d - 1], point_))) {
             duration_ *= static_cast<double>(d) / static_cast<double>(period_);
             period_ = d;
             iterations_ = 0;

@@ -28,6 +28,8 @@ public:
     ///        of the period
     void begin(std::span<const double> parameters, std::span<const double> periods, std::span<const double> point,
                std::size_t mode, std::size_t period, std::span<const double> scale, double duration);
+    /// Longest step of its trajectories from the next `begin` on; 0: any.
+    void limit_step(double longest) { longest_step_ = longest; }
     Trajectory& trajectory() { return *trajectory_; }
     /// To be called when the trajectory has finished. @return false when done, one way or the other
     bool proceed();
@@ -38,14 +40,17 @@ public:
     std::size_t period() const { return period_; }
     double duration() const { return duration_; }
     double residual() const { return residual_; }
+    std::span<const double> extents() const { return extents_; } ///< of each state, along the orbit
     const Eigen::MatrixXd& jacobian() const { return jacobian_.matrix; }
     bool is_active(std::size_t state) const;
-    const std::vector<std::complex<double>>& multipliers() const { return multipliers_; }
-    const Eigen::VectorXd& leading_direction() const { return direction_; }
+    const std::vector<std::complex<double>>& multipliers() const { return spectrum_.multipliers; }
+    const Eigen::VectorXd& leading_direction() const { return spectrum_.direction; }
+    const Eigen::VectorXcd& leading_functional() const { return spectrum_.functional; }
     const std::vector<std::uint32_t>& contacts() const { return contacts_; }
     std::optional<bool> symmetric() const { return symmetric_; }
     SampleSet& samples() { return recorder_.samples(); }
-    std::size_t returns() const { return returns_; } ///< run since `begin`
+    const std::vector<std::vector<double>>& returns() const { return recorded_; } ///< states at those of the orbit
+    std::size_t returns_run() const { return returns_; }                          ///< since `begin`
 
 private:
     enum class Stage { iterating, recording, comparing, found, failed };
@@ -63,15 +68,15 @@ private:
     SampleRecorder recorder_;
     SectionMap::Workspace workspace_;
     std::optional<Trajectory> trajectory_;
-    std::vector<double> parameters_, periods_, point_, seeds_;
-    Eigen::VectorXd scale_, direction_;
+    std::vector<double> parameters_, periods_, point_, seeds_, extents_;
+    Eigen::VectorXd scale_;
     ReturnJacobian jacobian_;
-    std::vector<std::complex<double>> multipliers_;
+    ReturnSpectrum spectrum_;
     std::vector<std::uint32_t> contacts_;
     std::vector<std::vector<double>> recorded_; ///< states at the returns of the orbit
     std::optional<bool> symmetric_;
     std::size_t mode_ = 0, period_ = 0, iterations_ = 0, returns_ = 0;
-    double duration_ = 0, residual_ = 0, guard_ = 0;
+    double duration_ = 0, residual_ = 0, guard_ = 0, correction_ = 0, longest_step_ = 0;
     Stage stage_ = Stage::failed;
 };
 

@@ -17,6 +17,7 @@ constexpr double least_extent = 1e-6;
 constexpr double striking = 1e-3;
 constexpr double approaching = 30;
 constexpr std::size_t most_steps = 100'000; ///< without a return
+constexpr std::size_t first_look = 64;      ///< steps without a return after which the motion may rest
 
 } // namespace
 
@@ -31,10 +32,13 @@ void ReturnWatcher::begin(std::span<const double> parameters, std::span<const do
     periods_.assign(periods.begin(), periods.end());
     recorder_ = recorder;
     next_ = returns_ = 0;
-    escaped_ = stuck_ = false;
+    escaped_ = stuck_ = looking_ = false;
     std::fill(widest_.begin(), widest_.end(), 0.0);
     std::fill(scale_.begin(), scale_.end(), 1.0);
     thresholds_ = nullptr;
+    early_.clear();
+    lowest_.assign(least_.size(), infinity);
+    highest_.assign(least_.size(), -infinity);
 }
 
 void ReturnWatcher::start_leg(double time, double shortest) {
@@ -42,6 +46,7 @@ void ReturnWatcher::start_leg(double time, double shortest) {
     shortest_ = shortest;
     pending_ = stop_ = false;
     recurrent_ = steps_ = 0;
+    next_look_ = first_look;
     current_.contacts.clear();
     std::fill(least_.begin(), least_.end(), infinity);
     std::fill(greatest_.begin(), greatest_.end(), -infinity);
@@ -64,7 +69,12 @@ void ReturnWatcher::step(const Step& step) {
         escaped_ = escaped_ || !(value >= range.first && value <= range.second);
     }
     stuck_ = ++steps_ > most_steps && !any_steps_;
-    stop_ = stop_ || escaped_ || stuck_;
+    looking_ = rest_ && steps_ >= next_look_;
+    if (looking_) {
+        next_look_ *= 2;
+        widen();
+    }
+    stop_ = stop_ || escaped_ || stuck_ || looking_;
 }
 
 void ReturnWatcher::contact(const Contact& contact) {
@@ -103,8 +113,8 @@ void ReturnWatcher::arrive(double time, std::size_t mode, std::span<const double
     for (std::size_t i = 0; i < state.size(); ++i) {
         least_[i] = std::min(least_[i], state[i]);
         greatest_[i] = std::max(greatest_[i], state[i]);
-        widest_[i] = std::max(widest_[i], greatest_[i] - least_[i]);
     }
+    widen();
     place.least = least_;
     place.greatest = greatest_;
     place.contacts.swap(current_.contacts);
@@ -114,6 +124,8 @@ void ReturnWatcher::arrive(double time, std::size_t mode, std::span<const double
     next_ = (next_ + 1) % ring_.size();
     ++returns_;
     steps_ = 0;
+    next_look_ = first_look;
+    looking_ = false;
     if (recorder_)
         recorder_->mark();
     check_bounds(state);
@@ -122,6 +134,16 @@ void ReturnWatcher::arrive(double time, std::size_t mode, std::span<const double
         stop_ = recurrent_ != 0;
     }
     stop_ = stop_ || (stop_after_ > 0 && returns_ >= stop_after_);
+}
+
+void ReturnWatcher::widen() {
+    for (std::size_t i = 0; i < widest_.size(); ++i) {
+        widest_[i] = std::max(widest_[i], greatest_[i] - least_[i]);
+        lowest_[i] = std::min(lowest_[i], least_[i]);
+        highest_[i] = std::max(highest_[i], greatest_[i]);
+    }
+    if (early_.empty() && (returns_ > 0 || looking_))
+        early_ = widest_;
 }
 
 void ReturnWatcher::update_scale() {

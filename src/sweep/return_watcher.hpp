@@ -44,6 +44,16 @@ public:
     bool stuck() const { return stuck_; }
     /// However many steps a return may take: its time is bounded otherwise.
     void allow_any_steps(bool any) { any_steps_ = any; }
+    /// Whether to stop, every now and then, where no return comes.
+    void watch_rest(bool rest) { rest_ = rest; }
+    /// Whether it stopped to be looked at, since no return has come for long.
+    bool looking() const { return looking_; }
+    /// Largest extent of each state between any two returns so far.
+    std::span<const double> widest() const { return widest_; }
+    /// Extent of each state over all returns so far.
+    double range(std::size_t state) const { return highest_[state] - lowest_[state]; }
+    /// Extent of each state at the beginning: up to the second return, or until it was first looked at.
+    std::span<const double> early() const { return early_; }
     /// Period at whose return it stopped; 0: none.
     std::size_t recurrent() const { return recurrent_; }
     /// The return `before` returns before the last.
@@ -64,6 +74,7 @@ public:
 private:
     void arrive(double time, std::size_t mode, std::span<const double> state);
     void update_scale();
+    void widen();
     std::size_t find_recurrence();
     void check_bounds(std::span<const double> state);
 
@@ -71,15 +82,15 @@ private:
     std::vector<std::pair<std::size_t, std::pair<double, double>>> bounds_;
     SectionMap::Workspace workspace_;
     SampleRecorder* recorder_ = nullptr;
-    std::vector<double> periods_, scale_, difference_, least_, greatest_, widest_;
+    std::vector<double> periods_, scale_, difference_, least_, greatest_, widest_, early_, lowest_, highest_;
     std::vector<Return> ring_;
     Return current_;
     std::size_t next_ = 0, returns_ = 0, stop_after_ = 0, largest_ = 0, recurrent_ = 0;
     std::vector<double>* thresholds_ = nullptr;
     double leg_start_ = 0, shortest_ = 0, pending_time_ = 0;
     bool any_steps_ = false;
-    bool pending_ = false, stop_ = false, escaped_ = false, stuck_ = false;
-    std::size_t steps_ = 0; ///< since the last return
+    bool pending_ = false, stop_ = false, escaped_ = false, stuck_ = false, looking_ = false, rest_ = false;
+    std::size_t steps_ = 0, next_look_ = 0; ///< since the last return
 };
 
 } // namespace graze

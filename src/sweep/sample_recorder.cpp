@@ -78,6 +78,13 @@ void SampleRecorder::contact(const Contact& contact) {
         record(sampling, contact.time, contact.before);
 }
 
+void SampleRecorder::rest(double time, std::span<const double> state) {
+    samples_.clear();
+    marks_.clear();
+    for (const std::size_t sampling : layout_->sampling_of_probe_)
+        record(sampling, time, state);
+}
+
 void SampleRecorder::record(std::size_t sampling, double time, std::span<const double> state) {
     std::copy(state.begin(), state.end(), inputs_.begin());
     if (const std::size_t image = layout_->image_of_sampling_[sampling]; image != none) {

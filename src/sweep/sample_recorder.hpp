@@ -42,6 +42,8 @@ public:
     void set_origin(double time) { origin_ = time; }
     void passage(const Passage& passage);
     void contact(const Contact& contact);
+    /// A motion rests: every sampling but those of contacts has this one value.
+    void rest(double time, std::span<const double> state);
     /// A return to the section is over.
     void mark();
     /// Forgets samples older than the last returns.

@@ -175,13 +175,17 @@ Eigen::VectorXd newton_correction(const ReturnJacobian& jacobian, const Eigen::V
     return correction;
 }
 
-std::vector<std::complex<double>> return_multipliers(const SectionMap& map, const ReturnJacobian& jacobian,
-                                                     const Eigen::VectorXd& scale, Eigen::VectorXd& direction) {
-    direction = Eigen::VectorXd::Zero(scale.size());
-    std::vector<std::complex<double>> multipliers;
+std::optional<ReturnSpectrum> return_spectrum(const SectionMap& map, const ReturnJacobian& jacobian,
+                                              const Eigen::VectorXd& scale) {
+    ReturnSpectrum result;
+    result.direction = Eigen::VectorXd::Zero(scale.size());
+    result.functional = Eigen::VectorXcd::Zero(scale.size());
     if (jacobian.active.empty())
-        return multipliers;
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(scaled_matrix(jacobian, scale));
+        return result;
+    const Eigen::MatrixXd matrix = scaled_matrix(jacobian, scale);
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix), transposed(matrix.transpose());
+    if (!matrix.allFinite() || solver.info() != Eigen::Success || transposed.info() != Eigen::Success)
+        return std::nullopt;
     const Eigen::VectorXcd& values = solver.eigenvalues();
     std::vector<Eigen::Index> order(jacobian.active.size());
     for (std::size_t i = 0; i < order.size(); ++i)
@@ -191,13 +195,17 @@ std::vector<std::complex<double>> return_multipliers(const SectionMap& map, cons
     // The flow's direction is projected out at a crossing section, which leaves one multiplier that is zero.
     const std::size_t count = order.size() - (map.is_phase() ? 0 : 1);
     for (std::size_t i = 0; i < count; ++i)
-        multipliers.push_back(values[order[i]]);
+        result.multipliers.push_back(values[order[i]]);
     const Eigen::VectorXd leading = solver.eigenvectors().col(order[0]).real();
+    Eigen::Index same = 0;
+    (transposed.eigenvalues().array() - values[order[0]]).abs().minCoeff(&same);
+    const Eigen::VectorXcd functional = transposed.eigenvectors().col(same);
     for (std::size_t i = 0; i < jacobian.active.size(); ++i) {
         const auto state = static_cast<Eigen::Index>(jacobian.active[i]);
-        direction[state] = leading[static_cast<Eigen::Index>(i)] * scale[state];
+        result.direction[state] = leading[static_cast<Eigen::Index>(i)] * scale[state];
+        result.functional[state] = functional[static_cast<Eigen::Index>(i)];
     }
-    return multipliers;
+    return result;
 }
 
 } // namespace graze

@@ -7,6 +7,7 @@
 
 #include <complex>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -66,9 +67,15 @@ ReturnJacobian return_jacobian(const SectionMap& map, const Eigen::MatrixXd& tan
 /// @return correction of the point: least in norm if the matrix is singular
 Eigen::VectorXd newton_correction(const ReturnJacobian& jacobian, const Eigen::VectorXd& defect,
                                   const Eigen::VectorXd& scale);
-/// Multipliers of the return map within the section, largest first.
-/// @param direction of the leading one: a real vector of states
-std::vector<std::complex<double>> return_multipliers(const SectionMap& map, const ReturnJacobian& jacobian,
-                                                     const Eigen::VectorXd& scale, Eigen::VectorXd& direction);
+/// Of the return map within the section.
+struct ReturnSpectrum {
+    std::vector<std::complex<double>> multipliers; ///< largest first
+    Eigen::VectorXd direction;                     ///< of the leading one: a real vector of states
+    /// Component along that direction, or in its plane, of a deviation whose states are divided by their scales.
+    Eigen::VectorXcd functional;
+};
+/// @return nothing where the eigenvalues could not be computed
+std::optional<ReturnSpectrum> return_spectrum(const SectionMap& map, const ReturnJacobian& jacobian,
+                                              const Eigen::VectorXd& scale);
 
 } // namespace graze

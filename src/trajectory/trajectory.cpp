@@ -23,7 +23,8 @@ Trajectory::Trajectory(const Simulation& simulation, std::span<const double> par
     : simulation_(&simulation), observer_(&observer), parameters_(parameters.begin(), parameters.end()),
       step_size_(simulation.order(), simulation.options().tolerance),
       step_check_(simulation.compiled(), simulation.order(), simulation.options().tolerance),
-      roots_(simulation.order()), states_(simulation.compiled().states()), order_(simulation.order()) {
+      roots_(simulation.order()), states_(simulation.compiled().states()), order_(simulation.order()),
+      longest_allowed_(simulation.options().largest_step) {
     const CompiledModel& compiled = simulation.compiled();
     if (parameters_.size() != compiled.parameters())
         throw InputError(
@@ -105,6 +106,11 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     probes_->start(state_);
 }
 
+void Trajectory::limit_step(double longest) {
+    const double largest = simulation_->options().largest_step;
+    longest_allowed_ = longest > 0 && largest > 0 ? std::min(longest, largest) : std::max(longest, largest);
+}
+
 void Trajectory::extend(double end_time) {
     if (outcome_.ending != Ending::end_time && outcome_.ending != Ending::stopped)
         return;
@@ -173,8 +179,7 @@ double Trajectory::propose(const Jet& jet, double step, std::size_t lane) {
         jet.guard_steps(guarded_);
         proposed_ = guarded_[lane];
     }
-    const double largest = simulation_->options().largest_step;
-    return std::min(largest > 0 ? std::min(proposed_, largest) : proposed_, std::max(remaining, 0.0));
+    return std::min(longest_allowed_ > 0 ? std::min(proposed_, longest_allowed_) : proposed_, std::max(remaining, 0.0));
 }
 
 /// Steps that shrink on and on lead to a singularity, or to a multiple zero of a state or event function, whose
@@ -250,8 +255,7 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
     previous_step_ = proposed_;
 
     if (arc_start_) {
-        begin_arc(simulation_->options().largest_step > 0 ? std::min(proposed_, simulation_->options().largest_step)
-                                                          : proposed_);
+        begin_arc(longest_allowed_ > 0 ? std::min(proposed_, longest_allowed_) : proposed_);
         if (finished() || arc_start_)
             return;
         if (observer_->stop() || stop_after_contact_)

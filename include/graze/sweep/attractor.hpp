@@ -18,6 +18,8 @@ enum class Label {
     periodic,       ///< a stable periodic orbit, confirmed by Newton's method
     quasi_periodic, ///< averages converge fast, the largest Lyapunov exponent is zero
     chaotic,        ///< the largest Lyapunov exponent is positive
+    equilibrium,    ///< a stable state at which all rests but clocks and drifting states
+    unbounded,      ///< grows for ever: by decades already, in a field that does not bend beyond
     unsettled,      ///< none of these could be shown within the cycles allowed
     escaped,        ///< a state left the bounds that were given
     singular,       ///< the solution ceases to exist, as by snap-through
@@ -36,11 +38,12 @@ struct AttractorOptions {
     std::size_t largest_period = 6; ///< in returns
     /// Returns that come this close (relative to the spread of the states) are tried by Newton's method.
     double recurrence = 1e-3;
-    /// Displacement, relative to the spread of the states, of a motion that sits on an unstable orbit.
+    /// Displacement of a motion that sits on an unstable orbit or equilibrium: relative to the spread of the states, or,
+    /// where nothing moves, to the length over which the field is linear. 0: such a motion is unsettled.
     double disturbance = 1e-6;
     std::size_t lyapunov_cycles = 60; ///< the last of `cycles`, over which the exponent is averaged; 0: none
     double longest_return =
-        0; ///< time without a return after which a point is given up as unsettled; 0: 1e6 time units
+        0; ///< time without a return after which a point is given up as unsettled; 0: none
     /// Bounds of states: (state, (least, greatest)); leaving them is an escape.
     std::vector<std::pair<std::size_t, std::pair<double, double>>> bounds;
     /// @throws InputError naming the option that is out of range
@@ -63,14 +66,14 @@ struct TransientOptions {
 /// What was found at one point of a sweep or basin.
 struct PointResult {
     Label label = Label::unsettled;
-    std::size_t period = 0; ///< of a periodic orbit, in returns
+    std::size_t period = 0; ///< of a periodic orbit, in returns; of an equilibrium at sections of a clock, 1
     double duration = 0;    ///< and in time
     /// Labels of the transitions in one period or, when not periodic, empty; repeats as in "impact^2 release".
     std::string signature;
     std::optional<bool> symmetric; ///< whether a periodic orbit is its own image under the model's (first) symmetry
     std::vector<std::complex<double>> multipliers; ///< of the return map, largest first
     double residual = 0; ///< by which the orbit fails to close, relative to the spread of the states
-    std::optional<double> lyapunov, lyapunov_error; ///< largest exponent, per unit of time, and its standard error
+    std::optional<double> lyapunov, lyapunov_error; ///< largest exponent, per unit of time, and its error (95 %)
     std::size_t cycles = 0;                         ///< returns simulated until the result was known
     std::size_t periods_run = 0;                    ///< all returns simulated, for Newton's method and exponents too
     double time = 0;                                ///< of the motion, in all

@@ -38,6 +38,8 @@ public:
     /// Begins at a state; may be called again to begin anew.
     /// @throws InputError for states or times that are not finite, and for periods that are not positive
     void start(std::span<const double> state, std::size_t mode, double time, double end_time);
+    /// Makes no step longer than this, nor than the options allow; 0: no bound.
+    void limit_step(double longest);
     /// Carries on a finished trajectory from where it is to a later time.
     void extend(double end_time);
     /// Also carries derivatives with respect to the given directions: seeds are (states + parameters) numbers
@@ -204,6 +206,7 @@ private:
     std::size_t mode_ = 0, steps_ = 0;
     double time_ = 0, time_low_ = 0, start_time_ = 0, end_time_ = 0;
     double previous_step_ = 0, largest_step_ = 0;
+    double longest_allowed_ = 0;            ///< step; 0: any
     bool stop_after_contact_ = false;       ///< the observer stopped at a passage where a contact happens too
     bool arc_start_ = true, stuck_ = false; ///< stuck: the arc begins where contacts have accumulated
     double proposed_ = 0;                   ///< step by the series alone

@@ -1,0 +1,238 @@
+#include "sweep/approach.hpp"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+namespace graze {
+
+namespace {
+
+constexpr double on_orbit = 1e-9;         ///< distance from an orbit at which a motion is on it
+constexpr double linear = 0.1;            ///< share by which the motion may differ from its linear part
+constexpr std::size_t fewest_periods = 4; ///< over which the distance is seen to shrink along a direction
+constexpr std::size_t most_periods = 8;
+constexpr std::size_t fewest_turning = 16; ///< and in a plane
+constexpr double half_as_fast = 0.5;
+constexpr double neutral = 1e-10; ///< by which a multiplier must be less than 1 to be known to be
+
+/// Deviations from the orbit, relative to the extent of the states, newest first, one period apart.
+class Deviations {
+public:
+    Deviations(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods)
+        : orbit_(&orbit), count_((motion.remembered() - 1) / orbit.period() + 1) {
+        const std::span<const double> scale = motion.scale();
+        const auto size = static_cast<Eigen::Index>(scale.size());
+        std::vector<double> difference(scale.size());
+        vectors_ = Eigen::MatrixXd::Zero(size, static_cast<Eigen::Index>(count_));
+        foreseen_ = Eigen::VectorXd::Zero(size);
+        for (std::size_t k = 0; k < count_; ++k) {
+            subtract_states(motion.recent(k * orbit.period()).state, orbit.point(), periods, difference);
+            for (Eigen::Index i = 0; i < size; ++i)
+                if (orbit.is_active(static_cast<std::size_t>(i)))
+                    vectors_(i, static_cast<Eigen::Index>(k)) =
+                        difference[static_cast<std::size_t>(i)] / scale[static_cast<std::size_t>(i)];
+        }
+        for (Eigen::Index i = 0; count_ > 1 && i < size; ++i)
+            for (Eigen::Index j = 0; j < size; ++j)
+                if (orbit.is_active(static_cast<std::size_t>(i)) && orbit.is_active(static_cast<std::size_t>(j)))
+                    foreseen_[i] += orbit.jacobian()(i, j) * vectors_(j, 1) * scale[static_cast<std::size_t>(j)] /
+                                    scale[static_cast<std::size_t>(i)];
+    }
+
+    std::size_t count() const { return count_; }
+    auto operator[](std::size_t k) const { return vectors_.col(static_cast<Eigen::Index>(k)); }
+    double size(std::size_t k) const { return (*this)[k].cwiseAbs().maxCoeff(); }
+    /// By how much the newest differs from what the orbit's linear part makes of the one before.
+    double difference() const { return ((*this)[0] - foreseen_).cwiseAbs().maxCoeff(); }
+
+private:
+    const OrbitFinder* orbit_;
+    std::size_t count_;
+    Eigen::MatrixXd vectors_;
+    Eigen::VectorXd foreseen_;
+};
+
+/// Whether the returns of an orbit of several lie so far apart that it is not one of a single return: about that, all
+/// motions within the errors of their computation may look like orbits of the same period.
+bool is_resolved(const OrbitFinder& orbit, std::span<const double> periods, double tolerance) {
+    if (orbit.period() == 1)
+        return true;
+    // How far errors of the integration may have moved the orbit along its slowest direction.
+    const double shift = 2 * tolerance / (1 - std::abs(orbit.multipliers().front()));
+    const std::vector<double>& first = orbit.returns().front();
+    std::vector<double> difference(first.size());
+    for (std::size_t k = 1; k < orbit.period(); ++k) {
+        subtract_states(orbit.returns()[k], first, periods, difference);
+        for (std::size_t i = 0; i < first.size(); ++i)
+            if (orbit.is_active(i) && std::abs(difference[i]) > shift * std::abs(first[i]))
+                return true;
+    }
+    return false;
+}
+
+/// Whether the same things have happened in each of the last periods as along the orbit.
+bool same_contacts(const OrbitFinder& orbit, const ReturnWatcher& motion, std::size_t periods) {
+    const std::vector<std::uint32_t> all = motion.contacts(periods * orbit.period());
+    const std::vector<std::uint32_t>& one = orbit.contacts();
+    if (all.size() != periods * one.size())
+        return false;
+    for (std::size_t k = 0; k < all.size(); ++k)
+        if (all[k] != one[k % one.size()])
+            return false;
+    return true;
+}
+
+/// Sizes of the deviations along the slowest direction or in its plane, newest first.
+std::vector<double> slow_parts(const OrbitFinder& orbit, const Deviations& deviations) {
+    const Eigen::VectorXcd& functional = orbit.leading_functional();
+    std::vector<double> parts;
+    for (std::size_t k = 0; k < deviations.count(); ++k)
+        parts.push_back(std::abs(functional.cwiseProduct(deviations[k].cast<std::complex<double>>()).sum()));
+    return parts;
+}
+
+/// Along a direction, on either side alone: at a flip the sides take turns, and need not be alike.
+bool shrinks_along(const std::vector<double>& parts, double radius) {
+    const std::size_t last = std::min(most_periods, (parts.size() - 1) / 2 * 2);
+    if (last < fewest_periods)
+        return false;
+    for (std::size_t k = 0; k + 2 <= last; ++k)
+        if (!(parts[k] < parts[k + 2]))
+            return false;
+    const double shrunk = std::pow(parts[0] / parts[last], 1.0 / static_cast<double>(last));
+    return 1 - shrunk >= half_as_fast * (1 - radius);
+}
+
+/// In a plane, where what is of higher order lets the size vary within a turn.
+/// @param bent share of the deviation that is of higher order
+bool shrinks_turning(const std::vector<double>& parts, double radius, double bent) {
+    const std::size_t half = parts.size() / 2;
+    if (parts.size() < fewest_turning)
+        return false;
+    double newer = 0, older = 0;
+    for (std::size_t k = 0; k < half; ++k) {
+        newer += parts[k] * parts[k];
+        older += parts[half + k] * parts[half + k];
+    }
+    const double shrunk = 1 - std::sqrt(newer / older), periods = static_cast<double>(half);
+    return shrunk >= half_as_fast * (1 - std::pow(radius, periods)) && shrunk >= 2 * bent / periods;
+}
+
+/// Close to a bifurcation the distance shrinks by what is of higher order, long before the linear part tells. In the
+/// one direction (or plane) that is slow, the rate of shrinking goes from what is seen to what the multiplier says: it
+/// vanishes nowhere between, so nothing else lies there.
+bool shrinks_slowly(const OrbitFinder& orbit, const ReturnWatcher& motion, const Deviations& deviations,
+                    double radius) {
+    if (orbit.multipliers().empty() || deviations.count() <= fewest_periods)
+        return false;
+    const double bent = deviations.difference() / deviations.size(1);
+    if (!(bent <= linear) || !(deviations.size(0) < deviations.size(deviations.count() - 1)))
+        return false;
+    const bool turning = orbit.multipliers().front().imag() != 0;
+    const std::size_t periods = turning ? deviations.count() - 1 : std::min(most_periods, deviations.count() - 1);
+    if (!same_contacts(orbit, motion, periods))
+        return false;
+    const std::vector<double> parts = slow_parts(orbit, deviations);
+    return turning ? shrinks_turning(parts, radius, bent) : shrinks_along(parts, radius);
+}
+
+} // namespace
+
+bool approaches(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods,
+                double tolerance) {
+    double radius = 0;
+    for (const auto& multiplier : orbit.multipliers())
+        radius = std::max(radius, std::abs(multiplier));
+    if (!(radius < 1 - neutral) || motion.remembered() <= orbit.period())
+        return false;
+    const Deviations deviations(orbit, motion, periods);
+    if (!is_resolved(orbit, periods, tolerance))
+        return false;
+    if (deviations.size(0) < on_orbit)
+        return true;
+    if (deviations.difference() <= linear * (1 - radius) * deviations.size(1) && same_contacts(orbit, motion, 1))
+        return true;
+    return shrinks_slowly(orbit, motion, deviations, radius);
+}
+
+bool is_near(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods) {
+    if (orbit.multipliers().empty() || !(std::abs(orbit.multipliers().front()) < 1 - neutral) ||
+        motion.remembered() <= orbit.period())
+        return false;
+    const Deviations deviations(orbit, motion, periods);
+    return deviations.difference() <= linear * deviations.size(1) && same_contacts(orbit, motion, 1);
+}
+
+Guess middle_of(const ReturnWatcher& motion, const SectionMap& map, std::size_t period,
+                std::span<const double> periods) {
+    const std::size_t states = map.states(), count = (motion.remembered() - 1) / period;
+    const std::vector<double>& newest = motion.recent(0).state;
+    Guess guess{period, newest};
+    double weights = 0;
+    std::vector<double> sum(states, 0.0), difference(states);
+    for (std::size_t k = 0; k < count; ++k) {
+        const double t = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
+        const double weight = std::exp(-1 / (t * (1 - t))); // ends without weight
+        subtract_states(motion.recent(k * period).state, newest, periods, difference);
+        weights += weight;
+        for (std::size_t i = 0; i < states; ++i)
+            sum[i] += weight * difference[i];
+    }
+    for (std::size_t i = 0; i < states; ++i)
+        guess.state[i] += map.takes_part(i) && weights > 0 ? sum[i] / weights : 0;
+    return guess;
+}
+
+namespace {
+
+/// Whether the distances from one period to the next become smaller all the time.
+bool slows_down(ReturnWatcher& motion, std::size_t period) {
+    const std::size_t count = std::min(most_periods, (motion.remembered() - 1) / period);
+    double before = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const Return &one = motion.recent(k * period), &other = motion.recent((k + 1) * period);
+        const double distance = motion.distance(one.state, other.state);
+        if (one.mode != other.mode || !(distance > before))
+            return false;
+        before = distance;
+    }
+    return count >= fewest_periods;
+}
+
+/// Whether the motion keeps closer to this state in the newer half of its returns than in the older.
+bool closes_in(ReturnWatcher& motion, const Guess& middle) {
+    constexpr std::size_t fewest = 8;
+    constexpr double shrinking = 0.98;
+    const std::size_t half = (motion.remembered() - 1) / middle.period / 2;
+    double newer = 0, older = 0;
+    for (std::size_t k = 0; k < 2 * half; ++k) {
+        if (motion.recent(k * middle.period).mode != motion.recent(0).mode)
+            return false;
+        (k < half ? newer : older) +=
+            std::pow(motion.distance(motion.recent(k * middle.period).state, middle.state), 2);
+    }
+    return half >= fewest / 2 && newer < shrinking * shrinking * older;
+}
+
+} // namespace
+
+std::vector<Guess> slow_limits(ReturnWatcher& motion, const SectionMap& map, std::size_t largest,
+                               std::span<const double> periods) {
+    std::vector<Guess> guesses;
+    for (std::size_t n = 1; n <= largest && guesses.empty(); ++n)
+        if (slows_down(motion, n))
+            guesses.push_back({n, motion.recent(0).state});
+    for (std::size_t n = 1; n <= largest; ++n) {
+        Guess middle = middle_of(motion, map, n, periods);
+        if (!closes_in(motion, middle))
+            continue;
+        guesses.push_back(std::move(middle));
+        break;
+    }
+    return guesses;
+}
+
+} // namespace graze

@@ -1,0 +1,63 @@
+#include "sweep/attractor_setting.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace graze {
+
+namespace {
+
+std::vector<Probe> probes_of(const Model& model, const AttractorOptions& options,
+                             const SampleRecorder::Layout& layout) {
+    std::vector<Probe> probes = layout.probes();
+    // Last, since it ends trajectories: what happens at the same time is to be seen before.
+    probes.push_back(section_probe(model, options.section));
+    return probes;
+}
+
+[[noreturn]] void refuse(const std::string& problem, const std::string& remedy) {
+    throw InputError(problem, remedy);
+}
+
+} // namespace
+
+void AttractorOptions::validate(const Model& model) const {
+    if (section.empty())
+        refuse("no section says what a return is", "name one that the model declares under [sections]");
+    section_probe(model, section);
+    if (cycles < 1 || cycles > 100'000'000)
+        refuse(fmt::format("{} cycles are out of range", cycles), "give 1 to 100 million");
+    if (keep < 1)
+        refuse("no returns are kept", "keep at least one");
+    if (largest_period < 1 || largest_period > 1000)
+        refuse(fmt::format("a largest period of {} returns is out of range", largest_period), "give 1 to 1000");
+    if (!(recurrence > 0 && recurrence <= 0.1))
+        refuse(fmt::format("a recurrence of {} is out of range", recurrence), "give more than 0, up to 0.1");
+    if (!(disturbance >= 0 && disturbance <= 0.1))
+        refuse(fmt::format("a disturbance of {} is out of range", disturbance), "give 0 to 0.1");
+    if (!(longest_return >= 0))
+        refuse("the longest time of a return is negative", "give a positive time, or 0 for no bound");
+    for (const auto& [state, range] : bounds)
+        if (state >= model.states.size() || !(range.first < range.second))
+            refuse("bounds of a state are not in order", "give the least value, then the greatest");
+}
+
+AttractorSetting::AttractorSetting(const Model& model, const AttractorOptions& given,
+                                   const std::vector<Sampling>& samplings, const std::vector<Expression>& values,
+                                   const SimulationOptions& simulation_options)
+    : options((given.validate(model), given)), layout(model, samplings, values),
+      simulation(model, probes_of(model, options, layout), {}, simulation_options),
+      map(simulation, simulation.probes().size() - 1), field(simulation.compiled()) {
+    if (model.symmetries.empty())
+        return;
+    std::vector<Expression> inputs = model.state_symbols();
+    for (const Expression& symbol : model.parameter_symbols())
+        inputs.push_back(symbol);
+    image = Function(inputs, model.expand(model.symmetries.front().map));
+    image_modes = model.symmetries.front().modes;
+}
+
+} // namespace graze

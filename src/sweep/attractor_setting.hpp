@@ -1,0 +1,27 @@
+#pragma once
+
+#include "graze/sweep/point_search.hpp"
+#include "sweep/field_map.hpp"
+#include "sweep/sample_recorder.hpp"
+#include "sweep/section_map.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace graze {
+
+/// What all searches of a run share.
+struct AttractorSetting {
+    AttractorSetting(const Model& model, const AttractorOptions& given, const std::vector<Sampling>& samplings,
+                     const std::vector<Expression>& values, const SimulationOptions& simulation_options);
+
+    AttractorOptions options;
+    SampleRecorder::Layout layout;
+    Simulation simulation;
+    SectionMap map;
+    FieldMap field;
+    Function image; ///< of the first symmetry, in states and parameters
+    std::vector<std::size_t> image_modes;
+};
+
+} // namespace graze

@@ -1,0 +1,327 @@
+#include "sweep/equilibrium.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numeric>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t most_iterations = 20;
+constexpr double furthest = 3;                ///< correction, relative to what the states have moved through
+constexpr double converged = 1e-14;           ///< corrections that are round-off
+constexpr double round_off = 1e-10;           ///< and those that may be, where the field is a small difference
+constexpr std::size_t phases = 16;            ///< of clocks, at which the field must vanish too
+constexpr double neutral = 1e-10;             ///< real part, relative to the largest eigenvalue, that may be zero
+constexpr double nearly = 0.1;                ///< share of what the linear part does that the rest may change
+constexpr double ill = 1e-7;                  ///< reciprocal condition of eigenvectors that are nearly parallel
+constexpr double golden = 0.6180339887498949; ///< whose multiples fill the unit interval evenly
+
+/// Number k of a sequence between -1 and 1 that is the same for all.
+double spread_number(std::size_t k) {
+    const double x = golden * static_cast<double>(k + 1);
+    return 2 * (x - std::floor(x)) - 1;
+}
+
+} // namespace
+
+bool Equilibrium::is_stable() const {
+    return !driven && (values.size() == 0 || growth() < -neutral * largest_rate());
+}
+
+bool Equilibrium::is_unstable() const {
+    return !driven && values.size() > 0 && growth() > neutral * largest_rate();
+}
+
+void EquilibriumFinder::begin(std::span<const double> parameters, std::span<const double> periods) {
+    workspace_ = field_->workspace(parameters);
+    periods_.assign(periods.begin(), periods.end());
+}
+
+std::span<const double> EquilibriumFinder::rates(std::span<const double> state, std::size_t mode) {
+    field_->evaluate_rates(workspace_, mode, state);
+    return workspace_.rates;
+}
+
+std::optional<Equilibrium> EquilibriumFinder::find(std::span<const double> state, std::size_t mode,
+                                                   std::span<const double> extents) {
+    Equilibrium result;
+    result.state.assign(state.begin(), state.end());
+    result.mode = mode;
+    if (!classify(result) || !solve(result, extents) || !rests_at_all_phases(result) || !find_basis(result))
+        return std::nullopt;
+    return result;
+}
+
+/// What each state does here. @return false where one moves steadily
+bool EquilibriumFinder::classify(Equilibrium& equilibrium) {
+    const std::size_t count = field_->states();
+    field_->evaluate(workspace_, equilibrium.mode, equilibrium.state);
+    clocks_.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (field_->compiled().model().states[i].drifting)
+            continue;
+        const std::span<const double> row(&workspace_.jacobian[i * count], count);
+        if (!std::isfinite(workspace_.rates[i]) ||
+            !std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); }))
+            return false;
+        const bool constant = std::all_of(row.begin(), row.end(), [](double x) { return x == 0; });
+        if (!constant)
+            equilibrium.active.push_back(i);
+        else if (workspace_.rates[i] != 0 && !(periods_[i] > 0))
+            return false;
+        else if (workspace_.rates[i] != 0)
+            clocks_.push_back(i);
+    }
+    return true;
+}
+
+bool EquilibriumFinder::solve(Equilibrium& equilibrium, std::span<const double> extents) {
+    const auto size = static_cast<Eigen::Index>(equilibrium.active.size());
+    const std::size_t count = field_->states();
+    equilibrium.scale.resize(size);
+    equilibrium.field.resize(size, size);
+    for (Eigen::Index i = 0; i < size; ++i) {
+        const std::size_t state = equilibrium.active[static_cast<std::size_t>(i)];
+        const double largest = std::max(extents[state], std::abs(equilibrium.state[state]));
+        equilibrium.scale[i] = periods_[state] > 0 ? periods_[state] : largest > 0 ? largest : 1;
+    }
+    double before = std::numeric_limits<double>::infinity();
+    for (std::size_t iteration = 0; iteration < most_iterations && size > 0; ++iteration) {
+        field_->evaluate(workspace_, equilibrium.mode, equilibrium.state);
+        Eigen::VectorXd rates(size);
+        for (Eigen::Index i = 0; i < size; ++i) {
+            const std::size_t row = equilibrium.active[static_cast<std::size_t>(i)];
+            rates[i] = workspace_.rates[row] / equilibrium.scale[i];
+            for (Eigen::Index j = 0; j < size; ++j)
+                equilibrium.field(i, j) =
+                    workspace_.jacobian[row * count + equilibrium.active[static_cast<std::size_t>(j)]] *
+                    equilibrium.scale[j] / equilibrium.scale[i];
+        }
+        if (!equilibrium.field.allFinite() || !rates.allFinite())
+            return false;
+        const Eigen::FullPivLU<Eigen::MatrixXd> factors(equilibrium.field);
+        if (!factors.isInvertible())
+            return false;
+        const Eigen::VectorXd correction = factors.solve(rates);
+        const double length = correction.cwiseAbs().maxCoeff();
+        if (!(length <= furthest))
+            return false;
+        for (Eigen::Index i = 0; i < size; ++i)
+            equilibrium.state[equilibrium.active[static_cast<std::size_t>(i)]] -= correction[i] * equilibrium.scale[i];
+        if (length < converged || (length < round_off && length >= 0.5 * before))
+            return true;
+        before = length;
+    }
+    return size == 0;
+}
+
+/// Clocks may disturb what rests at one of their phases only.
+bool EquilibriumFinder::rests_at_all_phases(Equilibrium& equilibrium) {
+    if (clocks_.empty())
+        return true;
+    const auto size = static_cast<Eigen::Index>(equilibrium.active.size());
+    const std::size_t count = field_->states();
+    const Eigen::FullPivLU<Eigen::MatrixXd> factors(equilibrium.field);
+    const double largest = size > 0 ? equilibrium.field.cwiseAbs().maxCoeff() : 0;
+    std::vector<double> at = equilibrium.state;
+    for (std::size_t k = 0; k < phases; ++k) {
+        for (std::size_t c = 0; c < clocks_.size(); ++c)
+            at[clocks_[c]] = periods_[clocks_[c]] * 0.5 * (1 + spread_number(k * (c + 1) + 3 * c));
+        field_->evaluate(workspace_, equilibrium.mode, at);
+        Eigen::VectorXd rates(size);
+        for (Eigen::Index i = 0; i < size; ++i) {
+            const std::size_t row = equilibrium.active[static_cast<std::size_t>(i)];
+            rates[i] = workspace_.rates[row] / equilibrium.scale[i];
+            for (Eigen::Index j = 0; j < size; ++j) {
+                const double now = workspace_.jacobian[row * count + equilibrium.active[static_cast<std::size_t>(j)]] *
+                                   equilibrium.scale[j] / equilibrium.scale[i];
+                equilibrium.driven =
+                    equilibrium.driven || !(std::abs(now - equilibrium.field(i, j)) <= round_off * largest);
+            }
+        }
+        if (size > 0 && !(factors.solve(rates).cwiseAbs().maxCoeff() <= round_off))
+            return false;
+    }
+    return true;
+}
+
+bool EquilibriumFinder::find_basis(Equilibrium& equilibrium) const {
+    const auto size = static_cast<Eigen::Index>(equilibrium.active.size());
+    if (size == 0)
+        return true;
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(equilibrium.field);
+    if (solver.info() != Eigen::Success)
+        return false;
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(size));
+    std::iota(order.begin(), order.end(), Eigen::Index{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](auto a, auto b) { return solver.eigenvalues()[a].real() > solver.eigenvalues()[b].real(); });
+    const Eigen::MatrixXcd vectors = solver.eigenvectors();
+    equilibrium.values.resize(size);
+    equilibrium.basis.resize(size, size);
+    for (Eigen::Index i = 0; i < size; ++i) {
+        equilibrium.values[i] = solver.eigenvalues()[order[static_cast<std::size_t>(i)]];
+        equilibrium.basis.col(i) = vectors.col(order[static_cast<std::size_t>(i)]);
+    }
+    equilibrium.leading_direction = equilibrium.basis.col(0).real();
+    const Eigen::JacobiSVD<Eigen::MatrixXcd> condition(equilibrium.basis);
+    const auto& singular = condition.singularValues();
+    if (!(singular[size - 1] > ill * singular[0])) {
+        // Nearly parallel: a triangular basis, whose columns are shortened until what couples them is small.
+        const Eigen::ComplexSchur<Eigen::MatrixXcd> schur(equilibrium.field.cast<std::complex<double>>());
+        if (schur.info() != Eigen::Success)
+            return false;
+        const double slowest = equilibrium.values.real().cwiseAbs().minCoeff();
+        equilibrium.basis = schur.matrixU();
+        double weight = 1;
+        for (Eigen::Index i = 1; i < size; ++i) {
+            const double coupling = schur.matrixT().col(i).head(i).cwiseAbs().maxCoeff();
+            if (coupling > nearly * slowest)
+                weight *= nearly * slowest / coupling;
+            equilibrium.basis.col(i) *= weight;
+        }
+    }
+    equilibrium.inverse = equilibrium.basis.inverse();
+    return equilibrium.inverse.allFinite();
+}
+
+Eigen::VectorXd EquilibriumFinder::deviation(const Equilibrium& equilibrium, std::span<const double> state) const {
+    Eigen::VectorXd result(equilibrium.scale.size());
+    for (Eigen::Index i = 0; i < result.size(); ++i) {
+        const std::size_t index = equilibrium.active[static_cast<std::size_t>(i)];
+        double difference = state[index] - equilibrium.state[index];
+        if (periods_[index] > 0)
+            difference -= std::round(difference / periods_[index]) * periods_[index];
+        result[i] = difference / equilibrium.scale[i];
+    }
+    return result;
+}
+
+double EquilibriumFinder::distance(const Equilibrium& equilibrium, std::span<const double> state) const {
+    return (equilibrium.inverse * deviation(equilibrium, state)).norm();
+}
+
+/// What the field adds to its linear part, in the basis; less than round-off can make of it.
+double EquilibriumFinder::remainder(const Equilibrium& equilibrium, const Eigen::VectorXd& deviation) {
+    constexpr double noise = 1e-13;
+    std::vector<double> at = equilibrium.state;
+    const auto size = equilibrium.scale.size();
+    Eigen::VectorXd rest(size);
+    double offset = 0;
+    for (Eigen::Index i = 0; i < size; ++i) {
+        const std::size_t index = equilibrium.active[static_cast<std::size_t>(i)];
+        offset = std::max(offset, std::abs(equilibrium.state[index]) / equilibrium.scale[i]);
+        at[index] += deviation[i] * equilibrium.scale[i];
+    }
+    field_->evaluate_rates(workspace_, equilibrium.mode, at);
+    for (Eigen::Index i = 0; i < size; ++i)
+        rest[i] = workspace_.rates[equilibrium.active[static_cast<std::size_t>(i)]] / equilibrium.scale[i];
+    rest -= equilibrium.field * deviation;
+    const double size_of_field = equilibrium.field.cwiseAbs().maxCoeff();
+    for (Eigen::Index i = 0; i < size; ++i) {
+        const double lost = noise * size_of_field * (offset + deviation.cwiseAbs().maxCoeff());
+        rest[i] = std::abs(rest[i]) > lost ? rest[i] : 0;
+    }
+    return (equilibrium.inverse * rest).norm();
+}
+
+bool EquilibriumFinder::events_are_away(const Equilibrium& equilibrium, double distance) {
+    const auto size = static_cast<Eigen::Index>(equilibrium.active.size());
+    const std::size_t count = field_->states();
+    const std::size_t watched = field_->compiled().mode(equilibrium.mode).watched.size();
+    std::vector<double> at = equilibrium.state;
+    std::vector<int> sides(watched, 0);
+    for (std::size_t k = 0; watched > 0 && k < (clocks_.empty() ? 1 : phases); ++k) {
+        for (std::size_t c = 0; c < clocks_.size() && k > 0; ++c)
+            at[clocks_[c]] = periods_[clocks_[c]] * 0.5 * (1 + spread_number(k * (c + 1) + 3 * c));
+        field_->evaluate_events(workspace_, equilibrium.mode, at);
+        for (std::size_t w = 0; w < watched; ++w) {
+            const double value = workspace_.events[w];
+            Eigen::RowVectorXcd gradient = Eigen::RowVectorXcd::Zero(size);
+            for (Eigen::Index i = 0; i < size; ++i)
+                gradient[i] = workspace_.event_gradients[w * count + equilibrium.active[static_cast<std::size_t>(i)]] *
+                              equilibrium.scale[i];
+            const double change = size > 0 ? (gradient * equilibrium.basis).norm() * distance : 0;
+            const int side = value > 0 ? 1 : -1;
+            if (!(std::abs(value) > 0 && change <= 0.5 * std::abs(value)) || (sides[w] != 0 && sides[w] != side))
+                return false;
+            sides[w] = side;
+            // An event that the clock brings about may be short: phases looked at cannot exclude it.
+            for (const std::size_t clock : clocks_)
+                if (workspace_.event_gradients[w * count + clock] != 0)
+                    return false;
+        }
+    }
+    return true;
+}
+
+bool EquilibriumFinder::is_linear_within(const Equilibrium& equilibrium, double distance, bool strict) {
+    constexpr std::size_t directions = 48;
+    if (!events_are_away(equilibrium, distance))
+        return false;
+    const auto size = equilibrium.scale.size();
+    if (distance == 0 || size == 0)
+        return true;
+    const double rate = strict ? equilibrium.values.real().cwiseAbs().minCoeff() : equilibrium.largest_rate();
+    const auto small_at = [&](Eigen::VectorXd direction) {
+        const double length = (equilibrium.inverse * direction).norm();
+        if (!(length > 0))
+            return true;
+        bool small = true;
+        for (const double share : {1.0, 0.5})
+            small = small &&
+                    remainder(equilibrium, direction * (share * distance / length)) <= nearly * rate * share * distance;
+        return small;
+    };
+    for (Eigen::Index i = 0; i < size; ++i)
+        if (!small_at(Eigen::VectorXd::Unit(size, i)) || !small_at(-Eigen::VectorXd::Unit(size, i)))
+            return false;
+    std::size_t number = 0;
+    for (std::size_t k = 0; k < directions; ++k) {
+        Eigen::VectorXcd mixture(size);
+        for (Eigen::Index i = 0; i < size; ++i) {
+            mixture[i] = {spread_number(number), spread_number(3 * number + 1)};
+            number += 1;
+        }
+        if (!small_at((equilibrium.basis * mixture).real()))
+            return false;
+    }
+    return true;
+}
+
+std::vector<double> EquilibriumFinder::displaced(const Equilibrium& equilibrium, double share) {
+    constexpr double shortest = 1e-30, longest = 1e30;
+    constexpr double visible = 1e-12; ///< relative to the state itself
+    const auto size = equilibrium.scale.size();
+    const Eigen::VectorXd direction =
+        equilibrium.leading_direction / equilibrium.leading_direction.cwiseAbs().maxCoeff();
+    double offset = 0;
+    for (Eigen::Index i = 0; i < size; ++i)
+        offset = std::max(offset, std::abs(equilibrium.state[equilibrium.active[static_cast<std::size_t>(i)]]) /
+                                      equilibrium.scale[i]);
+    // How far the field is linear is its own measure of length, whatever the units.
+    const double first = std::max(shortest, 1e-8 * offset);
+    double length = first;
+    while (length < longest) {
+        const double linear = (equilibrium.inverse * (equilibrium.field * direction)).norm() * length;
+        if (!(remainder(equilibrium, direction * length) <= nearly * linear) ||
+            !events_are_away(equilibrium, (equilibrium.inverse * direction).norm() * length))
+            break;
+        length *= 10;
+    }
+    if (length >= longest)
+        length = std::max(1.0, offset);
+    std::vector<double> state = equilibrium.state;
+    for (Eigen::Index i = 0; i < size; ++i)
+        state[equilibrium.active[static_cast<std::size_t>(i)]] +=
+            std::max(share * length, visible * offset) * direction[i] * equilibrium.scale[i];
+    return state;
+}
+
+} // namespace graze

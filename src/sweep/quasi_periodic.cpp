@@ -1,0 +1,142 @@
+#include "sweep/quasi_periodic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t fewest_returns = 200;
+constexpr double moves = 1e-3; ///< least extent at returns, relative to that of the motion
+/// Distance, relative to the extent at returns, at which a motion may have come back: then it is looked at again.
+constexpr double back = 1e-4;
+/// By which the distance from an earlier return shrinks if the motion approaches a long orbit.
+constexpr double shrinking = 0.9;
+
+/// Functions of the states whose averages are compared: of each, one number for each return.
+std::vector<std::vector<double>> observables(const VisitedStates& visited, std::span<const double> extents,
+                                             bool& moving) {
+    const std::size_t states = visited.periods.size(), returns = visited.returns();
+    std::vector<std::vector<double>> all, coordinates;
+    for (std::size_t i = 0; i < states; ++i) {
+        const auto value = [&](std::size_t k) { return visited.values[k * states + i]; };
+        if (visited.periods[i] > 0) {
+            for (int harmonic = 1; harmonic <= 2; ++harmonic) {
+                std::vector<double> cosine(returns), sine(returns);
+                for (std::size_t k = 0; k < returns; ++k) {
+                    const double angle = harmonic * 2 * std::numbers::pi * value(k) / visited.periods[i];
+                    cosine[k] = std::cos(angle);
+                    sine[k] = std::sin(angle);
+                }
+                const auto [low, high] = std::minmax_element(sine.begin(), sine.end());
+                moving = moving || *high - *low > moves;
+                all.push_back(std::move(cosine));
+                all.push_back(std::move(sine));
+            }
+            continue;
+        }
+        double low = value(0), high = value(0);
+        for (std::size_t k = 0; k < returns; ++k) {
+            low = std::min(low, value(k));
+            high = std::max(high, value(k));
+        }
+        if (!(high - low > moves * extents[i]))
+            continue;
+        moving = true;
+        std::vector<double> coordinate(returns);
+        for (std::size_t k = 0; k < returns; ++k)
+            coordinate[k] = (2 * value(k) - low - high) / (high - low);
+        coordinates.push_back(std::move(coordinate));
+    }
+    // Squares and products tell a spiral that comes closer from a closed curve.
+    for (std::size_t i = 0; i < coordinates.size(); ++i)
+        for (std::size_t j = i; j < std::min(coordinates.size(), i + 2); ++j) {
+            std::vector<double> product(returns);
+            for (std::size_t k = 0; k < returns; ++k)
+                product[k] = coordinates[i][k] * coordinates[j][k];
+            all.push_back(std::move(product));
+        }
+    all.insert(all.end(), coordinates.begin(), coordinates.end());
+    return all;
+}
+
+/// Averages along a quasi-periodic motion converge faster than any power of their length when its ends have no weight.
+double weighted_average(std::span<const double> values) {
+    double sum = 0, weights = 0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        const double t = (static_cast<double>(k) + 0.5) / static_cast<double>(values.size());
+        const double weight = std::exp(-1 / (t * (1 - t)));
+        sum += weight * values[k];
+        weights += weight;
+    }
+    return sum / weights;
+}
+
+/// Largest distance of two returns in any state, relative to its extent.
+double distance(const VisitedStates& visited, std::span<const double> extents, std::size_t a, std::size_t b) {
+    const std::size_t states = visited.periods.size();
+    double largest = 0;
+    for (std::size_t i = 0; i < states; ++i) {
+        double difference = std::abs(visited.values[a * states + i] - visited.values[b * states + i]);
+        if (visited.periods[i] > 0)
+            difference = std::min(difference, visited.periods[i] - difference);
+        const double scale = visited.periods[i] > 0 ? visited.periods[i] : extents[i];
+        largest = std::max(largest, scale > 0 ? difference / scale : 0);
+    }
+    return largest;
+}
+
+/// Whether the motion has come back to where it was, or comes closer to that from one time to the next: its period is
+/// only too long to be tried.
+bool comes_back(const VisitedStates& visited, std::span<const double> extents) {
+    const std::size_t last = visited.returns() - 1;
+    for (std::size_t lag = 1; lag <= last / 2; ++lag) {
+        const double now = distance(visited, extents, last, last - lag);
+        if (now > back)
+            continue;
+        double newer = 0, older = 0;
+        for (std::size_t k = 0; k < lag && k < last / 2; ++k) {
+            newer = std::max(newer, distance(visited, extents, last - k, last - k - lag));
+            older = std::max(older, distance(visited, extents, lag + k, k));
+        }
+        if (newer < 1e-9 || newer < shrinking * older)
+            return true;
+    }
+    return false;
+}
+
+/// How far apart returns are that are closest to each other, at the same few returns' distance all along. Chaos in
+/// narrow bands has averages as even as these bands are narrow.
+double closest_lag(const VisitedStates& visited, std::span<const double> extents) {
+    constexpr std::size_t most = 96;
+    double closest = std::numeric_limits<double>::infinity();
+    for (std::size_t lag = 1; lag <= most && lag < visited.returns(); ++lag) {
+        double square = 0;
+        for (std::size_t k = lag; k < visited.returns(); ++k)
+            square += std::pow(distance(visited, extents, k, k - lag), 2);
+        closest = std::min(closest, std::sqrt(square / static_cast<double>(visited.returns() - lag)));
+    }
+    return closest;
+}
+
+} // namespace
+
+double unevenness(const VisitedStates& visited, std::span<const double> extents) {
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    if (visited.returns() < fewest_returns)
+        return unknown;
+    bool moving = false;
+    double largest = 0;
+    for (const std::vector<double>& values : observables(visited, extents, moving)) {
+        const std::span<const double> all(values);
+        const std::size_t half = all.size() / 2;
+        largest = std::max(largest, std::abs(weighted_average(all.first(half)) - weighted_average(all.last(half))));
+    }
+    const double closest = closest_lag(visited, extents);
+    return moving && closest > 0 && !comes_back(visited, extents) ? largest / closest : unknown;
+}
+
+} // namespace graze

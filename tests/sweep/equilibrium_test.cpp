@@ -1,0 +1,137 @@
+#include "settle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace graze {
+namespace {
+
+TEST(Equilibrium, motions_that_come_to_rest_are_called_that_in_any_units) {
+    // Damping ratios of foci, of the critical case and of nodes; from which the exponent follows in closed form.
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int k = 0; k < 60; ++k) {
+        const double zeta = k % 10 == 0 ? 1 : std::pow(10, 4.3 * uniform(random) - 4), rest = k % 3 == 0 ? 0 : 3;
+        const double length = std::pow(10, std::floor(18 * uniform(random)) - 12);
+        const double time = std::pow(10, std::floor(12 * uniform(random)) - 9);
+        const auto section = k % 2 == 0 ? SectionOf::clock : SectionOf::states;
+        const Model model = oscillator(fmt::format("{:.17g} - 2*{:.17g}*V - X", rest, zeta), section,
+                                       2 * uniform(random) - 1, uniform(random), 0.5 + uniform(random), length, time);
+        const PointResult result = settle(model);
+        ASSERT_EQ(result.label, Label::equilibrium) << k << " " << zeta << " " << length << " " << time;
+        const double exponent = zeta <= 1 ? -zeta : -1 / (zeta + std::sqrt(zeta * zeta - 1));
+        ASSERT_TRUE(result.lyapunov);
+        // A double eigenvalue is known to the root of the machine epsilon.
+        EXPECT_NEAR(*result.lyapunov * time, exponent, zeta == 1 ? 1e-7 : 1e-11) << zeta;
+        EXPECT_NEAR(result.state[0] / length, rest, 1e-9);
+        EXPECT_EQ(result.samples.size(), 1u);
+    }
+}
+
+TEST(Equilibrium, settled_van_der_pol_oscillator_rests) {
+    for (const auto section : {SectionOf::clock, SectionOf::states})
+        for (const double mu : {-0.05, -0.5, -1.5}) {
+            const PointResult result = settle(oscillator(fmt::format("{}*(1 - X^2)*V - X", mu), section, 0.5, 0));
+            EXPECT_EQ(result.label, Label::equilibrium) << mu;
+            EXPECT_NEAR(*result.lyapunov, mu / 2, 1e-11);
+        }
+}
+
+TEST(Equilibrium, returns_that_take_many_steps_are_waited_for) {
+    for (const double mu : {8.0, 40.0}) {
+        const PointResult result = settle(oscillator(fmt::format("{}*(1 - X^2)*V - X", mu), SectionOf::states, 2, 0));
+        EXPECT_EQ(result.label, Label::periodic) << mu;
+        EXPECT_EQ(result.period, 1u);
+    }
+}
+
+TEST(Equilibrium, a_limit_cycle_about_a_stable_equilibrium_is_not_taken_for_it) {
+    // r' = -r (1 - r^2) (4 - r^2), turning: r = 0 and r = 2 are stable, r = 1 separates them. Where the motion crosses
+    // x = 0 the field may look linear.
+    for (const double start : {0.1, 0.9, 1.1, 1.9, 2.5}) {
+        const Model model = parse_model(fmt::format(R"toml(
+name = "two attractors"
+[states]
+x = {{ initial = {} }}
+y = {{ initial = 0 }}
+[definitions]
+g = "0.05*(1 - x^2 - y^2)*(4 - x^2 - y^2)"
+[modes.only]
+rates = {{ x = "-g*x - y", y = "x - g*y" }}
+[sections.s]
+function = "x"
+direction = "rising"
+[initial]
+mode = "only"
+)toml",
+                                                    start),
+                                        "two attractors");
+        const PointResult result = settle(model);
+        EXPECT_EQ(result.label, start < 1 ? Label::equilibrium : Label::periodic) << start;
+    }
+}
+
+TEST(Equilibrium, decay_goes_nowhere_near_the_end_of_the_range_of_numbers) {
+    for (const auto section : {SectionOf::clock, SectionOf::states}) {
+        EXPECT_EQ(settle(first_order("-x", section, 1)).label, Label::equilibrium);
+        EXPECT_EQ(settle(first_order("-50*x", section, 1)).label, Label::equilibrium);
+        // Decay that is not exponential: no linear part tells that it is one, but nothing ceases to exist.
+        const Label slow = settle(first_order("-x^3", section, 1)).label;
+        EXPECT_TRUE(slow == Label::unsettled || slow == Label::equilibrium) << name_of(slow);
+    }
+    EXPECT_EQ(settle(first_order("x^2", SectionOf::clock, 1)).label, Label::singular);
+}
+
+TEST(Equilibrium, slow_drift_costs_no_more_than_other_motions) {
+    for (const auto section : {SectionOf::clock, SectionOf::states}) {
+        const PointResult result = settle(first_order("-1e-6*x", section, 1));
+        EXPECT_EQ(result.label, Label::equilibrium);
+        EXPECT_LE(result.periods_run, 600u);
+        EXPECT_LE(settle(first_order("1e-6*(x - x^3)", section, 0.1)).periods_run, 600u);
+    }
+}
+
+TEST(Equilibrium, what_sits_on_an_unstable_equilibrium_is_displaced_in_any_units) {
+    for (const double length : {1e-9, 1.0, 1e6})
+        for (const auto section : {SectionOf::clock, SectionOf::states}) {
+            // A ball between two wells.
+            const PointResult wells = settle(oscillator("-0.2*V + X - X^3", section, 0, 0, 1, length, 1e-3));
+            EXPECT_EQ(wells.label, Label::equilibrium);
+            EXPECT_NEAR(std::abs(wells.state[0]) / length, 1, 1e-9);
+            EXPECT_EQ(settle(oscillator("0.2*V - X", section, 0, 0, 1, length, 1e-3)).label, Label::unbounded);
+        }
+    const PointResult cycle = settle(oscillator("0.5*(1 - X^2)*V - X", SectionOf::states, 0, 0));
+    EXPECT_EQ(cycle.label, Label::periodic);
+    EXPECT_EQ(cycle.period, 1u);
+}
+
+TEST(Equilibrium, what_must_not_be_displaced_is_not_called_chaotic) {
+    AttractorOptions options;
+    options.disturbance = 0;
+    for (const auto section : {SectionOf::clock, SectionOf::states}) {
+        const PointResult result = settle(oscillator("-0.2*V + X - X^3", section, 0, 0), options);
+        EXPECT_EQ(result.label, Label::unsettled);
+        EXPECT_NE(result.outcome.detail.find("unstable"), std::string::npos);
+        EXPECT_EQ(result.state[0], 0);
+    }
+    const PointResult map = settle(iterated("4*z*(1 - z)", 0.75), options);
+    EXPECT_EQ(map.label, Label::unsettled);
+    options.disturbance = 1e-6;
+    EXPECT_EQ(settle(iterated("4*z*(1 - z)", 0.75), options).label, Label::chaotic);
+}
+
+TEST(Equilibrium, driven_parameters_are_judged_by_multipliers) {
+    // Mathieu's equation about rest: stable away from the tongue at twice the frequency, unstable within.
+    const auto mathieu = [](double Omega, double x) {
+        return oscillator("-0.02*V - (1 + 0.3*cos(theta))*X - X^3", SectionOf::clock, x, 0, Omega);
+    };
+    EXPECT_EQ(settle(mathieu(1.3, 0.01)).label, Label::equilibrium);
+    const PointResult within = settle(mathieu(2, 0));
+    EXPECT_NE(within.label, Label::equilibrium);
+    EXPECT_NE(within.label, Label::chaotic);
+    EXPECT_GT(std::abs(within.state[0]), 0.01);
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,40 @@
+#include "settle.hpp"
+
+#include <gtest/gtest.h>
+
+namespace graze {
+namespace {
+
+TEST(Exponent, truth_lies_within_the_stated_error) {
+    // Families with known exponents, in each of which convergence is of another kind.
+    int all = 0, within = 0;
+    const auto count = [&](const PointResult& result, double truth, const std::string& name) {
+        if (!result.lyapunov || !result.lyapunov_error)
+            return;
+        ++all;
+        within += std::abs(*result.lyapunov - truth) <= *result.lyapunov_error ? 1 : 0;
+        EXPECT_LE(std::abs(*result.lyapunov - truth), 3 * *result.lyapunov_error) << name << " " << *result.lyapunov;
+    };
+    for (int k = 0; k < 60; ++k) { // random: the logistic map at 4
+        const PointResult result = settle(iterated("4*z*(1 - z)", 0.1 + 0.013 * k));
+        count(result, std::log(2.0), fmt::format("logistic {}", k));
+    }
+    for (int k = 0; k < 20; ++k) { // bounded: conservative and dissipative tori
+        const double Omega = 1.35 + 0.037 * k;
+        count(settle(oscillator("-X", SectionOf::clock, 1, 0, Omega)), 0, fmt::format("linear torus {}", k));
+        count(settle(iterated(fmt::format("z + {} - 0.1*sin(2*pi*z)", 0.31 + 0.0123 * k), 0.2, true)), 0,
+              fmt::format("circle {}", k));
+    }
+    for (int k = 0; k < 15; ++k) // like the logarithm of time: neighbours on other tori move apart
+        count(settle(oscillator("-X - X^3", SectionOf::clock, 0.3 + 0.1 * k, 0)), 0, fmt::format("Duffing {}", k));
+    for (int k = 0; k < 15; ++k) { // steady: growth of a linear oscillator
+        const double zeta = 0.001 * (k + 1);
+        count(settle(oscillator(fmt::format("{}*V - X", 2 * zeta), SectionOf::clock, 1, 0, 1.7)), zeta,
+              fmt::format("growth {}", k));
+    }
+    EXPECT_GE(all, 100);
+    EXPECT_GE(within, 0.95 * all) << all;
+}
+
+} // namespace
+} // namespace graze
