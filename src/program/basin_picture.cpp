@@ -8,8 +8,9 @@ namespace graze {
 
 namespace {
 
-/// Tells attractors apart: by what they are and, for orbits and equilibria, which Newton's method has computed to many digits, by the
-/// mean, least and greatest of every value along them, which do not depend on where along the orbit one begins.
+/// Tells attractors apart: by what they are and, for orbits and equilibria, which Newton's method has computed to many
+/// digits, by the mean, least and greatest of every value along them, which do not depend on where along the orbit one
+/// begins.
 class AttractorNames {
 public:
     /// @param marks of the orbit, three for each value; @param spreads of the values
@@ -83,8 +84,7 @@ ResultPicture basin_picture(const StudyPicture& picture, const ResultFile& file)
     std::size_t attractors = 0;
     while (rows.next()) {
         std::vector<double> marks(3 * run.record.values.size());
-        const bool told_apart =
-            rows.text(2) == name_of(Label::periodic) || rows.text(2) == name_of(Label::equilibrium);
+        const bool told_apart = rows.text(2) == name_of(Label::periodic) || rows.text(2) == name_of(Label::equilibrium);
         for (std::size_t v = 0; told_apart && v < marks.size(); ++v)
             marks[v] = rows.number(6 + v);
         const std::size_t index = names.index(kind_text(rows), marks, spreads);

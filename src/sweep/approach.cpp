@@ -22,7 +22,7 @@ constexpr double neutral = 1e-10; ///< by which a multiplier must be less than 1
 class Deviations {
 public:
     Deviations(const OrbitFinder& orbit, const ReturnWatcher& motion, std::span<const double> periods)
-        : orbit_(&orbit), count_((motion.remembered() - 1) / orbit.period() + 1) {
+        : count_((motion.remembered() - 1) / orbit.period() + 1) {
         const std::span<const double> scale = motion.scale();
         const auto size = static_cast<Eigen::Index>(scale.size());
         std::vector<double> difference(scale.size());
@@ -49,7 +49,6 @@ public:
     double difference() const { return ((*this)[0] - foreseen_).cwiseAbs().maxCoeff(); }
 
 private:
-    const OrbitFinder* orbit_;
     std::size_t count_;
     Eigen::MatrixXd vectors_;
     Eigen::VectorXd foreseen_;

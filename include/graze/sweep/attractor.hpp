@@ -38,12 +38,11 @@ struct AttractorOptions {
     std::size_t largest_period = 6; ///< in returns
     /// Returns that come this close (relative to the spread of the states) are tried by Newton's method.
     double recurrence = 1e-3;
-    /// Displacement of a motion that sits on an unstable orbit or equilibrium: relative to the spread of the states, or,
-    /// where nothing moves, to the length over which the field is linear. 0: such a motion is unsettled.
+    /// Displacement of a motion that sits on an unstable orbit or equilibrium: relative to the spread of the states,
+    /// or, where nothing moves, to the length over which the field is linear. 0: such a motion is unsettled.
     double disturbance = 1e-6;
     std::size_t lyapunov_cycles = 60; ///< the last of `cycles`, over which the exponent is averaged; 0: none
-    double longest_return =
-        0; ///< time without a return after which a point is given up as unsettled; 0: none
+    double longest_return = 0;        ///< time without a return after which a point is given up as unsettled; 0: none
     /// Bounds of states: (state, (least, greatest)); leaving them is an escape.
     std::vector<std::pair<std::size_t, std::pair<double, double>>> bounds;
     /// @throws InputError naming the option that is out of range
