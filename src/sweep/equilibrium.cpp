@@ -123,12 +123,12 @@ bool EquilibriumFinder::solve(Equilibrium& equilibrium, std::span<const double> 
 
 /// Clocks may disturb what rests at one of their phases only.
 bool EquilibriumFinder::rests_at_all_phases(Equilibrium& equilibrium) {
-    if (clocks_.empty())
+    if (clocks_.empty() || equilibrium.active.empty())
         return true;
     const auto size = static_cast<Eigen::Index>(equilibrium.active.size());
     const std::size_t count = field_->states();
     const Eigen::FullPivLU<Eigen::MatrixXd> factors(equilibrium.field);
-    const double largest = size > 0 ? equilibrium.field.cwiseAbs().maxCoeff() : 0;
+    const double largest = equilibrium.field.cwiseAbs().maxCoeff();
     std::vector<double> at = equilibrium.state;
     for (std::size_t k = 0; k < phases; ++k) {
         for (std::size_t c = 0; c < clocks_.size(); ++c)

@@ -100,25 +100,25 @@ GuardingRegisters guarding_registers(const Tape& tape) {
             guards.arguments.push_back(guard);
     };
     for (const Instruction& instruction : tape.code) {
-        // A sine of a phase is of size one itself and shows what it does.
-        const std::uint32_t argument_degree = tape.degrees[instruction.third];
+        const auto argument_degree = [&] { return tape.degrees[instruction.third]; };
         switch (instruction.operation) {
         case SeriesOperation::sin:
         case SeriesOperation::cos:
-            if (argument_degree > 1)
+            // That of a phase is of size one itself and shows what it does.
+            if (argument_degree() > 1)
                 add(instruction.third, GuardKind::other);
             break;
         case SeriesOperation::sinh:
         case SeriesOperation::cosh:
-            if (argument_degree > 0)
+            if (argument_degree() > 0)
                 add(instruction.third, GuardKind::other);
             break;
         case SeriesOperation::exp:
-            if (argument_degree > 0)
+            if (argument_degree() > 0)
                 add(instruction.third, GuardKind::exponential);
             break;
         case SeriesOperation::tanh:
-            if (argument_degree > 0)
+            if (argument_degree() > 0)
                 add(instruction.third, GuardKind::hyperbolic_tangent);
             break;
         case SeriesOperation::divide:
