@@ -81,11 +81,12 @@ TEST(Drifting, orbits_of_twice_the_period_are_those_without_the_drift) {
         ASSERT_EQ(names(branch), names(plain));
         for (std::size_t i = 0; i < branch.special.size(); ++i)
             EXPECT_NEAR(branch.special[i].parameter, plain.special[i].parameter, 1e-10);
-        // It leaves the flip, and impacts are alternately hard and soft.
+        // It leaves the flip, and impacts are alternately hard and soft. How far the first point lies from the flip is
+        // the continuation's choice, about 1e-3; orbits that are not doubled would differ by round-off.
         for (std::size_t k = 1; k < branch.points.size(); ++k) {
             const Orbit& orbit = branch.points[k].solution.orbit;
             ASSERT_EQ(orbit.segments(), 2U);
-            EXPECT_GT(std::abs(orbit.starts[0][1] - orbit.starts[1][1]), 1e-3) << k;
+            EXPECT_GT(std::abs(orbit.starts[0][1] - orbit.starts[1][1]), 1e-4) << k;
         }
         EXPECT_EQ(branch.points.back().solution.multipliers.size(), 2U);
     }
