@@ -269,7 +269,7 @@ bool EquilibriumFinder::is_linear_within(const Equilibrium& equilibrium, double 
     if (distance == 0 || size == 0)
         return true;
     const double rate = strict ? equilibrium.values.real().cwiseAbs().minCoeff() : equilibrium.largest_rate();
-    const auto small_at = [&](Eigen::VectorXd direction) {
+    const auto small_at = [&](const Eigen::VectorXd& direction) {
         const double length = (equilibrium.inverse * direction).norm();
         if (!(length > 0))
             return true;
