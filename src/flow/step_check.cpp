@@ -142,14 +142,6 @@ double StepCheck::misfit_of_sums(double s) {
     return most;
 }
 
-double StepCheck::misfit(std::size_t mode, std::span<const Series> series, double s) {
-    series_ = series;
-    floors_ = {};
-    std::fill(seen_.begin(), seen_.end(), 0.0);
-    evaluate(mode, s);
-    return std::max(misfit_of_rates(s), misfit_of_values(s));
-}
-
 double StepCheck::longest(std::size_t mode, std::span<const Series> series, double length, bool inside,
                           std::span<const double> floors) {
     series_ = series;

@@ -35,12 +35,6 @@ std::vector<KernelStep> StepFinder::steps(int order) const {
     return steps;
 }
 
-std::vector<KernelStep> StepFinder::value_steps() const {
-    std::vector<KernelStep> steps;
-    add_instructions(0, needed_registers(tape_, true), steps);
-    return steps;
-}
-
 std::vector<KernelStep> StepFinder::rate_steps() const {
     std::vector<KernelStep> steps;
     add_states(1, steps);

@@ -30,8 +30,7 @@ public:
                const std::vector<TermOperands>& terms);
 
     std::vector<KernelStep> steps(int order) const;
-    /// What is needed for the values of outputs and rates, and then to make coefficient 1 of states of the rates.
-    std::vector<KernelStep> value_steps() const;
+    /// What makes coefficient 1 of states of the rates.
     std::vector<KernelStep> rate_steps() const;
 
 private:

@@ -36,14 +36,10 @@ public:
     /// @param parameters as many as the model has
     void set_parameters(std::span<const double> parameters);
 
-    /// The largest difference at time s from the start, in units of what is allowed; infinity where something is not
-    /// finite. More is allowed where round-off makes it (bounded by a running error analysis of the model's
-    /// expressions).
-    /// @param series of states, watched events and observed expressions of the mode
-    double misfit(std::size_t mode, std::span<const Series> series, double s);
-
     /// The longest part of a step at whose end the differences are as allowed: the step itself, or a shorter one found
-    /// by trial; 0 if there is none.
+    /// by trial; 0 if there is none. More is allowed where round-off makes it (bounded by a running error analysis of
+    /// the model's expressions).
+    /// @param series of states, watched events and observed expressions of the mode
     /// @param length of the step, also negative; @param inside whether to look at two times within as well
     /// @param floors sizes below which series need not be known, one for each; or none
     double longest(std::size_t mode, std::span<const Series> series, double length, bool inside,
