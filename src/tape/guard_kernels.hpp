@@ -83,7 +83,7 @@ void guard(const Guards& guards, int order, double* steps) {
     }
     Numbers<L>::store(excess, most);
     for (int lane = 0; lane < Numbers<V>::width; ++lane)
-        if (excess[lane] > 0 || excess[lane] != excess[lane])
+        if (!(excess[lane] <= 0))
             steps[lane] = guarded(guards, order, lane, steps[lane]);
 }
 
