@@ -21,7 +21,6 @@ CompiledModel::CompiledModel(const Model& model, std::span<const Expression> obs
 
     std::vector<Expression> periods, initial;
     for (const State& state : model_.states) {
-        has_cyclic_states_ = has_cyclic_states_ || state.period.has_value();
         periods.push_back(state.period ? *state.period : model_.graph->number(0));
         initial.push_back(state.initial);
     }

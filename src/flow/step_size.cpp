@@ -62,7 +62,8 @@ double StepSize::polynomial_step(const Series& c, double size) const {
 
 double StepSize::step_for(std::span<const Series> states, double reference) const {
     double step = 0;
-    baseline::kernels(LaneKind::single).steps(states.data(), states.size(), order(), log_tolerance_, &reference, &step);
+    baseline::kernels(LaneKind::single)
+        .steps({states.data(), states.size(), nullptr, 0}, order(), log_tolerance_, &reference, &step);
     if (std::isinf(step))
         for (const Series& c : states)
             step = std::min(step, polynomial_step(c, size_of(c, reference)));

@@ -25,18 +25,18 @@ double size_of_all(const double* c, std::size_t width, std::size_t order, double
 
 /// The largest difference between slopes of derivatives and what the variational equations say, in units of what is
 /// allowed.
-double misfit_at(const Jet& jet, Jet& end_jet, std::size_t states, std::size_t count, double tolerance, double step,
+double misfit_at(const Jet& jet, Jet& next, std::size_t states, std::size_t count, double tolerance, double step,
                  std::span<double> times, std::span<double> sums, std::span<double> slopes) {
     constexpr double roundoff = 1e4 * 0x1p-53;
     const auto order = static_cast<std::size_t>(jet.order()), width = static_cast<std::size_t>(jet.width());
     std::fill(times.begin(), times.end(), step);
     jet.evaluate_states(times, sums, slopes);
-    end_jet.compute_values(sums);
+    next.begin(sums);
     const double length = std::abs(step);
     double most = 0;
     for (std::size_t i = 0; i < states; ++i) {
         const double* c = jet.state(i) + 1;
-        const double* rates = end_jet.state(i) + width + 1;
+        const double* rates = next.state(i) + width + 1;
         for (std::size_t l = 0; l < count; ++l) {
             const double difference = length * std::abs(slopes[i * width + l + 1] - rates[l]);
             double size = StepCheck::size_over(c[l], c[width + l], sums[i * width + l + 1], rates[l], length);
@@ -82,7 +82,7 @@ double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, doub
     return std::isfinite(reach) && reach > 0 ? reach : step;
 }
 
-double follow_tangents(const Jet& jet, Jet& end_jet, std::size_t states, std::size_t count, double tolerance,
+double follow_tangents(const Jet& jet, Jet& next, std::size_t states, std::size_t count, double tolerance,
                        double step, std::span<double> times, std::span<double> sums, std::span<double> slopes) {
     // What is left out falls with a high power of the step. What does not is the round-off of rates that cancel, or
     // belongs to derivatives that have only begun to differ from zero: no shorter step would be better.
@@ -90,7 +90,7 @@ double follow_tangents(const Jet& jet, Jet& end_jet, std::size_t states, std::si
     constexpr double least_gain = 0.1;
     double part = step, first = 0;
     for (int halving = 0; halving <= most_halvings; ++halving, part *= 0.5) {
-        const double misfit = misfit_at(jet, end_jet, states, count, tolerance, part, times, sums, slopes);
+        const double misfit = misfit_at(jet, next, states, count, tolerance, part, times, sums, slopes);
         if (misfit <= 1)
             return part;
         if (halving == 0)
@@ -100,7 +100,7 @@ double follow_tangents(const Jet& jet, Jet& end_jet, std::size_t states, std::si
         else if (halving == most_halvings)
             return part;
     }
-    misfit_at(jet, end_jet, states, count, tolerance, step, times, sums, slopes);
+    misfit_at(jet, next, states, count, tolerance, step, times, sums, slopes);
     return step;
 }
 

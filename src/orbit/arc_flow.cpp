@@ -67,7 +67,7 @@ double ArcFlow::step_of(std::size_t mode, const Jet& jet, double remaining, bool
         return step;
     const bool leap = !(step <= longest_leap * previous_) && !simulation_->compiled().mode(mode).polynomial;
     const bool bounded = step < std::numeric_limits<double>::infinity();
-    guarded_.assign(static_cast<std::size_t>(jet.width()), 0.0);
+    guarded_.assign(static_cast<std::size_t>(jet.width()), std::numeric_limits<double>::infinity());
     guarded_[0] = std::min(step, std::abs(remaining));
     jet.guard_steps(guarded_);
     const double longest = std::abs(step_check_.longest(mode, series, std::copysign(guarded_[0], remaining), leap));
@@ -113,8 +113,7 @@ void ArcFlow::load(std::size_t mode, std::span<const double> state, std::size_t 
         for (std::size_t f = 0; f < free_.size(); ++f)
             for (std::size_t l = 0; l < lanes_; ++l)
                 parameter_lanes_[free_[f] * width + 1 + l] = first + l == states_ + f ? 1 : 0;
-        tangent_(mode).set_parameters(parameter_lanes_);
-        tangent_.end_jet(mode).set_parameters(parameter_lanes_);
+        tangent_.set_parameters(mode, parameter_lanes_);
     }
     for (std::size_t i = 0; i < states_; ++i) {
         seeds_[i * width] = state[i];
@@ -126,7 +125,6 @@ void ArcFlow::load(std::size_t mode, std::span<const double> state, std::size_t 
 ArcFlow::Ending ArcFlow::run(std::size_t mode, std::span<double> state, double duration, Eigen::MatrixXd& derivatives) {
     if (!std::isfinite(duration))
         return Ending::undefined;
-    Jet& jet = tangent_(mode);
     const std::size_t width = lanes_ + 1;
     std::fill(matrix_.begin(), matrix_.end(), 0.0);
     for (std::size_t i = 0; i < states_; ++i)
@@ -143,13 +141,13 @@ ArcFlow::Ending ArcFlow::run(std::size_t mode, std::span<double> state, double d
             for (std::size_t first = 0; first < directions_ && done; first += lanes_) {
                 const std::size_t here = std::min(lanes_, directions_ - first);
                 load(mode, state, first, here);
-                jet.compute(seeds_);
+                const Jet& jet = tangent_.computed(mode, seeds_);
                 if (step == 0)
                     step = step_of(mode, jet, remaining, false);
                 if (std::isnan(step))
                     return Ending::undefined;
                 const double reach = std::copysign(tangent_reach(jet, states_, here, tolerance_, std::abs(step)), step);
-                const double followed = follow_tangents(jet, tangent_.end_jet(mode), states_, here, tolerance_, reach,
+                const double followed = follow_tangents(jet, tangent_.next(mode), states_, here, tolerance_, reach,
                                                         times_, sums_, slopes_);
                 if (std::abs(followed) < std::abs(step)) {
                     step = followed;

@@ -26,8 +26,10 @@ inline double allowed_change(const Guards& guards, std::size_t argument, int ord
     return largest_change(order);
 }
 
-/// Shortens the step of one lane until its guards allow it.
+/// Shortens the step of one lane, if it is finite, until its guards allow it.
 inline double guarded(const Guards& guards, int order, int lane, double step) {
+    if (!(step < __builtin_inf()))
+        return step;
     for (std::size_t i = 0; i < guards.argument_count; ++i) {
         const double allowed = allowed_change(guards, i, order, lane);
         for (int sweep = 0; sweep < 100; ++sweep) {
@@ -56,7 +58,7 @@ inline double guarded(const Guards& guards, int order, int lane, double step) {
     return step;
 }
 
-/// Shortens steps that are too long.
+/// Shortens steps that are too long: first it is seen, for all lanes at once, that nearly none is.
 template <class V>
 void guard(const Guards& guards, int order, double* steps) {
     using L = Plain<V>;
@@ -64,7 +66,7 @@ void guard(const Guards& guards, int order, double* steps) {
     double excess[Numbers<V>::width];
     L most = number<L>(0);
     const auto at = [](const Series& series, int k) __attribute__((always_inline)) {
-        return absolute(Numbers<L>::load(series.first + static_cast<std::size_t>(k) * series.stride));
+        return absolute(Numbers<L>::load(series.first + static_cast<std::size_t>(k) * Numbers<V>::width));
     };
     for (std::size_t i = 0; i < guards.argument_count; ++i) {
         L change = at(guards.arguments[i], order);
@@ -77,8 +79,8 @@ void guard(const Guards& guards, int order, double* steps) {
         for (std::size_t i = 0; i < guards.quotient_count; ++i) {
             const Series& series = guards.quotients[i];
             const L last = greater(at(series, order) * step, at(series, order - 1)) * power;
-            const L size = at(series, 0) + step * (at(series, 1) + step * at(series, 2));
-            most = greater(most, last - size * largest_share.of[order - 1]);
+            // Only the least that its size may be: `guarded` sees to the rest.
+            most = greater(most, last - at(series, 0) * largest_share.of[order - 1]);
         }
     }
     Numbers<L>::store(excess, most);

@@ -60,41 +60,38 @@ public:
     int width() const override { return static_cast<int>(layout_.number); }
     void set_parameters(std::span<const double> parameters) override;
     void compute(std::span<const double> states) override;
-    void compute_values(std::span<const double> states) override;
+    void begin(std::span<const double> states) override;
     const double* state(std::size_t index) const override {
         return memory_.data() + layout_.registers + index * layout_.series;
     }
     const double* output(std::size_t index) const override { return outputs_[index]; }
     std::span<const Series> series() const override { return series_; }
     void find_steps(double log_tolerance, std::span<const double> references, std::span<double> steps) const override {
-        table_.steps(series_.data(), series_.size(), order_, log_tolerance, references.data(), steps.data());
+        table_.steps(to_follow_, order_, log_tolerance, references.data(), steps.data());
+        guard_steps(steps);
     }
-    bool compute_from(const Jet& values, std::span<const double> states) override;
-    void find_disagreement(const EndCheck& check, std::span<const double> lengths,
-                           std::span<double> worst) const override {
-        table_.disagreement(check, lengths.data(), worst.data());
-    }
+    void find_disagreement(const Jet& end, const EndAllowance& allowance, std::span<const double> lengths,
+                           std::span<const double> values, std::span<const double> slopes,
+                           std::span<double> worst) const override;
     void guard_steps(std::span<double> steps) const override {
-        if (!arguments_.empty() || !quotients_.empty())
-            table_.guard({arguments_.data(), kinds_.data(), arguments_.size(), quotients_.data(), quotients_.size()},
-                         order_, steps.data());
+        if (guards_.argument_count + guards_.quotient_count > 0)
+            table_.guard(guards_, order_, steps.data());
     }
     void evaluate_states(std::span<const double> times, std::span<double> values,
                          std::span<double> slopes) const override {
-        for (std::size_t i = 0; i < states_; ++i)
-            table_.sum_and_slope(state(i), order_, times.data(), values.data() + i * layout_.number,
-                                 slopes.data() + i * layout_.number);
+        table_.sums_and_slopes(series_.data(), degrees_.data(), states_, times.data(), values.data(), slopes.data());
     }
     void evaluate_states(std::span<const double> times, std::span<double> values) const override {
         for (std::size_t i = 0; i < states_; ++i)
-            table_.sum(state(i), order_, times.data(), values.data() + i * layout_.number);
+            table_.sum(state(i), degrees_[i], times.data(), values.data() + i * layout_.number);
     }
     void evaluate_output(std::size_t index, std::span<const double> times, std::span<double> values) const override {
         table_.sum(output(index), order_, times.data(), values.data());
     }
-    void bound_output(std::size_t index, std::span<const double> lengths, std::span<double> least,
-                      std::span<double> sizes, std::span<double> ends) const override {
-        table_.bound(output(index), order_, lengths.data(), least.data(), sizes.data(), ends.data());
+    void bound_outputs(std::span<const double> lengths, std::span<double> least,
+                       std::span<double> sizes) const override {
+        for (std::size_t i = 0, at = 0; at < least.size(); ++i, at += layout_.number)
+            table_.bound(outputs_[i], order_, lengths.data(), &least[at], &sizes[at]);
     }
 
 private:
@@ -103,46 +100,56 @@ private:
     struct Segment {
         std::size_t kernels, operands, count;
     };
+    /// The first of a chain.
+    struct Chain {
+        const KernelLink* link;
+        const KernelOperands* operands;
+        int order;
+        void run() const { link->kernel(operands, link + 1, order); }
+    };
     struct Copy {
         const double* from;
         double* to;
     };
 
     void add_segment(const std::vector<KernelStep>& steps);
+    void find_chains();
     void find_constants(const Tape& tape, const KernelTable& table);
     void compute_constants();
     void set_states(std::span<const double> states);
-    void run(const Segment& segment, int order) const {
-        const KernelLink* link = kernels_.data() + segment.kernels;
-        const KernelOperands* operands = operands_.data() + segment.operands;
-        for (std::size_t done = 0; done < segment.count; done += longest_chain) {
-            link->kernel(operands, link + 1, order);
-            link += longest_chain + 1;
-            operands += longest_chain;
-        }
-    }
+    bool has_states(std::span<const double> states) const;
+    void sort_series(const Tape& tape);
 
     const KernelTable& table_;
     int order_;
-    std::size_t states_, registers_;
+    std::size_t states_;
     std::size_t parameters_;
-    bool values_known_ = false; ///< all of order 0 is that of the states and parameters
+    bool begun_ = false; ///< all of orders 0 and 1 is that of the states and parameters, and no more
     Layout layout_;
     AlignedNumbers memory_;
     std::vector<TermOperands> terms_;
     std::vector<KernelLink> kernels_;
     std::vector<KernelOperands> operands_;
-    std::vector<Segment> segments_; ///< by order, then those of values and of rates
+    std::vector<Segment> segments_; ///< by order
+    std::vector<Chain> chains_;     ///< in their order
+    std::size_t beginning_ = 0;     ///< chains of orders 0 and 1
     std::vector<KernelStep> constant_code_;
     std::vector<Copy> constant_copies_; ///< to rates and outputs that are constants
     std::vector<const double*> outputs_;
-    std::vector<Series> series_;                ///< states and outputs
-    std::vector<Series> arguments_, quotients_; ///< guards of the steps
-    std::vector<GuardKind> kinds_;              ///< of the arguments
+    std::vector<Series> series_;                              ///< states and outputs
+    std::vector<Series> followed_, lines_;                    ///< the same, sorted as steps want them
+    FollowedSeries to_follow_{};                              ///< both
+    std::vector<Series> arguments_, quotients_;               ///< guards of the steps
+    std::vector<GuardKind> kinds_;                            ///< of the arguments
+    Guards guards_{};                                         ///< all of them
+    std::vector<Series> compared_states_, compared_outputs_; ///< at ends of steps
+    std::vector<std::size_t> compared_indices_;               ///< of those states
+    EndComparison comparison_{};                              ///< the three
+    std::vector<int> degrees_;                                ///< of states, at least 1
 };
 
 TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
-    : table_(table), order_(order), states_(tape.states), registers_(tape.registers), parameters_(tape.parameters),
+    : table_(table), order_(order), states_(tape.states), parameters_(tape.parameters),
       layout_(tape, order, table.width), memory_(layout_.size) {
     const auto register_at = [&](std::uint32_t index) {
         return memory_.data() + layout_.registers + index * layout_.series;
@@ -154,7 +161,7 @@ TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
     const StepFinder finder(tape, table, layout_, memory_.data(), terms_);
     for (int k = 0; k <= order; ++k)
         add_segment(finder.steps(k));
-    add_segment(finder.rate_steps());
+    find_chains();
 
     std::size_t constant_outputs = 0;
     for (const Tape::Location& location : tape.outputs) {
@@ -177,8 +184,36 @@ TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
     }
     for (const std::uint32_t index : guards.quotients)
         quotients_.push_back({register_at(index), layout_.number});
+    guards_ = {arguments_.data(), kinds_.data(), arguments_.size(), quotients_.data(), quotients_.size()};
+    sort_series(tape);
     find_constants(tape, table);
     compute_constants();
+}
+
+/// Sorts out what need not be followed, for the series ends before the order, or not compared.
+void TapeJet::sort_series(const Tape& tape) {
+    const auto order = static_cast<std::uint32_t>(order_);
+    const std::vector<bool> affine = affine_registers(tape);
+    for (std::size_t i = 0; i < states_; ++i) {
+        const std::uint32_t degree = tape.degrees[i];
+        degrees_.push_back(static_cast<int>(std::clamp(degree, 1u, order)));
+        (degree <= 1 && order > 2 ? lines_ : followed_).push_back(series_[i]);
+        if (degree <= order)
+            continue;
+        compared_states_.push_back(series_[i]);
+        compared_indices_.push_back(i);
+    }
+    for (std::size_t j = 0; j < outputs_.size(); ++j) {
+        const Tape::Location& at = tape.outputs[j];
+        const Series& series = series_[states_ + j];
+        const std::uint32_t degree = at.constant ? 0 : tape.degrees[at.index];
+        (degree <= 1 && order > 2 ? lines_ : followed_).push_back(series);
+        if (degree > order && !affine[at.index])
+            compared_outputs_.push_back(series);
+    }
+    to_follow_ = {followed_.data(), followed_.size(), lines_.data(), lines_.size()};
+    comparison_ = {compared_states_.data(),  compared_indices_.data(), compared_states_.size(),
+                   compared_outputs_.data(), compared_outputs_.size(), order_};
 }
 
 void TapeJet::add_segment(const std::vector<KernelStep>& steps) {
@@ -200,6 +235,21 @@ void TapeJet::add_segment(const std::vector<KernelStep>& steps) {
             operands_.push_back(steps[i].operands);
     }
     kernels_.push_back({end_of_chain});
+}
+
+void TapeJet::find_chains() {
+    for (int k = 0; k <= order_; ++k) {
+        const Segment& segment = segments_[static_cast<std::size_t>(k)];
+        const KernelLink* link = kernels_.data() + segment.kernels;
+        const KernelOperands* operands = operands_.data() + segment.operands;
+        for (std::size_t done = 0; done < segment.count; done += longest_chain) {
+            chains_.push_back({link, operands, k});
+            link += longest_chain + 1;
+            operands += longest_chain;
+        }
+        if (k == 1)
+            beginning_ = chains_.size();
+    }
 }
 
 void TapeJet::find_constants(const Tape& tape, const KernelTable& table) {
@@ -231,7 +281,7 @@ void TapeJet::compute_constants() {
 void TapeJet::set_parameters(std::span<const double> parameters) {
     if (parameters.size() != parameters_ * layout_.number)
         throw std::invalid_argument("wrong number of parameters for a jet");
-    values_known_ = false;
+    begun_ = false;
     std::ranges::copy(parameters, memory_.data());
     compute_constants();
 }
@@ -253,43 +303,47 @@ void TapeJet::set_states(std::span<const double> states) {
     }
 }
 
-void TapeJet::compute(std::span<const double> states) {
-    values_known_ = false;
-    set_states(states);
-    for (int k = 0; k <= order_; ++k)
-        run(segments_[static_cast<std::size_t>(k)], k);
-}
-
-bool TapeJet::compute_from(const Jet& values, std::span<const double> states) {
-    const auto* from = static_cast<const TapeJet*>(&values); // there is no other kind
-    if (!from->values_known_ || from->order_ != 1)
-        return false;
-    const std::size_t number = layout_.number;
-    const double* source = from->memory_.data() + from->layout_.registers;
-    for (std::size_t i = 0; i < states_; ++i)
-        if (!std::equal(source + i * from->layout_.series, source + i * from->layout_.series + number,
-                        states.data() + i * number))
+bool TapeJet::has_states(std::span<const double> states) const {
+    const double* here = memory_.data() + layout_.registers;
+    if (layout_.number == 1) {
+        for (const double value : states) {
+            if (*here != value)
+                return false;
+            here += layout_.series;
+        }
+        return true;
+    }
+    for (const double* other = states.data(); other != states.data() + states.size(); other += layout_.number) {
+        if (!std::equal(other, other + layout_.number, here))
             return false;
-    double* to = memory_.data() + layout_.registers;
-    if (number == 1)
-        for (std::size_t r = 0; r < registers_; ++r)
-            to[r * layout_.series] = source[2 * r];
-    else
-        for (std::size_t r = 0; r < registers_; ++r)
-            std::copy_n(source + r * from->layout_.series, number, to + r * layout_.series);
-    std::copy_n(from->memory_.data() + from->layout_.reciprocals, layout_.constant_outputs - layout_.reciprocals,
-                memory_.data() + layout_.reciprocals);
-    for (int k = 1; k <= order_; ++k)
-        run(segments_[static_cast<std::size_t>(k)], k);
+        here += layout_.series;
+    }
     return true;
 }
 
-void TapeJet::compute_values(std::span<const double> states) {
+void TapeJet::compute(std::span<const double> states) {
+    if (!begun_ || states.size() != states_ * layout_.number || !has_states(states))
+        begin(states);
+    begun_ = false;
+    for (std::size_t i = beginning_; i < chains_.size(); ++i)
+        chains_[i].run();
+}
+
+void TapeJet::begin(std::span<const double> states) {
     set_states(states);
-    // All of order 0, also what only derivatives need: `compute_from` goes on from it.
-    run(segments_[0], 0);
-    run(segments_[static_cast<std::size_t>(order_) + 1], 1);
-    values_known_ = true;
+    for (std::size_t i = 0; i < beginning_; ++i)
+        chains_[i].run();
+    begun_ = true;
+}
+
+void TapeJet::find_disagreement(const Jet& end, const EndAllowance& allowance, std::span<const double> lengths,
+                                std::span<const double> values, std::span<const double> slopes,
+                                std::span<double> worst) const {
+    const auto& other = static_cast<const TapeJet&>(end); // there is no other kind
+    if (&other.table_ != &table_ || other.layout_.size != layout_.size || other.order_ != order_)
+        throw std::invalid_argument("ends of steps can be compared only with a jet of the same tape");
+    table_.disagreement(comparison_, {memory_.data(), other.memory_.data(), values.data(), slopes.data(), allowance},
+                        lengths.data(), worst.data());
 }
 
 } // namespace

@@ -50,6 +50,30 @@ struct Guards {
     std::size_t quotient_count;
 };
 
+/// What steps are chosen from.
+struct FollowedSeries {
+    const Series* series; ///< all of one stride
+    std::size_t count;
+    const Series* lines; ///< of degree 1: they must only be finite
+    std::size_t line_count;
+};
+
+/// Series of a jet that may differ from the model at ends of steps.
+struct EndComparison {
+    const Series* states;
+    const std::size_t* state_indices;
+    std::size_t state_count;
+    const Series* outputs;
+    std::size_t output_count;
+    int order;
+};
+/// What they are compared with. Numbers are [state * width + lane].
+struct EndValues {
+    const double *here, *there;    ///< memories of two jets of one tape, laid out alike
+    const double *values, *slopes; ///< of the polynomials of all states in the first
+    const EndAllowance& allowance;
+};
+
 /// Linear combinations of fewer terms than this have kernels of their own; row 0 is for all others.
 inline constexpr int combination_kernels = 5;
 
@@ -74,10 +98,11 @@ struct KernelTable {
     Kernel sine_and_cosine;
     void (*literal)(double* result, double value);
     void (*sum)(const double* series, int order, const double* times, double* values);
-    void (*sum_and_slope)(const double* series, int order, const double* times, double* values, double* slopes);
-    void (*disagreement)(const EndCheck& check, const double* lengths, double* worst);
-    void (*bound)(const double* series, int order, const double* lengths, double* least, double* sizes, double* ends);
-    void (*steps)(const Series* series, std::size_t count, int order, double log_tolerance, const double* references,
+    void (*sums_and_slopes)(const Series* series, const int* degrees, std::size_t count, const double* times,
+                            double* values, double* slopes);
+    void (*disagreement)(const EndComparison& comparison, const EndValues& ends, const double* lengths, double* worst);
+    void (*bound)(const double* series, int order, const double* lengths, double* least, double* sizes);
+    void (*steps)(const FollowedSeries& followed, int order, double log_tolerance, const double* references,
                   double* steps);
     /// Shortens steps that are too long for intermediate series: see `guard_kernels.hpp`.
     void (*guard)(const Guards& guards, int order, double* steps);

@@ -92,7 +92,7 @@ constexpr KernelTable make_table() {
     table.sine_and_cosine = &chained<&sine_and_cosine<V>>;
     table.literal = &literal<V>;
     table.sum = &sum<V>;
-    table.sum_and_slope = &sum_and_slope<V>;
+    table.sums_and_slopes = &sums_and_slopes<V>;
     table.disagreement = &disagreement<V>;
     table.bound = &bound<V>;
     table.steps = &steps<V>;

@@ -31,13 +31,7 @@ std::vector<KernelStep> StepFinder::steps(int order) const {
     std::vector<KernelStep> steps;
     if (order > 0)
         add_states(order, steps);
-    add_instructions(order, std::vector<bool>(tape_.registers, true), steps);
-    return steps;
-}
-
-std::vector<KernelStep> StepFinder::rate_steps() const {
-    std::vector<KernelStep> steps;
-    add_states(1, steps);
+    add_instructions(order, steps);
     return steps;
 }
 
@@ -49,7 +43,7 @@ void StepFinder::find_private_rates() {
             if (!location.constant)
                 use(location.index);
     for (const Instruction& instruction : tape_.code)
-        visit_operands(tape_, instruction, false, use);
+        visit_operands(tape_, instruction, use);
     std::vector<bool> is_rate(tape_.registers, false);
     for (const Tape::Location& rate : tape_.rates)
         if (!rate.constant)
@@ -80,15 +74,15 @@ void StepFinder::add_states(int order, std::vector<KernelStep>& steps) const {
     }
 }
 
-void StepFinder::add_instructions(int order, const std::vector<bool>& needed, std::vector<KernelStep>& steps) const {
+void StepFinder::add_instructions(int order, std::vector<KernelStep>& steps) const {
     std::uint32_t reciprocals = 0;
     for (std::size_t i = 0; i < tape_.code.size(); ++i) {
         const Instruction& instruction = tape_.code[i];
         KernelStep step{nullptr, operands_of(instruction, reciprocals)};
-        if (!needed[instruction.result] || combination_of_[instruction.result] != none ||
+        if (combination_of_[instruction.result] != none ||
             static_cast<std::uint32_t>(order) > tape_.degrees[instruction.result])
             continue;
-        if (order == 0 && starts_pair(i) && needed[tape_.code[i + 1].result]) {
+        if (order == 0 && starts_pair(i)) {
             steps.push_back(
                 {table_.sine_and_cosine,
                  {step.operands.result, step.operands.third, {}, register_at(tape_.code[i + 1].result), {}, {}}});

@@ -30,8 +30,6 @@ public:
                const std::vector<TermOperands>& terms);
 
     std::vector<KernelStep> steps(int order) const;
-    /// What makes coefficient 1 of states of the rates.
-    std::vector<KernelStep> rate_steps() const;
 
 private:
     static constexpr std::uint32_t none = 0xffffffff;
@@ -42,7 +40,7 @@ private:
     /// Linear combinations that are needed for the rate of one state only are computed with that state.
     void find_private_rates();
     void add_states(int order, std::vector<KernelStep>& steps) const;
-    void add_instructions(int order, const std::vector<bool>& needed, std::vector<KernelStep>& steps) const;
+    void add_instructions(int order, std::vector<KernelStep>& steps) const;
 
     /// Whether an instruction is a sine and the next the cosine of the same argument.
     bool starts_pair(std::size_t i) const;

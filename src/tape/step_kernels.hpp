@@ -11,15 +11,8 @@ namespace graze::GRAZE_INSTRUCTION_SET {
 
 typedef long long Integers __attribute__((vector_size(8 * lanes)));
 
-GRAZE_INLINE double greater(double a, double b) {
-    return b > a ? b : a;
-}
 GRAZE_INLINE double where_zero(double a, double yes, double no) {
     return a == 0 ? yes : no;
-}
-template <int n>
-GRAZE_INLINE Packs<n> greater(Packs<n> a, Packs<n> b) {
-    return GRAZE_FOR_PARTS(Packs<n>, b.part[i] > a.part[i] ? b.part[i] : a.part[i]);
 }
 template <int n>
 GRAZE_INLINE Packs<n> where_zero(Packs<n> a, Packs<n> yes, Packs<n> no) {
@@ -144,24 +137,38 @@ inline double shortened(const Series* series, std::size_t count, std::size_t ord
     return step;
 }
 
+/// Of a size, or what is there instead where it is zero.
+template <class Otherwise>
+GRAZE_INLINE double first_terms_or(double size, Otherwise&& otherwise) {
+    return size == 0 ? otherwise() : size;
+}
+template <int n, class Otherwise>
+GRAZE_INLINE Packs<n> first_terms_or(Packs<n> size, Otherwise&& otherwise) {
+    return where_zero(size, otherwise(), size);
+}
+
 /// The largest step at which the last two terms of every series, relative to its size, are at most 2^log_tolerance, and
 /// smaller than those before them.
 /// @param references lengths over which sizes are taken
 /// @param steps infinity where the last two terms are all zero, NaN where something is not finite
 template <class V>
-void steps(const Series* series, std::size_t count, int order, double log_tolerance, const double* references,
-           double* steps) {
+void steps(const FollowedSeries& followed, int order, double log_tolerance, const double* references, double* steps) {
     using L = Plain<V>;
     constexpr int width = Numbers<V>::width;
     constexpr double infinity = __builtin_inf();
     const auto n = static_cast<std::size_t>(order);
     double limits[2][width], sums[width], growths[width];
     const L reference = Numbers<L>::load(references);
-    const L almost_all = integer_power(reference, order - 1);
     L high = number<L>(0), low = high, sum = high;
+    const Series* const series = followed.series;
+    const std::size_t count = followed.count, stride = count > 0 ? series[0].stride : 0;
     const auto at = [&](std::size_t i, std::size_t k) __attribute__((always_inline)) {
-        return Numbers<L>::load(series[i].first + k * series[i].stride);
+        return Numbers<L>::load(series[i].first + k * stride);
     };
+    for (std::size_t i = 0; i < followed.line_count; ++i) {
+        const Series& line = followed.lines[i];
+        sum = sum + (Numbers<L>::load(line.first) + Numbers<L>::load(line.first + line.stride)) * 0.0;
+    }
     for (std::size_t i = 0; i < count; ++i) {
         const L c0 = at(i, 0), c1 = at(i, 1), c2 = at(i, 2);
         const L last = absolute(at(i, n)), before = absolute(at(i, n - 1));
@@ -169,7 +176,9 @@ void steps(const Series* series, std::size_t count, int order, double log_tolera
         // is not.
         sum = sum + (last + before) + (c0 + c1 + c2) * 0.0;
         const L first_terms = absolute(c0) + reference * (absolute(c1) + reference * absolute(c2));
-        const L size = where_zero(first_terms, (before + reference * last) * almost_all, first_terms);
+        const L size = first_terms_or(first_terms, [&]() __attribute__((always_inline)) {
+            return (before + reference * last) * integer_power(reference, order - 1);
+        });
         const L measure = greater(size, number<L>(smallest_size));
         high = greater(high, last / measure);
         low = greater(low, before / measure);

@@ -3,6 +3,7 @@
 // What is asked of series once they are known, for all lanes at once. To be included only by the translation unit of an
 // instruction set.
 
+#include "tape/kernel_table.hpp"
 #include "tape/lane_numbers.hpp"
 
 namespace graze::GRAZE_INSTRUCTION_SET {
@@ -30,6 +31,13 @@ GRAZE_INLINE Pack absolute(Pack a) {
 GRAZE_INLINE double lesser(double a, double b) {
     return b < a ? b : a;
 }
+GRAZE_INLINE double greater(double a, double b) {
+    return b > a ? b : a;
+}
+template <int n>
+GRAZE_INLINE Packs<n> greater(Packs<n> a, Packs<n> b) {
+    return GRAZE_FOR_PARTS(Packs<n>, b.part[i] > a.part[i] ? b.part[i] : a.part[i]);
+}
 template <int n>
 GRAZE_INLINE Packs<n> absolute(Packs<n> a) {
     return GRAZE_FOR_PARTS(Packs<n>, absolute(a.part[i]));
@@ -50,53 +58,62 @@ void sum(const double* series, int order, const double* times, double* values) {
     Numbers<L>::store(values, value);
 }
 
-/// The same, and the derivative there.
+/// The same of several series, and their derivatives there.
+/// @param degrees of each, at least 1; @param values, slopes [series * width + lane]
 template <class V>
-void sum_and_slope(const double* series, int order, const double* times, double* values, double* slopes) {
+void sums_and_slopes(const Series* series, const int* degrees, std::size_t count, const double* times, double* values,
+                     double* slopes) {
     using L = Plain<V>;
+    constexpr std::size_t width = Numbers<V>::width;
     const L time = Numbers<L>::load(times);
-    L value = at<L>(series, order);
-    L slope = value;
-    for (int k = order; k-- > 1;) {
-        value = multiply_add(value, time, at<L>(series, k));
-        slope = multiply_add(slope, time, value);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double* first = series[i].first;
+        L value = at<L>(first, degrees[i]);
+        L slope = value;
+#pragma GCC unroll 4
+        for (int k = degrees[i] - 1; k > 0; --k) {
+            value = multiply_add(value, time, at<L>(first, k));
+            slope = multiply_add(slope, time, value);
+        }
+        Numbers<L>::store(slopes + i * width, slope);
+        Numbers<L>::store(values + i * width, multiply_add(value, time, at<L>(first, 0)));
     }
-    Numbers<L>::store(slopes, slope);
-    Numbers<L>::store(values, multiply_add(value, time, at<L>(series, 0)));
 }
 
 /// By how much ends of steps differ more than is allowed from what the model says there, the worst of all: slopes of
 /// states by h |slope - rate|, values of outputs by themselves. What is not finite is infinite.
 template <class V>
-void disagreement(const EndCheck& check, const double* lengths, double* worst) {
+void disagreement(const EndComparison& comparison, const EndValues& ends, const double* lengths, double* worst) {
     using L = Plain<V>;
     constexpr int width = Numbers<V>::width;
     constexpr double round_off = 0x1p-49;
-    const auto larger = [](L a, L b) __attribute__((always_inline)) {
-        return -lesser(-a, -b);
-    };
     const L length = Numbers<L>::load(lengths);
     L most = Numbers<L>::of(0), sum = most;
-    for (std::size_t i = 0; i < check.states; ++i) {
-        const double* series = check.series[i].first;
-        const L end_rate = at<L>(check.truth[i].first, 1);
-        const L rates = larger(absolute(at<L>(series, 1)), absolute(end_rate)) * length;
-        const L size = larger(absolute(at<L>(series, 0)), absolute(Numbers<L>::load(check.values + i * width))) +
-                       Numbers<L>::of(check.smallest) + rates * 0.25;
-        const L difference = absolute(Numbers<L>::load(check.slopes + i * width) - end_rate) * length;
-        const L excess = difference - size * check.rate_allowance;
-        most = larger(most, excess);
+    for (std::size_t i = 0; i < comparison.state_count; ++i) {
+        const double* series = comparison.states[i].first;
+        const std::size_t from = comparison.state_indices[i] * width;
+        const L end_rate = at<L>(ends.there + (series - ends.here), 1);
+        const L rates = greater(absolute(at<L>(series, 1)), absolute(end_rate)) * length;
+        const L size = greater(absolute(at<L>(series, 0)), absolute(Numbers<L>::load(ends.values + from))) +
+                       Numbers<L>::of(ends.allowance.smallest) + rates * 0.25;
+        const L difference = absolute(Numbers<L>::load(ends.slopes + from) - end_rate) * length;
+        const L excess = difference - size * ends.allowance.rates;
+        most = greater(most, excess);
         sum = sum + excess;
     }
-    for (std::size_t j = 0; j < check.outputs; ++j) {
-        const double* series = check.series[check.states + j].first;
+    for (std::size_t j = 0; j < comparison.output_count; ++j) {
+        const double* series = comparison.outputs[j].first;
+        L value = at<L>(series, comparison.order);
+        L terms = absolute(value);
+        for (int k = comparison.order; k-- > 0;) {
+            value = multiply_add(value, length, at<L>(series, k));
+            terms = multiply_add(terms, length, absolute(at<L>(series, k)));
+        }
         const L size =
             absolute(at<L>(series, 0)) + length * (absolute(at<L>(series, 1)) + length * absolute(at<L>(series, 2)));
-        const L difference =
-            absolute(Numbers<L>::load(check.ends + j * width) - at<L>(check.truth[check.states + j].first, 0));
-        const L excess =
-            difference - (size * check.value_allowance + Numbers<L>::load(check.sizes + j * width) * round_off);
-        most = larger(most, excess);
+        const L difference = absolute(value - at<L>(ends.there + (series - ends.here), 0));
+        const L excess = difference - (size * ends.allowance.values + terms * round_off);
+        most = greater(most, excess);
         sum = sum + excess;
     }
     double sums[width];
@@ -112,12 +129,13 @@ void disagreement(const EndCheck& check, const double* lengths, double* worst) {
 /// a convex combination: p is at least the least partial sum at h. Each term is reduced by its share of the round-off:
 /// k u for the power, n u for the sums, 4 u for the coefficient itself.
 template <class V>
-void bound(const double* series, int order, const double* lengths, double* least, double* sizes, double* ends) {
+void bound(const double* series, int order, const double* lengths, double* least, double* sizes) {
     using L = Plain<V>;
     constexpr int width = Numbers<V>::width;
     const double share = -0x1p-53 * (2 * order + 10);
     const L length = Numbers<L>::load(lengths);
     L size = absolute(at<L>(series, 0)), bound = at<L>(series, 0) + size * share, partial = bound, power = length;
+#pragma GCC unroll 4
     for (int k = 1; k <= order; ++k) {
         const L term = at<L>(series, k) * power;
         const L magnitude = absolute(term);
@@ -128,7 +146,6 @@ void bound(const double* series, int order, const double* lengths, double* least
     }
     Numbers<L>::store(sizes, size);
     Numbers<L>::store(least, bound);
-    Numbers<L>::store(ends, partial - size * share);
     for (int lane = 0; lane < width; ++lane)
         if (!(sizes[lane] <= 0x1.fffffffffffffp1023))
             least[lane] = -__builtin_inf();

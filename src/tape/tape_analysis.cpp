@@ -6,10 +6,8 @@ namespace graze {
 
 namespace {
 
-constexpr std::uint32_t highest_degree = 4;
-
 std::uint32_t limited(std::uint32_t degree) {
-    return degree > highest_degree ? Tape::unbounded : degree;
+    return degree > Tape::highest_degree ? Tape::unbounded : degree;
 }
 
 std::uint32_t degree_of(const Tape& tape, const Instruction& instruction) {
@@ -65,7 +63,7 @@ void find_degrees(Tape& tape, const std::vector<bool>& rate_is_zero) {
     }
 }
 
-std::vector<bool> needed_registers(const Tape& tape, bool only_values) {
+std::vector<bool> needed_registers(const Tape& tape) {
     constexpr std::uint32_t none = 0xffffffff;
     std::vector<std::uint32_t> definition(tape.registers, none);
     for (std::uint32_t i = 0; i < tape.code.size(); ++i)
@@ -87,7 +85,7 @@ std::vector<bool> needed_registers(const Tape& tape, bool only_values) {
         const std::uint32_t index = definition[pending.back()];
         pending.pop_back();
         if (index != none)
-            visit_operands(tape, tape.code[index], only_values, need);
+            visit_operands(tape, tape.code[index], need);
     }
     return needed;
 }
@@ -136,8 +134,22 @@ GuardingRegisters guarding_registers(const Tape& tape) {
     return guards;
 }
 
+std::vector<bool> affine_registers(const Tape& tape) {
+    std::vector<bool> affine(tape.registers, false);
+    std::fill_n(affine.begin(), tape.states, true);
+    for (const Instruction& instruction : tape.code) {
+        if (instruction.operation != SeriesOperation::linear_combination)
+            continue;
+        bool all = true;
+        for (std::uint32_t i = instruction.left; i != instruction.right; ++i)
+            all = all && affine[tape.terms[i].series];
+        affine[instruction.result] = all;
+    }
+    return affine;
+}
+
 void remove_unneeded(Tape& tape) {
-    const std::vector<bool> needed = needed_registers(tape, false);
+    const std::vector<bool> needed = needed_registers(tape);
     std::vector<std::uint32_t> number(tape.registers, 0);
     std::vector<std::uint32_t> degrees;
     for (std::uint32_t i = 0; i < tape.registers; ++i) {

@@ -7,10 +7,9 @@
 
 namespace graze {
 
-/// Applies to each register that an instruction reads: all of them, or only those needed at order 0.
-/// Needs the tape's degrees.
+/// Applies to each register that an instruction reads. Needs the tape's degrees.
 template <class Visit>
-void visit_operands(const Tape& tape, const Instruction& instruction, bool only_values, Visit&& visit) {
+void visit_operands(const Tape& tape, const Instruction& instruction, Visit&& visit) {
     switch (instruction.operation) {
     case SeriesOperation::linear_combination:
         for (std::uint32_t i = instruction.left; i != instruction.right; ++i)
@@ -33,12 +32,12 @@ void visit_operands(const Tape& tape, const Instruction& instruction, bool only_
     case SeriesOperation::atan:
     case SeriesOperation::acos:
         visit(instruction.third);
-        if (!only_values && tape.degrees[instruction.third] > 0)
+        if (tape.degrees[instruction.third] > 0)
             visit(instruction.left);
         return;
     default: // y' = a' w
         visit(instruction.third);
-        if (only_values || tape.degrees[instruction.third] == 0)
+        if (tape.degrees[instruction.third] == 0)
             return;
         visit(instruction.right);
         if (tape.degrees[instruction.third] > 1)
@@ -50,7 +49,11 @@ void visit_operands(const Tape& tape, const Instruction& instruction, bool only_
 void find_degrees(Tape& tape, const std::vector<bool>& rate_is_zero);
 
 /// The registers that rates and outputs depend on; states are always among them.
-std::vector<bool> needed_registers(const Tape& tape, bool only_values);
+std::vector<bool> needed_registers(const Tape& tape);
+
+/// Registers that are states or sums of multiples of them, and constants: at the ends of steps these have the values
+/// that their polynomials have, whatever those of the states are worth.
+std::vector<bool> affine_registers(const Tape& tape);
 
 /// Registers whose series tell how far others may be followed, whatever their share of the sums that they enter:
 /// arguments of functions without singularities, or quotients, roots and other functions that have some.

@@ -87,7 +87,7 @@ bool Ensemble::step_lanes(std::size_t mode) {
     for (std::size_t lane = 0; lane < lanes_; ++lane)
         if (seats_[lane] != nobody)
             lengths[lane] = slots_[seats_[lane]]->propose(jet, lengths[lane], lane);
-    outlook_.look(jet, jets_.end_jet(mode), mode);
+    outlook_.look(jet, jets_.next(mode), mode);
     bool seated = true;
     for (std::size_t lane = 0; lane < lanes_; ++lane) {
         if (seats_[lane] == nobody)
@@ -139,8 +139,7 @@ void Ensemble::take_seats(std::size_t mode) {
             for (std::size_t j = 0; j < count; ++j)
                 parameters_[j * lanes_ + lane] = from[j];
         }
-        jets_(mode).set_parameters(parameters_);
-        jets_.end_jet(mode).set_parameters(parameters_);
+        jets_.set_parameters(mode, parameters_);
     }
 }
 

@@ -177,7 +177,8 @@ void ProbeTracker::search_phase(std::size_t index, const Step& step) {
     }
     const Tracked& tracked = tracked_[index];
     const double* c = step.states[probe.state].first;
-    const auto size = static_cast<std::size_t>(step.order) + 1;
+    const std::size_t degree = simulation_->compiled().mode(step.mode).tape.degrees[probe.state];
+    const std::size_t size = std::min(static_cast<std::size_t>(step.order), degree) + 1;
     double reach = 0;
     for (std::size_t k = size; k-- > 1;)
         reach = (reach + std::abs(c[k])) * step.length;
@@ -189,14 +190,14 @@ void ProbeTracker::search_phase(std::size_t index, const Step& step) {
             const double offset = c[0] - target + (towards < 0 ? slack : -slack);
             if (std::abs(offset) > reach)
                 return;
-            std::copy(c, c + size, work_.begin());
+            std::copy_n(c, size, work_.begin());
             work_[0] = offset;
             if (from == 0 && offset * towards >= 0) { // passed between two steps
                 direction = towards;
                 at = 0;
                 return;
             }
-            roots_.crossings(work_, step.length, RootStart::as_is, found_roots_);
+            roots_.crossings(std::span(work_).first(size), step.length, RootStart::as_is, found_roots_);
             for (const Root& root : found_roots_)
                 if ((root.kind == RootKind::rising) == (towards > 0) && root.at >= from &&
                     (direction == 0 || root.at < at)) {

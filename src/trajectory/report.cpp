@@ -19,18 +19,17 @@ bool Trajectory::make_step(double& length) {
     if (length > 4 * std::numeric_limits<double>::epsilon() * std::abs(time_))
         contacts_now_ = 0;
     const std::size_t watched = simulation_->compiled().mode(mode_).watched.size();
-    if (!simulation_->probes().empty()) // whose roots are sought in series without gaps
-        for (std::size_t i = 0; i < loaded_; ++i)
+    if (!simulation_->probes().empty() && series_.data() == lane_series_.data()) // roots are sought in those without gaps
+        for (std::size_t i = 0; i < series_.size(); ++i)
             series(i);
-    const std::span<const Series> all(series_);
     Step step;
     step.start = time_;
     step.length = length;
     step.mode = mode_;
     step.order = order_;
-    step.states = all.first(states_);
-    step.events = all.subspan(states_, watched);
-    step.observed = all.subspan(states_ + watched, simulation_->compiled().observed());
+    step.states = series_.first(states_);
+    step.events = series_.subspan(states_, watched);
+    step.observed = series_.subspan(states_ + watched, simulation_->compiled().observed());
     report_touches(length);
     bool stopped = false;
     if (!simulation_->probes().empty()) {

@@ -16,7 +16,7 @@ void run(Trajectory& trajectory, JetSet& jets) {
         outlook.lengths()[0] = trajectory.previous_step();
         outlook.find_steps(jet);
         outlook.lengths()[0] = trajectory.propose(jet, outlook.length(0));
-        outlook.look(jet, jets.end_jet(trajectory.mode()), trajectory.mode());
+        outlook.look(jet, jets.next(trajectory.mode()), trajectory.mode());
         trajectory.advance(outlook);
     }
 }

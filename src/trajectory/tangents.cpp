@@ -47,15 +47,12 @@ void Tangents::fill(std::span<double> lanes, std::span<const double> values, std
 
 const Jet& Tangents::compute(std::size_t mode, std::span<const double> state, std::span<const double> matrix,
                              std::size_t first) {
-    Jet& jet = jets_(mode);
     if (directions_ > lanes_) {
         fill(parameter_lanes_, parameters_, parameter_seeds_, first);
-        jet.set_parameters(parameter_lanes_);
-        jets_.end_jet(mode).set_parameters(parameter_lanes_);
+        jets_.set_parameters(mode, parameter_lanes_);
     }
     fill(seeds_, state, matrix, first);
-    jet.compute(seeds_);
-    return jet;
+    return jets_.computed(mode, seeds_);
 }
 
 double Tangents::step(std::size_t mode, std::span<const double> state, std::span<const double> matrix, double s,
@@ -70,7 +67,7 @@ double Tangents::step(std::size_t mode, std::span<const double> state, std::span
         const double wanted = tangent_reach(jet, states_, count, tolerance_, step);
         times_.resize(width);
         const double reach =
-            follow_tangents(jet, jets_.end_jet(mode), states_, count, tolerance_, wanted, times_, sums_, slopes_);
+            follow_tangents(jet, jets_.next(mode), states_, count, tolerance_, wanted, times_, sums_, slopes_);
         if (reach < step) {
             step = reach;
             if (first > 0) { // directions that are done already need the shorter step as well

@@ -39,7 +39,7 @@ Trajectory::Trajectory(const Simulation& simulation, std::span<const double> par
     inputs_.resize(states_ + parameters_.size());
     work_.resize(2 * compiled.workspace() + simulation.phase_values().workspace());
     std::copy(parameters_.begin(), parameters_.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
-    series_.resize(states_ + most_watched + compiled.observed());
+    lane_series_.resize(states_ + most_watched + compiled.observed());
     watches_.resize(most_watched);
     together_.reserve(most_watched);
     histories_.resize(compiled.model().events.size());
@@ -50,6 +50,9 @@ Trajectory::Trajectory(const Simulation& simulation, std::span<const double> par
     step_check_.set_parameters(parameters_);
     periods_.resize(states_);
     compiled.periods().evaluate(parameters_, periods_, work_);
+    for (std::size_t i = 0; i < states_; ++i)
+        if (compiled.model().states[i].period)
+            cyclic_states_.push_back(i);
     std::vector<double> phase_values(simulation.probes().size());
     simulation.phase_values().evaluate(parameters_, phase_values, work_);
     probes_ = std::make_unique<ProbeTracker>(simulation, phase_values, periods_);
@@ -142,22 +145,25 @@ bool Trajectory::tangents_valid() const {
 }
 
 void Trajectory::find_series(const Jet& jet, std::size_t lane) {
-    loaded_ = 0;
-    for (const Series& series : jet.series())
-        series_[loaded_++] = {series.first + lane, series.stride};
+    series_ = jet.series();
+    if (jet.width() == 1)
+        return;
+    std::transform(series_.begin(), series_.end(), lane_series_.begin(), [&](const Series& series) {
+        return Series{series.first + lane, series.stride};
+    });
+    series_ = std::span(lane_series_).first(series_.size());
 }
 
 std::span<const double> Trajectory::series(std::size_t index) {
     const auto size = static_cast<std::size_t>(order_) + 1;
-    Series& series = series_[index];
-    if (series.stride != 1) {
-        gathered_.resize(series_.size() * size);
+    if (const Series& series = series_[index]; series.stride != 1) {
+        gathered_.resize(lane_series_.size() * size);
         double* to = &gathered_[index * size];
         for (std::size_t k = 0; k < size; ++k)
             to[k] = series[k];
-        series = {to, 1};
+        lane_series_[index] = {to, 1};
     }
-    return {series.first, size};
+    return {series_[index].first, size};
 }
 
 double Trajectory::propose(const Jet& jet, double step, std::size_t lane) {
@@ -168,13 +174,13 @@ double Trajectory::propose(const Jet& jet, double step, std::size_t lane) {
     leap_ = !(step <= longest_leap * previous_step_) && !std::isnan(step) &&
             !simulation_->compiled().mode(mode_).polynomial;
     if ((leap_ || unlimited) && !floored_)
-        step = step_size_(std::span(series_).first(loaded_), previous_step_);
+        step = step_size_(series_, previous_step_);
     const double remaining = (end_time_ - time_) - time_low_;
     proposed_ = !std::isinf(step) ? step : std::isinf(remaining) ? 1.0 : std::max(remaining, 1.0);
     if (believed_ > 0)
         proposed_ = std::min(proposed_, believed_);
     if (leap_) {
-        guarded_.assign(static_cast<std::size_t>(jet.width()), 0.0);
+        guarded_.assign(static_cast<std::size_t>(jet.width()), std::numeric_limits<double>::infinity());
         guarded_[lane] = proposed_;
         jet.guard_steps(guarded_);
         proposed_ = guarded_[lane];
@@ -195,14 +201,13 @@ double Trajectory::limited_by_floors(double step) {
         descent_start_ = std::isinf(step) ? previous_step_ : step;
         return step;
     }
-    const std::span<const Series> all = std::span(series_).first(loaded_);
     if (!floored_ && step < far_shorter * descent_start_) {
         floored_ = true;
         floors_.resize(series_.size());
-        for (std::size_t i = 0; i < loaded_; ++i)
-            floors_[i] = step_size_.size_of(all[i], previous_step_);
+        for (std::size_t i = 0; i < series_.size(); ++i)
+            floors_[i] = step_size_.size_of(series_[i], previous_step_);
     }
-    return floored_ ? step_size_.with_floors(all, previous_step_, std::span(floors_).first(loaded_)) : step;
+    return floored_ ? step_size_.with_floors(series_, previous_step_, floors_) : step;
 }
 
 /// Shortens a step until polynomials and model agree at its end, and within as well if it is a leap. Returns false if
@@ -214,8 +219,7 @@ bool Trajectory::check_step(double& step, const Outlook& outlook, std::size_t la
         return true;
     }
     const double longest =
-        step_check_.longest(mode_, std::span(series_).first(loaded_), step, leap_,
-                            floored_ ? std::span(floors_).first(loaded_) : std::span<const double>{});
+        step_check_.longest(mode_, series_, step, leap_, floored_ ? floors_ : std::span<const double>{});
     if (longest == step)
         return true;
     believed_ = 2 * longest;
@@ -242,7 +246,7 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
         if (branch_ahead_ < states_)
             return finish_at_branch(branch_ahead_);
         // Where a series has only a few terms its last ones are round-off, and their ratio is no radius.
-        const double radius = step_size_.radius(std::span(series_).first(states_));
+        const double radius = step_size_.radius(series_.first(states_));
         return finish(Ending::singular, time_ + std::min(radius, 16 * proposed_));
     }
     double step = outlook.length(lane);
@@ -302,9 +306,12 @@ void Trajectory::move_along(double step, bool last, const Outlook& outlook, std:
     update_sides(step);
     if (tangents_)
         tangents_->advance(mode_, state_, step);
-    for (std::size_t i = 0; i < states_; ++i)
-        before_[i] = step == outlook.length(lane) ? outlook.state(i, lane) : evaluate_state(i, step);
-    state_.swap(before_);
+    if (step == outlook.length(lane))
+        for (std::size_t i = 0; i < states_; ++i)
+            state_[i] = outlook.state(i, lane);
+    else
+        for (std::size_t i = 0; i < states_; ++i)
+            state_[i] = evaluate_state(i, step);
     if (last) {
         time_ = end_time_;
         time_low_ = 0;
@@ -326,12 +333,7 @@ void Trajectory::reduce_cyclic_states(std::span<double> state) const {
 }
 
 void Trajectory::wrap_cyclic_states(bool snap) {
-    const Model& model = simulation_->model();
-    if (!simulation_->compiled().has_cyclic_states())
-        return;
-    for (std::size_t i = 0; i < states_; ++i) {
-        if (!model.states[i].period)
-            continue;
+    for (const std::size_t i : cyclic_states_) {
         const double period = periods_[i];
         if (state_[i] < 0 || state_[i] >= period) {
             const double turns = std::floor(state_[i] / period);

@@ -123,12 +123,8 @@ TEST_P(CompiledModels, TransitionsAndPeriodsMatchTheModel) {
     const CompiledModel compiled(model);
     const auto parameters = model.parameter_values();
     const auto periods = evaluate(compiled.periods(), parameters);
-    bool cyclic = false;
-    for (std::size_t i = 0; i < compiled.states(); ++i) {
+    for (std::size_t i = 0; i < compiled.states(); ++i)
         EXPECT_EQ(periods[i] > 0, model.states[i].period.has_value());
-        cyclic = cyclic || periods[i] > 0;
-    }
-    EXPECT_EQ(compiled.has_cyclic_states(), cyclic);
     for (std::size_t t = 0; t < model.transitions.size(); ++t) {
         const Transition& transition = model.transitions[t];
         EXPECT_EQ(compiled.transition(t).jump, transition.jump);

@@ -242,7 +242,7 @@ TEST(Jet, FreeFlightIsAPolynomial) {
     }
 }
 
-TEST(Jet, ValuesAgreeWithCoefficients) {
+TEST(Jet, BeginningsAgreeWithCoefficients) {
     const Problem p = testing::everything();
     const Tape tape = p.tape();
     for (const auto set : testing::supported_sets()) {
@@ -251,7 +251,7 @@ TEST(Jet, ValuesAgreeWithCoefficients) {
         jet->set_parameters(p.parameter_values);
         values->set_parameters(p.parameter_values);
         jet->compute(p.state_values);
-        values->compute_values(p.state_values);
+        values->begin(p.state_values);
         for (std::size_t i = 0; i < p.outputs.size(); ++i)
             EXPECT_EQ(jet->output(i)[0], values->output(i)[0]) << i;
         for (std::size_t i = 0; i < p.states.size(); ++i) {
@@ -260,6 +260,34 @@ TEST(Jet, ValuesAgreeWithCoefficients) {
             EXPECT_EQ(jet->state(i)[1], values->state(i)[1]) << i;
         }
     }
+}
+
+TEST(Jet, GoesOnFromItsBeginning) {
+    const Problem p = testing::everything();
+    const Tape tape = p.tape();
+    std::vector<double> elsewhere = p.state_values;
+    elsewhere[0] *= 1.25;
+    for (const auto set : testing::supported_sets())
+        for (const bool same : {true, false}) {
+            const auto direct = make_jet(tape, 7, LaneKind::single, set);
+            const auto begun = make_jet(tape, 7, LaneKind::single, set);
+            direct->set_parameters(p.parameter_values);
+            begun->set_parameters(p.parameter_values);
+            direct->compute(p.state_values);
+            begun->begin(same ? p.state_values : elsewhere);
+            begun->compute(p.state_values);
+            for (std::size_t i = 0; i < p.outputs.size(); ++i)
+                for (int k = 0; k <= 7; ++k)
+                    EXPECT_EQ(direct->output(i)[k], begun->output(i)[k]) << i << ' ' << k;
+        }
+}
+
+TEST(Jet, ComparesEndsOfStepsWithItsOwnTapeOnly) {
+    const Problem p = testing::everything();
+    const auto jet = make_jet(p.tape(), 7, LaneKind::single), other = make_jet(p.tape(), 6, LaneKind::single);
+    std::vector<double> numbers(p.states.size()), worst(1);
+    EXPECT_THROW(jet->find_disagreement(*other, {}, std::vector<double>{1}, numbers, numbers, worst),
+                 std::invalid_argument);
 }
 
 TEST(Jet, ComputingAgainGivesTheSame) {
@@ -318,7 +346,7 @@ TEST(Jet, RefusesWrongUse) {
     const auto jet = make_jet(tape, 3, LaneKind::single);
     EXPECT_THROW(jet->set_parameters(std::vector<double>(1)), std::invalid_argument);
     EXPECT_THROW(jet->compute(std::vector<double>(1)), std::invalid_argument);
-    EXPECT_THROW(jet->compute_values(std::vector<double>(1)), std::invalid_argument);
+    EXPECT_THROW(jet->begin(std::vector<double>(1)), std::invalid_argument);
 }
 
 TEST(Jet, BestInstructionSetIsSupported) {

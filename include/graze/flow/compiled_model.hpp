@@ -62,7 +62,6 @@ public:
     const Function& initial() const { return initial_; }
     /// Largest workspace of all functions.
     std::size_t workspace() const { return workspace_; }
-    bool has_cyclic_states() const { return has_cyclic_states_; }
 
 private:
     void compile_modes(std::span<const Expression> observed);
@@ -75,7 +74,6 @@ private:
 
     Model model_;
     std::size_t parameters_ = 0, observed_ = 0, workspace_ = 0;
-    bool has_cyclic_states_ = false;
     std::vector<Expression> inputs_; ///< states, then independent parameters
     std::vector<CompiledMode> modes_;
     std::vector<CompiledJump> jumps_;

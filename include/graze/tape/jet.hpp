@@ -26,15 +26,10 @@ enum class LaneKind {
 /// Highest order for which kernels exist.
 inline constexpr int highest_order = 32;
 
-/// Ends of steps, compared with what the model says there. Numbers are [index * width + lane].
-struct EndCheck {
-    std::size_t states = 0, outputs = 0;               ///< the first of each that are compared
-    const Series* series = nullptr;                    ///< of the steps: all states, then outputs
-    const Series* truth = nullptr;                     ///< the same of a jet whose values are those at the ends
-    const double *values = nullptr, *slopes = nullptr; ///< of the states' polynomials at the ends
-    const double *ends = nullptr, *sizes = nullptr;    ///< of the outputs' polynomials: values, sums of |terms|
-    double rate_allowance = 0, value_allowance = 0;    ///< shares of sizes that differences may come to
-    double smallest = 0;                               ///< added to sizes of states
+/// By how much ends of steps may differ from what the model says there.
+struct EndAllowance {
+    double rates = 0, values = 0; ///< shares of the sizes of states and outputs that differences may come to
+    double smallest = 0;          ///< added to sizes of states
 };
 
 /// Computes Taylor coefficients of states and outputs of a tape (Jorba and Zou 2005; Griewank and Walther 2008,
@@ -55,12 +50,9 @@ public:
     virtual void set_parameters(std::span<const double> parameters) = 0;
     /// Computes coefficients 0 .. order() from states [state * width() + lane].
     virtual void compute(std::span<const double> states) = 0;
-    /// The same from what `compute_values` has made of the same states and parameters in another jet of the tape.
-    /// @return false, and nothing is computed, where its states are others
-    virtual bool compute_from(const Jet& values, std::span<const double> states) = 0;
-    /// Computes only coefficient 0 of outputs, and the rates, which become coefficient 1 of the states: cheap
-    /// evaluation at a point. All other coefficients are left undefined.
-    virtual void compute_values(std::span<const double> states) = 0;
+    /// Computes only coefficients 0 and 1: cheap evaluation at a point, from which `compute` of the same states goes
+    /// on. All other coefficients are left undefined.
+    virtual void begin(std::span<const double> states) = 0;
 
     /// Coefficients of a state or output: (order() + 1) * width() numbers, valid until the next `compute`.
     virtual const double* state(std::size_t index) const = 0;
@@ -70,8 +62,8 @@ public:
     virtual std::span<const Series> series() const = 0;
 
     /// How far the series of all states and outputs may be followed in each lane: the largest step at which the last
-    /// two terms of each, relative to its size, are at most a tolerance (Jorba and Zou 2005), and do not grow. (Not for
-    /// tangent jets.)
+    /// two terms of each, relative to its size, are at most a tolerance (Jorba and Zou 2005), and do not grow, as
+    /// `guard_steps` leaves it. (Not for tangent jets.)
     /// @param log_tolerance to base 2; @param references [lane] lengths over which sizes are taken, such as the last
     /// step
     /// @param steps [lane] infinity where all last two terms are zero, NaN where something is not finite
@@ -80,7 +72,7 @@ public:
     /// Shortens steps over which arguments of exponentials, sines and the like change so much, or quotients and roots
     /// come so close to their singularities, that series of this order cannot follow them, even where they are lost
     /// beside what they are added to: far from a narrow peak or a steep slope nothing else shows it. (Not for tangent
-    /// jets.) @param steps [lane] finite; 0 for lanes that do not matter
+    /// jets.) @param steps [lane] those that are not finite are left as they are
     virtual void guard_steps(std::span<double> steps) const = 0;
 
     /// Sums the series of all states, in each lane at its own time.
@@ -92,16 +84,20 @@ public:
                                  std::span<double> slopes) const = 0;
     /// Whether ends of steps are what the model says: by how much differences exceed what is allowed, the worst of all
     /// states and outputs; at most 0 where none does, infinity where something is not finite.
-    /// @param check whose series are those of this jet; @param lengths [lane]
-    virtual void find_disagreement(const EndCheck& check, std::span<const double> lengths,
+    /// @param end jet of the same tape and order, begun at the ends; @param lengths [lane]
+    /// @param values, slopes of the states there, as from `evaluate_states`; @param worst [lane]
+    /// @throws std::invalid_argument for a jet of another tape
+    virtual void find_disagreement(const Jet& end, const EndAllowance& allowance, std::span<const double> lengths,
+                                   std::span<const double> values, std::span<const double> slopes,
                                    std::span<double> worst) const = 0;
     /// Sums the series of one output, in each lane at its own time. @param values [lane]
     virtual void evaluate_output(std::size_t index, std::span<const double> times, std::span<double> values) const = 0;
-    /// Bounds an output from below on [0, lengths[lane]] by its partial sums at the end, of which it is a convex
-    /// combination throughout, less their round-off; -infinity if it is not finite. (Not for tangent jets.)
-    /// @param sizes of the series: sum |c_k| length^k; @param ends values at the end
-    virtual void bound_output(std::size_t index, std::span<const double> lengths, std::span<double> least,
-                              std::span<double> sizes, std::span<double> ends) const = 0;
+    /// Bounds the first outputs from below on [0, lengths[lane]] by their partial sums at the end, of which they are
+    /// convex combinations throughout, less their round-off; -infinity if they are not finite. (Not for tangent jets.)
+    /// @param least [output * width() + lane], of as many outputs as it has room for; @param sizes of the series, as
+    /// many: sum |c_k| length^k
+    virtual void bound_outputs(std::span<const double> lengths, std::span<double> least,
+                               std::span<double> sizes) const = 0;
 
 protected:
     Jet() = default;

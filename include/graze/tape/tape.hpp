@@ -67,6 +67,7 @@ struct Tape {
     /// above it are 0. A phase, whose rate is constant, has degree 1.
     std::vector<std::uint32_t> degrees;
     static constexpr std::uint32_t unbounded = 0xffffffff;
+    static constexpr std::uint32_t highest_degree = 4; ///< other than unbounded
     /// Where a rate or output is found: in a register, or in a constant (then its higher coefficients are 0).
     struct Location {
         bool constant = false;

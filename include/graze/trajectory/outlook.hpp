@@ -21,8 +21,8 @@ public:
     /// Then what `find_steps` has found: lengths to be looked at, to be adjusted before `look`.
     std::span<double> lengths() { return lengths_; }
     void find_steps(const Jet& jet);
-    /// @param end_jet of the same mode, lanes and parameters
-    void look(const Jet& jet, Jet& end_jet, std::size_t mode);
+    /// @param next jet of the same mode, lanes and parameters, which is begun at the ends
+    void look(const Jet& jet, Jet& next, std::size_t mode);
 
     double length(std::size_t lane) const { return lengths_[lane]; }
     double state(std::size_t index, std::size_t lane) const { return states_[index * width_ + lane]; }
@@ -34,16 +34,11 @@ public:
     double size(std::size_t watched, std::size_t lane) const { return sizes_[watched * width_ + lane]; }
 
 private:
-    void compare_observed(EndCheck check);
-    void note(std::size_t lane, double excess) {
-        // What is no number is no agreement.
-        disagreement_[lane] = excess <= disagreement_[lane] ? disagreement_[lane] : excess;
-    }
-
     const Simulation* simulation_;
     std::size_t width_;
-    double log_tolerance_, tolerance_;
-    std::vector<double> lengths_, states_, slopes_, least_, sizes_, ends_, disagreement_;
+    double log_tolerance_;
+    EndAllowance allowance_;
+    std::vector<double> lengths_, states_, slopes_, least_, sizes_, disagreement_;
 };
 
 } // namespace graze

@@ -185,13 +185,15 @@ private:
     RootFinder roots_;
     std::unique_ptr<ProbeTracker> probes_;
     std::unique_ptr<Tangents> tangents_;
-    std::size_t states_ = 0, loaded_ = 0; ///< series of states; of states, events and observed expressions
+    std::size_t states_ = 0;
     int order_ = 0;
 
     std::vector<double> state_, inputs_, work_, periods_, fields_, jacobian_, row_, kick_, conditions_, before_, after_,
         values_, guarded_, floors_;
+    std::vector<std::size_t> cyclic_states_;
     std::vector<double> terms_; ///< what adds up to each coefficient of an event function, without signs
-    std::vector<Series> series_;
+    std::span<const Series> series_;  ///< of states, events and observed expressions
+    std::vector<Series> lane_series_; ///< the same, where the jet has many lanes
     std::vector<double> gathered_; ///< coefficients from a jet of many lanes, side by side: made where needed
     std::vector<Watch> watches_;
     std::vector<Touch> touches_;
