@@ -10,7 +10,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t most_steps = 100000;
+constexpr std::size_t most_steps = 2'000'000;
 /// What derivatives are allowed of the tolerance of the states.
 constexpr double allowance = 50;
 /// Share of an arc below which a step means that the solution ceases to exist.

@@ -84,13 +84,21 @@ FollowedMotion follow_motion(const Simulation& simulation, std::span<const doubl
 
 OrbitSolution find_orbit(const Model& model, const AttractorOptions& settle, const OrbitOptions& options,
                          const SimulationOptions& simulation) {
+    return *find_orbit(model, settle, options, simulation, [] { return false; });
+}
+
+std::optional<OrbitSolution> find_orbit(const Model& model, const AttractorOptions& settle, const OrbitOptions& options,
+                                        const SimulationOptions& simulation,
+                                        const std::function<bool()>& interrupted) {
     const auto factory = attractor_searches(model, settle, {}, {}, simulation);
     const auto search = factory->make();
     search->begin(model.parameter_values(), model.initial_state(), model.initial_mode);
     JetSet jets(factory->simulation(), LaneKind::single);
-    do
+    do {
+        if (interrupted())
+            return std::nullopt;
         run(search->trajectory(), jets);
-    while (search->proceed());
+    } while (search->proceed());
     const PointResult& result = search->result();
     // At sections of a clock an equilibrium returns like any orbit.
     const bool returns = result.label == Label::equilibrium && result.period > 0;

@@ -63,10 +63,13 @@ Orbit orbit_of_table(const StudyRun& run) {
     });
 }
 
-/// What simulation settles on, from the model's initial state.
-OrbitSolution settled(const StudyRun& run, const Model& model) {
-    return at_place(run.place, run,
-                    [&] { return find_orbit(model, run.attractor, run.branch.settings.orbit, run.simulation); });
+/// What simulation settles on, from the model's initial state. None when interrupted.
+std::optional<Orbit> settled(const StudyRun& run, const Model& model, const RunnerOptions& options) {
+    const auto interrupted = [&] { return options.interrupted && options.interrupted(); };
+    const auto solution = at_place(run.place, run, [&] {
+        return find_orbit(model, run.attractor, run.branch.settings.orbit, run.simulation, interrupted);
+    });
+    return solution ? std::optional(solution->orbit) : std::nullopt;
 }
 
 OrbitSolution solved(const StudyRun& run, const Orbit& candidate) {
@@ -157,15 +160,13 @@ std::vector<Part> parts_of(const Study& study, const StudyRun& run, const Result
         const StudyRun& parent = run_named(study, run.start->run);
         if (parent.is_branch())
             return parts_from_orbit(run, parent, orbit_to_start_from(*run.start, parent, file));
-        return both_directions(run, settled(run, model_at(run, point_to_start_from(run, study, file))).orbit);
+        const auto orbit = settled(run, model_at(run, point_to_start_from(run, study, file)), options);
+        return orbit ? both_directions(run, *orbit) : std::vector<Part>();
     }
     if (!branch.table.empty())
         return both_directions(run, orbit_of_table(run));
-    if (!branch.signature.empty()) {
-        const auto orbit = orbit_asked_for(run, options);
-        return orbit ? both_directions(run, *orbit) : std::vector<Part>();
-    }
-    return both_directions(run, settled(run, run.model).orbit);
+    const auto orbit = branch.signature.empty() ? settled(run, run.model, options) : orbit_asked_for(run, options);
+    return orbit ? both_directions(run, *orbit) : std::vector<Part>();
 }
 
 /// Writes points one by one, the last of a part only when it is known to be the last.

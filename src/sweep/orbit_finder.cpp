@@ -53,6 +53,7 @@ void OrbitFinder::begin(std::span<const double> parameters, std::span<const doub
         seeds_[i * stride + i] = 1;
     // Remembers as many returns as there are in the orbit.
     watcher_ = ReturnWatcher(*map_, std::max<std::size_t>(period, 2), {});
+    watcher_.allow_any_steps(true);
     guard_ = 3 * duration;
     start_iteration();
 }

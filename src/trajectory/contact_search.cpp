@@ -15,11 +15,18 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Share of a step behind a contact in which others are sought that may come before it, or at the same time, once the
+/// errors of polynomials have been removed.
+constexpr double behind = 1e-4;
+
+/// Share of a flight that is never put down to round-off.
+constexpr double most_of_flight = 1e-6;
+
 /// How far round-off may have moved a root at s. Only what lies as close is simultaneous, which near the end of an
 /// accumulation is far less than the resolution of time.
 /// @param left_behind what the function was at the start of an arc that began on its surface
 double root_uncertainty(std::span<const double> c, double s, double step, double left_behind) {
-    constexpr double epsilon = std::numeric_limits<double>::epsilon(), most_of_flight = 1e-6;
+    constexpr double epsilon = std::numeric_limits<double>::epsilon();
     const double uncertain_value = 4 * epsilon * series_size(c, s), rate = std::abs(evaluate_derivative(c, s));
     const double most = 8 * epsilon * step;
     const double by_start = left_behind > 0 ? std::min(left_behind / rate, most_of_flight * s) : 0;
@@ -28,7 +35,8 @@ double root_uncertainty(std::span<const double> c, double s, double step, double
 
 } // namespace
 
-/// The watched event that happens first within `step`, which becomes the time until then.
+/// The watched event that happens first within `step`, which becomes the time until then. Roots are compared when they
+/// have been moved onto the surfaces themselves: those of surfaces that coincide then differ by round-off alone.
 std::size_t Trajectory::find_contact(double& step, const Outlook& outlook, std::size_t lane) {
     const auto& mode = simulation_->compiled().mode(mode_);
     const double whole = step;
@@ -46,13 +54,22 @@ std::size_t Trajectory::find_contact(double& step, const Outlook& outlook, std::
             outlook.least(w, lane) > std::max(touch_distance(event, outlook.size(w, lane)), least_touch(event)))
             continue;
         Root root{};
-        if (!find_fall(w, std::min(whole, step + uncertain), root))
+        if (!find_fall(w, first == no_event ? whole : std::min(whole, step + std::max(uncertain, behind * whole)), root))
             continue;
+        if (root.at > 0)
+            root.at = std::min(on_surface(w, root.at), whole);
         const double uncertain_too =
             root_uncertainty(shifted_series(w), root.at, whole, watch.strip == 1 ? std::abs(event_series(w)[0]) : 0);
-        if (first != no_event && root.at >= step - (uncertain + uncertain_too)) {
-            together_.push_back(event); // the search ended just behind the first
-            continue;
+        if (first != no_event) {
+            const double apart = root.at - step;
+            double slack = uncertain + uncertain_too;
+            if (std::abs(apart) > slack && std::abs(apart) <= behind * whole)
+                slack += error_of_root(first, step) + error_of_root(w, root.at);
+            if (apart >= -slack) {
+                if (apart <= slack)
+                    together_.push_back(event);
+                continue;
+            }
         }
         together_.clear();
         uncertain = uncertain_too;
@@ -61,8 +78,6 @@ std::size_t Trajectory::find_contact(double& step, const Outlook& outlook, std::
     }
     if (first != no_event && step + uncertain >= whole)
         look_beyond(first, step, uncertain);
-    if (first != no_event && step > 0)
-        step = std::min(on_surface(first, step), whole);
     std::stable_sort(touches_.begin(), touches_.end(),
                      [](const Touch& a, const Touch& b) { return a.root.at < b.root.at; });
     return first;
@@ -208,6 +223,18 @@ double Trajectory::on_surface(std::size_t w, double s) {
         s = std::max(0.0, s - values_[w] / rate);
     }
     return s;
+}
+
+/// How far round-off within an event's function, as in exp(x) - 1, may move its root at s.
+double Trajectory::error_of_root(std::size_t w, double s) {
+    const auto& events = simulation_->compiled().mode(mode_).events;
+    values_.resize(events.outputs());
+    for (std::size_t i = 0; i < states_; ++i)
+        inputs_[i] = evaluate_state(i, s);
+    std::fill(uncertain_.begin(), uncertain_.end(), 0.0);
+    events.error_bounds(inputs_, uncertain_, values_, work_);
+    const double error = values_[w] / std::abs(evaluate_derivative(event_series(w), s)), most = most_of_flight * s;
+    return error < most ? error : most;
 }
 
 void Trajectory::update_sides(double length) {

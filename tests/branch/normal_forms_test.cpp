@@ -250,6 +250,55 @@ TEST(NormalForms, pairs_within_one_step_are_found) {
     }
 }
 
+/// A motion that explicit steps must follow in half a million of them, since what it slides along attracts it with 3000
+/// per unit of time.
+TEST(NormalFormsSlow, relaxation_oscillation_is_followed_for_as_long_as_it_is_told) {
+    const Model model = model_from(R"toml(
+[parameters]
+mu = 1000
+[states]
+x = 2
+v = 0
+[modes.only]
+rates = { x = "v", v = "mu*(1 - x^2)*v - x" }
+[sections.top]
+function = "v"
+direction = "falling"
+)toml");
+    AttractorOptions options;
+    options.section = "top";
+    options.longest_return = 4000;
+    const OrbitSolution solution = find_orbit(model, options);
+    ASSERT_EQ(solution.outcome, OrbitOutcome::converged) << solution.detail;
+    // Dorodnitsyn's expansion, to the terms of order log(mu)/mu.
+    const double mu = 1000, first_zero = 2.338107410459767;
+    EXPECT_NEAR(solution.orbit.period(), (3 - 2 * std::log(2.0)) * mu + 3 * first_zero / std::cbrt(mu),
+                3 * std::log(mu) / mu);
+    EXPECT_NEAR(solution.orbit.period(), 1614.4011258083, 1e-9); // between two passages of a simulation
+    ASSERT_EQ(solution.multipliers.size(), 1U);
+    EXPECT_LT(std::abs(solution.multipliers[0]), 1e-12);
+}
+
+TEST(NormalForms, search_for_an_orbit_ends_when_it_is_interrupted) {
+    const Model model = model_from(R"toml(
+[parameters]
+mu = 1
+[states]
+x = 2
+v = 0.1
+[modes.only]
+rates = { x = "v", v = "mu*(1 - x^2)*v - x" }
+[sections.top]
+function = "v"
+direction = "falling"
+)toml");
+    AttractorOptions options;
+    options.section = "top";
+    int asked = 0;
+    EXPECT_FALSE(find_orbit(model, options, {}, {}, [&] { return ++asked == 2; }).has_value());
+    EXPECT_EQ(asked, 2);
+}
+
 TEST(NormalForms, van_der_pol_has_its_published_period) {
     const Model model = model_from(R"toml(
 [parameters]

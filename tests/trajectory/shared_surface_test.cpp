@@ -89,24 +89,30 @@ TEST(SharedSurface, OneFallIsServedOnceThoughTwoSectionsAreThere) {
     }
 }
 
+/// A ball on a floor counts its contacts by a section that coincides with the floor, watched before or after it.
+Model counting_ball(double e, double drag, const std::string& section, bool first) {
+    return model_from(fmt::format(
+        "name = \"count\"\n[states]\nx = 1\nv = 0\nn = 0\n"
+        "[parameters]\ne = {:.17g}\ndrag = {:.17g}\n[events]\nfloor = \"x\"\n"
+        "below = {{ function = \"{}\", kind = \"section\" }}\n"
+        "[modes]\nflight = {{ rates = {{ x = \"v\", v = \"-1 - drag*v\", n = 0 }}, watch = [{}] }}\n"
+        "rest = {{ rates = {{ x = 0, v = 0, n = 0 }} }}\n[initial]\nmode = \"flight\"\n"
+        "[jumps]\nhit = {{ v = \"-e*v\" }}\ncount = {{ n = \"n + 1\" }}\nland = {{ x = 0, v = 0 }}\n"
+        "{}chatter = {{ jump = \"land\", mode = \"rest\" }}\n{}",
+        e, drag, section, first ? "\"below\", \"floor\"" : "\"floor\", \"below\"",
+        transition("flight", "floor", "flight", "hit"), transition("flight", "below", "flight", "count")));
+}
+
 TEST(SharedSurface, ASectionWhereABarrierIsIsServedAsWell) {
-    // A ball on a floor counts its contacts by a section that coincides with the floor, watched before or after it.
     Random random(54);
-    for (int i = 0; i < 100; ++i) {
-        const bool first = random.chance(0.5);
+    for (int i = 0; i < 10000; ++i) {
+        const bool first = random.chance(0.5), starts_at_rest = random.chance(0.5);
         const double e = random.uniform(0.3, 0.9), height = random.log_uniform(1e-9, 1e6);
-        const Model model = model_from(fmt::format(
-            "name = \"count\"\n[states]\nx = 1\nv = 0\nn = 0\n"
-            "[parameters]\ne = {:.17g}\n[events]\nfloor = \"x\"\nbelow = {{ function = \"3*x\", kind = \"section\" }}\n"
-            "[modes]\nflight = {{ rates = {{ x = \"v\", v = -1, n = 0 }}, watch = [{}] }}\n"
-            "rest = {{ rates = {{ x = 0, v = 0, n = 0 }} }}\n[initial]\nmode = \"flight\"\n"
-            "[jumps]\nhit = {{ v = \"-e*v\" }}\ncount = {{ n = \"n + 1\" }}\nland = {{ x = 0, v = 0 }}\n"
-            "{}chatter = {{ jump = \"land\", mode = \"rest\" }}\n{}",
-            e, first ? "\"below\", \"floor\"" : "\"floor\", \"below\"", transition("flight", "floor", "flight", "hit"),
-            transition("flight", "below", "flight", "count")));
-        Experiment experiment(model, with_tolerance(random.log_uniform(1e-15, 1e-6)));
+        const double factor = random.chance(0.3) ? 3 : random.log_uniform(1e-9, 1e9);
+        Experiment experiment(counting_ball(e, 0, fmt::format("{:.17g}*x", factor), first),
+                              with_tolerance(random.log_uniform(1e-15, 1e-6)));
         const double fall = std::sqrt(2 * height), rest = fall * (1 + e) / (1 - e);
-        const double early = random.uniform(0.05, 0.3) * fall; // it starts with the speed that it has then
+        const double early = starts_at_rest ? 0 : random.uniform(0.05, 0.3) * fall; // it starts with the speed of then
         const double end = random.uniform(0.5, 0.9) * rest;
         const Outcome outcome = experiment.run_from({height - early * early / 2, -early, 0}, 0, end - early);
         ASSERT_EQ(outcome.ending, Ending::end_time) << outcome.detail;
@@ -114,7 +120,29 @@ TEST(SharedSurface, ASectionWhereABarrierIsIsServedAsWell) {
         for (double time = fall, flight = 2 * e * fall; time < end; time += flight, flight *= e)
             ++hits;
         // Served after the floor's jump, the section no longer falls: that is the documented order.
-        EXPECT_EQ(experiment.state()[2], first ? hits : 0) << e << " " << height;
+        EXPECT_EQ(experiment.state()[2], first ? hits : 0)
+            << fmt::format("{} {} {} {} {} {}", e, height, factor, early, first, end);
+    }
+}
+
+TEST(SharedSurface, CurvedSectionsWhereABarrierIsAreServedAsWell) {
+    Random random(55);
+    for (int i = 0; i < 3000; ++i) {
+        const double e = random.uniform(0.3, 0.9), height = random.log_uniform(1e-9, 1e6);
+        const double factor = random.log_uniform(1e-9, 1e9), curvature = random.log_uniform(0.01, 3) / height;
+        const double fall = std::sqrt(2 * height), drag = random.chance(0.2) ? 0 : random.log_uniform(1e-3, 0.5) / fall;
+        const char* sections[] = {"{:.17g}*x*(1 + {:.17g}*x)", "{:.17g}*(exp({:.17g}*x) - 1)",
+                                  "{:.17g}*x/(1 + {:.17g}*x)"};
+        const std::string section = fmt::format(fmt::runtime(sections[i % 3]), factor, curvature);
+        Experiment experiment(counting_ball(e, drag, section, true), with_tolerance(random.log_uniform(1e-15, 1e-6)));
+        // Not up to where flights are so low that such functions cannot tell them from none.
+        const double end = fall * (1 + random.uniform(0.1, 0.6) * 2 * e / (1 - e));
+        const Outcome outcome = experiment.run_from({height, 0, 0}, 0, end);
+        ASSERT_EQ(outcome.ending, Ending::end_time) << outcome.detail;
+        double hits = 0;
+        for (const auto& recorded : experiment.recorder.contacts())
+            hits += recorded.contact.event == 0 && recorded.contact.kind == ContactKind::crossing;
+        EXPECT_EQ(experiment.state()[2], hits) << fmt::format("{} {} {} {}", e, height, drag, section);
     }
 }
 

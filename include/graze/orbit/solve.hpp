@@ -63,6 +63,10 @@ OrbitSolution solve_orbit(const Model& model, const Orbit& candidate, const Orbi
 ///         it does instead
 OrbitSolution find_orbit(const Model& model, const AttractorOptions& settle, const OrbitOptions& options = {},
                          const SimulationOptions& simulation = {});
+/// The same, unless it is interrupted. @param interrupted asked after each return to the section
+/// @return none when interrupted
+std::optional<OrbitSolution> find_orbit(const Model& model, const AttractorOptions& settle, const OrbitOptions& options,
+                                        const SimulationOptions& simulation, const std::function<bool()>& interrupted);
 
 struct SignatureSearchOptions {
     std::size_t steps = 1'000'000; ///< of the motion that is followed

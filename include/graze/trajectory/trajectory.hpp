@@ -144,6 +144,7 @@ private:
     void keep_touches(std::size_t watched, std::span<const double> c);
     bool is_grazing(std::size_t watched, double s, double rate);
     double on_surface(std::size_t watched, double s);
+    double error_of_root(std::size_t watched, double s);
     void update_sides(double length);
     // Transitions (contact.cpp)
     void make_contact(std::size_t watched, double s);
