@@ -60,6 +60,8 @@ std::vector<std::complex<double>> product_eigenvalues(const std::vector<Eigen::M
             result.insert(result.end(), static_cast<std::size_t>(size), std::numeric_limits<double>::infinity());
         } else {
             const Eigen::EigenSolver<Eigen::MatrixXd> solver(block, false);
+            if (solver.info() != Eigen::Success)
+                return {};
             for (Eigen::Index i = 0; i < size; ++i)
                 result.push_back(solver.eigenvalues()[i] * factor);
         }

@@ -11,7 +11,7 @@ namespace graze {
 /// them out: orthogonal iteration through the factors (the unshifted form of the periodic QR algorithm: A. Bojanczyk,
 /// G. Golub, P. Van Dooren, "The periodic Schur decomposition", Proc. SPIE 1770, 1992) separates eigenvalues of
 /// different magnitude, each of which is then as accurate as the factors allow, however many powers of ten lie between
-/// them.
+/// them. @return none where the eigenvalues of a block cannot be found
 std::vector<std::complex<double>> product_eigenvalues(const std::vector<Eigen::MatrixXd>& factors);
 
 } // namespace graze

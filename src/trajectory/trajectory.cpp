@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace graze {
 
@@ -379,7 +380,8 @@ void Trajectory::finish_undefined() {
     std::vector<double> rates(states_);
     std::copy(state_.begin(), state_.end(), inputs_.begin());
     simulation_->compiled().mode(mode_).rates.evaluate(inputs_, rates, work_);
-    std::string culprit = "a derivative of the vector field";
+    constexpr std::string_view unknown = "a derivative of the vector field";
+    std::string culprit(unknown);
     const auto& mode = simulation_->compiled().mode(mode_);
     values_.resize(mode.events.outputs());
     mode.events.evaluate(inputs_, values_, work_);
@@ -391,8 +393,11 @@ void Trajectory::finish_undefined() {
             culprit = fmt::format("the rate of state '{}'", model.states[i].name);
     finish(Ending::undefined, time_,
            fmt::format("{} is not finite {}: look for a division by zero, or a root or logarithm of a number that is "
-                       "not positive",
-                       culprit, where()));
+                       "not positive{}",
+                       culprit, where(),
+                       culprit == unknown ? "; or, if the motion is faster than some 10^15 per unit of time, count time "
+                                            "in a shorter unit"
+                                          : ""));
 }
 
 } // namespace graze
