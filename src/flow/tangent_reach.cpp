@@ -82,8 +82,8 @@ double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, doub
     return std::isfinite(reach) && reach > 0 ? reach : step;
 }
 
-double follow_tangents(const Jet& jet, Jet& next, std::size_t states, std::size_t count, double tolerance,
-                       double step, std::span<double> times, std::span<double> sums, std::span<double> slopes) {
+double follow_tangents(const Jet& jet, Jet& next, std::size_t states, std::size_t count, double tolerance, double step,
+                       std::span<double> times, std::span<double> sums, std::span<double> slopes) {
     // What is left out falls with a high power of the step. What does not is the round-off of rates that cancel, or
     // belongs to derivatives that have only begun to differ from zero: no shorter step would be better.
     constexpr int most_halvings = 8;

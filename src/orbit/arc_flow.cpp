@@ -147,8 +147,8 @@ ArcFlow::Ending ArcFlow::run(std::size_t mode, std::span<double> state, double d
                 if (std::isnan(step))
                     return Ending::undefined;
                 const double reach = std::copysign(tangent_reach(jet, states_, here, tolerance_, std::abs(step)), step);
-                const double followed = follow_tangents(jet, tangent_.next(mode), states_, here, tolerance_, reach,
-                                                        times_, sums_, slopes_);
+                const double followed =
+                    follow_tangents(jet, tangent_.next(mode), states_, here, tolerance_, reach, times_, sums_, slopes_);
                 if (std::abs(followed) < std::abs(step)) {
                     step = followed;
                     done = first == 0; // derivatives computed before need the shorter step as well

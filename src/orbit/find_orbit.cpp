@@ -88,8 +88,7 @@ OrbitSolution find_orbit(const Model& model, const AttractorOptions& settle, con
 }
 
 std::optional<OrbitSolution> find_orbit(const Model& model, const AttractorOptions& settle, const OrbitOptions& options,
-                                        const SimulationOptions& simulation,
-                                        const std::function<bool()>& interrupted) {
+                                        const SimulationOptions& simulation, const std::function<bool()>& interrupted) {
     const auto factory = attractor_searches(model, settle, {}, {}, simulation);
     const auto search = factory->make();
     search->begin(model.parameter_values(), model.initial_state(), model.initial_mode);

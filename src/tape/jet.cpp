@@ -136,16 +136,16 @@ private:
     std::vector<KernelStep> constant_code_;
     std::vector<Copy> constant_copies_; ///< to rates and outputs that are constants
     std::vector<const double*> outputs_;
-    std::vector<Series> series_;                              ///< states and outputs
-    std::vector<Series> followed_, lines_;                    ///< the same, sorted as steps want them
-    FollowedSeries to_follow_{};                              ///< both
-    std::vector<Series> arguments_, quotients_;               ///< guards of the steps
-    std::vector<GuardKind> kinds_;                            ///< of the arguments
-    Guards guards_{};                                         ///< all of them
+    std::vector<Series> series_;                             ///< states and outputs
+    std::vector<Series> followed_, lines_;                   ///< the same, sorted as steps want them
+    FollowedSeries to_follow_{};                             ///< both
+    std::vector<Series> arguments_, quotients_;              ///< guards of the steps
+    std::vector<GuardKind> kinds_;                           ///< of the arguments
+    Guards guards_{};                                        ///< all of them
     std::vector<Series> compared_states_, compared_outputs_; ///< at ends of steps
-    std::vector<std::size_t> compared_indices_;               ///< of those states
-    EndComparison comparison_{};                              ///< the three
-    std::vector<int> degrees_;                                ///< of states, at least 1
+    std::vector<std::size_t> compared_indices_;              ///< of those states
+    EndComparison comparison_{};                             ///< the three
+    std::vector<int> degrees_;                               ///< of states, at least 1
 };
 
 TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)

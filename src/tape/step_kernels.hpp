@@ -176,9 +176,10 @@ void steps(const FollowedSeries& followed, int order, double log_tolerance, cons
         // is not.
         sum = sum + (last + before) + (c0 + c1 + c2) * 0.0;
         const L first_terms = absolute(c0) + reference * (absolute(c1) + reference * absolute(c2));
-        const L size = first_terms_or(first_terms, [&]() __attribute__((always_inline)) {
-            return (before + reference * last) * integer_power(reference, order - 1);
-        });
+        const L size = first_terms_or(
+            first_terms, [&]() __attribute__((always_inline)) {
+                return (before + reference * last) * integer_power(reference, order - 1);
+            });
         const L measure = greater(size, number<L>(smallest_size));
         high = greater(high, last / measure);
         low = greater(low, before / measure);

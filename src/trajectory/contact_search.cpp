@@ -54,7 +54,8 @@ std::size_t Trajectory::find_contact(double& step, const Outlook& outlook, std::
             outlook.least(w, lane) > std::max(touch_distance(event, outlook.size(w, lane)), least_touch(event)))
             continue;
         Root root{};
-        if (!find_fall(w, first == no_event ? whole : std::min(whole, step + std::max(uncertain, behind * whole)), root))
+        if (!find_fall(w, first == no_event ? whole : std::min(whole, step + std::max(uncertain, behind * whole)),
+                       root))
             continue;
         if (root.at > 0)
             root.at = std::min(on_surface(w, root.at), whole);

@@ -395,9 +395,10 @@ void Trajectory::finish_undefined() {
            fmt::format("{} is not finite {}: look for a division by zero, or a root or logarithm of a number that is "
                        "not positive{}",
                        culprit, where(),
-                       culprit == unknown ? "; or, if the motion is faster than some 10^15 per unit of time, count time "
-                                            "in a shorter unit"
-                                          : ""));
+                       culprit == unknown
+                           ? "; or, if the motion is faster than some 10^15 per unit of time, count time "
+                             "in a shorter unit"
+                           : ""));
 }
 
 } // namespace graze

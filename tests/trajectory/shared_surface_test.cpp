@@ -91,16 +91,16 @@ TEST(SharedSurface, OneFallIsServedOnceThoughTwoSectionsAreThere) {
 
 /// A ball on a floor counts its contacts by a section that coincides with the floor, watched before or after it.
 Model counting_ball(double e, double drag, const std::string& section, bool first) {
-    return model_from(fmt::format(
-        "name = \"count\"\n[states]\nx = 1\nv = 0\nn = 0\n"
-        "[parameters]\ne = {:.17g}\ndrag = {:.17g}\n[events]\nfloor = \"x\"\n"
-        "below = {{ function = \"{}\", kind = \"section\" }}\n"
-        "[modes]\nflight = {{ rates = {{ x = \"v\", v = \"-1 - drag*v\", n = 0 }}, watch = [{}] }}\n"
-        "rest = {{ rates = {{ x = 0, v = 0, n = 0 }} }}\n[initial]\nmode = \"flight\"\n"
-        "[jumps]\nhit = {{ v = \"-e*v\" }}\ncount = {{ n = \"n + 1\" }}\nland = {{ x = 0, v = 0 }}\n"
-        "{}chatter = {{ jump = \"land\", mode = \"rest\" }}\n{}",
-        e, drag, section, first ? "\"below\", \"floor\"" : "\"floor\", \"below\"",
-        transition("flight", "floor", "flight", "hit"), transition("flight", "below", "flight", "count")));
+    return model_from(
+        fmt::format("name = \"count\"\n[states]\nx = 1\nv = 0\nn = 0\n"
+                    "[parameters]\ne = {:.17g}\ndrag = {:.17g}\n[events]\nfloor = \"x\"\n"
+                    "below = {{ function = \"{}\", kind = \"section\" }}\n"
+                    "[modes]\nflight = {{ rates = {{ x = \"v\", v = \"-1 - drag*v\", n = 0 }}, watch = [{}] }}\n"
+                    "rest = {{ rates = {{ x = 0, v = 0, n = 0 }} }}\n[initial]\nmode = \"flight\"\n"
+                    "[jumps]\nhit = {{ v = \"-e*v\" }}\ncount = {{ n = \"n + 1\" }}\nland = {{ x = 0, v = 0 }}\n"
+                    "{}chatter = {{ jump = \"land\", mode = \"rest\" }}\n{}",
+                    e, drag, section, first ? "\"below\", \"floor\"" : "\"floor\", \"below\"",
+                    transition("flight", "floor", "flight", "hit"), transition("flight", "below", "flight", "count")));
 }
 
 TEST(SharedSurface, ASectionWhereABarrierIsIsServedAsWell) {

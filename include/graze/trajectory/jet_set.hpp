@@ -10,15 +10,15 @@
 
 namespace graze {
 
-/// Jets for the modes of a simulation, made when first needed: two of each, in turn that of a step and that of the next,
-/// of which looking at the step's end makes the beginning.
+/// Jets for the modes of a simulation, made when first needed: two of each, in turn that of a step and that of the
+/// next, of which looking at the step's end makes the beginning.
 class JetSet {
 public:
     JetSet(const Simulation& simulation, LaneKind kind, InstructionSet set = best_instruction_set());
     /// The jet of a mode.
     Jet& operator()(std::size_t mode) { return made(jets_, mode); }
-    /// The jet of a mode, computed from states, which becomes the present one: the next one has begun there if the states
-    /// are those at the end of the last step.
+    /// The jet of a mode, computed from states, which becomes the present one: the next one has begun there if the
+    /// states are those at the end of the last step.
     Jet& computed(std::size_t mode, std::span<const double> states) {
         if (next_jets_[mode])
             jets_[mode].swap(next_jets_[mode]);

@@ -192,10 +192,10 @@ private:
     std::vector<double> state_, inputs_, work_, periods_, fields_, jacobian_, row_, kick_, conditions_, before_, after_,
         values_, guarded_, floors_;
     std::vector<std::size_t> cyclic_states_;
-    std::vector<double> terms_; ///< what adds up to each coefficient of an event function, without signs
+    std::vector<double> terms_;       ///< what adds up to each coefficient of an event function, without signs
     std::span<const Series> series_;  ///< of states, events and observed expressions
     std::vector<Series> lane_series_; ///< the same, where the jet has many lanes
-    std::vector<double> gathered_; ///< coefficients from a jet of many lanes, side by side: made where needed
+    std::vector<double> gathered_;    ///< coefficients from a jet of many lanes, side by side: made where needed
     std::vector<Watch> watches_;
     std::vector<Touch> touches_;
     std::vector<Root> found_touches_;
