@@ -4,8 +4,6 @@
 #include "sweep/quasi_periodic.hpp"
 #include "sweep/transient_search.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,9 +14,7 @@ namespace graze {
 namespace {
 
 constexpr double forever = std::numeric_limits<double>::infinity();
-constexpr double soonest = 1e-3; ///< share of the time of a return before which none can come
-constexpr std::size_t most_disturbances = 3;
-constexpr double share_left = 0.1;    ///< of a displacement, within which a motion has not been displaced yet
+constexpr double soonest = 1e-3;      ///< share of the time of a return before which none can come
 constexpr double clear_of_zero = 3;   ///< standard errors
 constexpr double least_growth = 5;    ///< logarithm, of a small distance over all returns, that shows chaos
 constexpr double outward_share = 0.5; ///< of the growth of a small distance, that is due to the motion's own
@@ -27,32 +23,8 @@ constexpr double any_growth = 138;    ///< and by which it has outgrown whatever
 constexpr std::size_t least_extension = 400;
 constexpr std::size_t returns_between_looks = 25;
 constexpr std::size_t extension = 4;   ///< of the largest period, in the last part of a search
-constexpr double at_rest = 1e-8;       ///< distance between an orbit and an equilibrium that are the same
 constexpr std::size_t most_tries = 50; ///< of Newton's method
 constexpr double longest_step = 8;     ///< in periods of the section's clock: a passage ends a step anyway
-
-/// Names of transitions, those that change nothing left out; a name and its repetitions are written once.
-std::string signature_of(const Model& model, std::span<const std::uint32_t> contacts) {
-    std::vector<std::pair<std::string, std::size_t>> parts;
-    for (const std::uint32_t code : contacts) {
-        const Transition& transition = model.transitions[code / 2];
-        const bool stays = std::all_of(transition.next.begin(), transition.next.end(), [&](const Alternative& next) {
-            return next.mode && *next.mode == transition.mode;
-        });
-        const bool sticking = code % 2 == 1;
-        if (transition.jump == 0 && stays && !sticking)
-            continue;
-        std::string name = transition.label + (sticking ? "(chatter)" : "");
-        if (!parts.empty() && parts.back().first == name)
-            ++parts.back().second;
-        else
-            parts.emplace_back(std::move(name), 1);
-    }
-    std::string text;
-    for (const auto& [name, count] : parts)
-        text += fmt::format("{}{}{}", text.empty() ? "" : " ", name, count > 1 ? fmt::format("^{}", count) : "");
-    return text;
-}
 
 } // namespace
 
@@ -228,90 +200,14 @@ bool AttractorSearch::go_on() {
     return true;
 }
 
-/// Whether the motion rests, or will, is seen from the field alone.
-/// @return what `proceed` returns, if anything was found
-std::optional<bool> AttractorSearch::consider_rest(std::span<const double> state, std::size_t mode) {
-    const auto equilibrium = equilibria_.find(state, mode, watcher_.widest());
-    if (!equilibrium)
-        return std::nullopt;
-    const double distance = equilibria_.distance(*equilibrium, state);
-    if (equilibrium->is_stable()) {
-        if (equilibria_.is_linear_within(*equilibrium, distance, true) ||
-            (comes_closer(*equilibrium) && equilibria_.is_linear_within(*equilibrium, distance, false)))
-            return finish_equilibrium(*equilibrium);
-        return std::nullopt;
-    }
-    return equilibrium->is_unstable() ? leave_equilibrium(*equilibrium, distance) : std::nullopt;
-}
-
-/// Whether a motion about a stable equilibrium has come closer from return to return, at least half as fast as its
-/// linear part foretells. Weakly damped motions are linear to that degree only when next to nothing is left of them.
-bool AttractorSearch::comes_closer(const Equilibrium& equilibrium) {
-    constexpr std::size_t fewest = 4;
-    const std::size_t last = std::min<std::size_t>(watcher_.remembered(), 2 * fewest + 1);
-    if (last <= fewest)
-        return false;
-    std::vector<double> distances;
-    for (std::size_t k = 0; k < last; ++k) {
-        const Return& one = watcher_.recent(k);
-        if (one.mode != equilibrium.mode || !one.contacts.empty())
-            return false;
-        distances.push_back(equilibria_.distance(equilibrium, one.state));
-        if (k > 0 && !(distances[k - 1] < distances[k]))
-            return false;
-    }
-    const double time = watcher_.recent(0).time - watcher_.recent(last - 1).time;
-    return std::log(distances.front() / distances.back()) <= 0.5 * equilibrium.growth() * time;
-}
-
-/// A motion that sits on an unstable equilibrium is displaced.
-std::optional<bool> AttractorSearch::leave_equilibrium(const Equilibrium& equilibrium, double distance) {
-    const double size = setting_->options.disturbance, usual = AttractorOptions{}.disturbance;
-    const std::vector<double> state = equilibria_.displaced(equilibrium, size > 0 ? size : usual);
-    if (!(distance <= share_left * equilibria_.distance(equilibrium, state)))
-        return std::nullopt;
-    if (size == 0)
-        return finish_still();
-    if (disturbances_ >= most_disturbances)
-        return std::nullopt;
-    ++disturbances_;
-    displace(state, equilibrium.mode, watcher_.returns() > 1 ? watcher_.recent(0).time - watcher_.recent(1).time : 0);
-    return true;
-}
-
-void AttractorSearch::displace(std::span<const double> state, std::size_t mode, double duration) {
-    std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
-    restart(state, mode, duration);
-    if (exponent_.begun() && !confirming_)
-        start_exponent();
-}
-
-/// The motion sits on something unstable, and is not to be displaced.
-bool AttractorSearch::finish_still() {
-    finish(Label::unsettled);
-    result_.outcome.detail = "the motion sits on an unstable orbit or equilibrium; allow a disturbance to displace it";
-    return false;
-}
-
 /// An orbit may have been found near the last return.
 bool AttractorSearch::consider_orbit() {
     const std::size_t n = watcher_.recurrent();
     if (finder_.found()) {
-        // An orbit on which nothing but clocks moves is an equilibrium.
-        auto equilibrium = equilibria_.find(finder_.point(), finder_.mode(), watcher_.widest());
-        bool rests =
-            equilibrium && finder_.contacts().empty() && equilibria_.distance(*equilibrium, finder_.point()) < at_rest;
-        if (!rests && does_not_move()) {
-            // Motions come to it more slowly than any linear one.
-            equilibrium.emplace();
-            equilibrium->state.assign(finder_.point().begin(), finder_.point().end());
-            equilibrium->mode = finder_.mode();
-            equilibrium->driven = true;
-            rests = finder_.multipliers().empty() || std::abs(finder_.multipliers().front()) < 1;
-        }
+        const std::optional<Equilibrium> equilibrium = equilibrium_of_orbit();
         if (approaches(finder_, watcher_, periods_, setting_->simulation.options().tolerance))
-            return rests ? finish_equilibrium(*equilibrium) : finish_periodic();
-        if (const auto next = leave_unstable_orbit(rests ? &*equilibrium : nullptr))
+            return equilibrium ? finish_equilibrium(*equilibrium) : finish_periodic();
+        if (const auto next = leave_unstable_orbit(equilibrium ? &*equilibrium : nullptr))
             return *next;
         near_stable_ = near_stable_ || (guessed_ && is_near(finder_, watcher_, periods_));
     }
@@ -323,51 +219,6 @@ bool AttractorSearch::consider_orbit() {
         thresholds_[n] =
             ++tries_ > most_tries ? -1 : watcher_.distance(watcher_.recent(0).state, watcher_.recent(n).state) / 3;
     return go_on();
-}
-
-/// Whether nothing but clocks moves along the orbit that was found.
-bool AttractorSearch::does_not_move() const {
-    constexpr double nothing = 1e-10; ///< relative to the states and what the motion has gone through
-    if (!finder_.contacts().empty())
-        return false;
-    for (std::size_t i = 0; i < periods_.size(); ++i)
-        if (finder_.is_active(i) &&
-            !(finder_.extents()[i] <= nothing * std::max(watcher_.range(i), std::abs(finder_.point()[i]))))
-            return false;
-    return true;
-}
-
-/// A motion on an unstable orbit would stay there until round-off has grown: it is displaced.
-std::optional<bool> AttractorSearch::leave_unstable_orbit(const Equilibrium* equilibrium) {
-    const double size = setting_->options.disturbance, usual = AttractorOptions{}.disturbance;
-    if (finder_.multipliers().empty() || std::abs(finder_.multipliers().front()) <= 1 ||
-        disturbances_ >= most_disturbances ||
-        watcher_.distance(watcher_.recent(0).state, finder_.point()) > (size > 0 ? size : usual))
-        return std::nullopt;
-    if (size == 0)
-        return finish_still();
-    ++disturbances_;
-    const double duration = finder_.duration() / static_cast<double>(finder_.period());
-    if (equilibrium) {
-        displace(equilibria_.displaced(*equilibrium, size), finder_.mode(), duration);
-        return true;
-    }
-    const std::span<const double> scale = watcher_.scale();
-    std::vector<double> state(finder_.point().begin(), finder_.point().end()), deviation(state.size());
-    subtract_states(watcher_.recent(0).state, state, periods_, deviation);
-    const Eigen::VectorXd& direction = finder_.leading_direction();
-    double length = 0, along = 0;
-    for (std::size_t i = 0; i < state.size(); ++i) {
-        const double component = direction[static_cast<Eigen::Index>(i)] / scale[i];
-        length = std::max(length, std::abs(component));
-        along += component * deviation[i] / scale[i];
-    }
-    if (!(length > 0))
-        return std::nullopt;
-    for (std::size_t i = 0; i < state.size(); ++i)
-        state[i] += (along < 0 ? -size : size) * direction[static_cast<Eigen::Index>(i)] / length;
-    displace(state, finder_.mode(), duration);
-    return true;
 }
 
 /// Many transients look chaotic until they suddenly settle: what does is followed as long again.
@@ -483,71 +334,6 @@ std::vector<double> AttractorSearch::extents_of_visited() const {
         if (setting_->map.takes_part(i))
             extents.push_back(watcher_.scale()[i]);
     return extents;
-}
-
-bool AttractorSearch::finish_periodic() {
-    finish(Label::periodic);
-    result_.period = finder_.period();
-    result_.duration = finder_.duration();
-    result_.signature = signature_of(setting_->simulation.model(), finder_.contacts());
-    result_.symmetric = finder_.symmetric();
-    result_.multipliers = finder_.multipliers();
-    result_.residual = finder_.residual();
-    result_.state.assign(finder_.point().begin(), finder_.point().end());
-    result_.mode = finder_.mode();
-    result_.samples = std::move(finder_.samples());
-    result_.lyapunov.reset();
-    result_.lyapunov_error.reset();
-    if (!result_.multipliers.empty() && std::abs(result_.multipliers.front()) > 0)
-        result_.lyapunov = std::log(std::abs(result_.multipliers.front())) / result_.duration;
-    return false;
-}
-
-bool AttractorSearch::finish_equilibrium(const Equilibrium& equilibrium) {
-    finish(Label::equilibrium);
-    result_.state = equilibrium.state;
-    result_.mode = equilibrium.mode;
-    result_.lyapunov.reset();
-    result_.lyapunov_error.reset();
-    if (!equilibrium.driven && equilibrium.values.size() > 0)
-        result_.lyapunov = equilibrium.growth();
-    if (setting_->map.is_phase() && watcher_.remembered() > 1) {
-        // Returns go on, and say the same of it as of an orbit.
-        result_.period = 1;
-        result_.duration = watcher_.recent(0).time - watcher_.recent(1).time;
-        if (equilibrium.driven) {
-            result_.multipliers = finder_.multipliers();
-            if (!result_.multipliers.empty() && std::abs(result_.multipliers.front()) > 0)
-                result_.lyapunov = std::log(std::abs(result_.multipliers.front())) / finder_.duration();
-        }
-        for (const std::complex<double> value : equilibrium.values)
-            if (!equilibrium.driven)
-                result_.multipliers.push_back(std::exp(value * result_.duration));
-    }
-    recorder_.rest(main_->time(), result_.state);
-    result_.samples = std::move(recorder_.samples());
-    return false;
-}
-
-bool AttractorSearch::finish(Label label) {
-    result_.label = label;
-    result_.cycles = watcher_.returns();
-    result_.periods_run += watcher_.returns();
-    result_.time = main_->time();
-    result_.state.assign(main_->state().begin(), main_->state().end());
-    result_.mode = main_->mode();
-    result_.outcome = main_->outcome();
-    if (label == Label::unbounded)
-        result_.outcome.detail.clear(); // that numbers end somewhere is no fault of the model
-    if (watcher_.stuck())
-        result_.outcome.detail = "no return to the section came; choose another section";
-    if (exponent_.known()) {
-        result_.lyapunov = exponent_.value();
-        result_.lyapunov_error = exponent_.error();
-    }
-    recorder_.keep_last(setting_->options.keep);
-    result_.samples = std::move(recorder_.samples());
-    return false;
 }
 
 namespace {

@@ -42,6 +42,7 @@ private:
     bool fills_a_torus();
     bool may_fill_a_torus();
     bool consider_orbit();
+    std::optional<Equilibrium> equilibrium_of_orbit();
     std::optional<bool> consider_rest(std::span<const double> state, std::size_t mode);
     bool comes_closer(const Equilibrium& equilibrium);
     std::optional<bool> leave_equilibrium(const Equilibrium& equilibrium, double distance);

@@ -59,7 +59,7 @@ bool Trajectory::classify(std::size_t w, double step) {
     const auto c = event_series(w);
     const double size = series_size(c, step);
     const bool served = event == served_;
-    const bool due = std::find(together_.begin(), together_.end(), event) != together_.end();
+    const bool due = is_due(event);
     Watch& watch = watches_[w];
     watch = {};
     weigh_terms(w);
@@ -67,17 +67,8 @@ bool Trajectory::classify(std::size_t w, double step) {
     sizes.of_arc = sizes.rate = 0;
     sizes.terms = terms_[0];
     sizes.left_surface = false;
-    double at_surface = roundoff * std::max(size, terms_[0]);
-    if (served || due)
-        at_surface = std::max(at_surface, served_roundoff * size + 2 * std::abs(surface_values_[event]));
-    else if (c[0] > 0) // no contact put it there: as far from the surface as its own terms can tell
-        at_surface = roundoff * terms_[0];
     double drifted = 0;
-    if (c[0] < -at_surface) { // beyond the surface, or only so far as nobody can tell
-        at_surface = std::max(at_surface, uncertainty_at_start(w, size));
-        if (c[0] < -at_surface)
-            at_surface = drifted = drift(event, std::max(size, terms_[0]));
-    }
+    const double at_surface = surface_at_start(w, size, drifted);
     if (std::abs(c[0]) > at_surface) {
         watch.side = c[0] > 0 ? 1 : -1;
         if (watch.side > 0 || definition.kind == EventKind::section)
@@ -86,11 +77,7 @@ bool Trajectory::classify(std::size_t w, double step) {
             make_contact(w, 0);
             return false;
         }
-        finish(
-            Ending::inadmissible, time_,
-            fmt::format("barrier '{}' is already violated ({:.6g} < 0) {}: choose an initial state on its admissible "
-                        "side, or a jump that does not lead beyond it",
-                        definition.name, c[0], where()));
+        finish_violated(w);
         return false;
     }
     sizes.left_surface = true;
@@ -116,6 +103,36 @@ bool Trajectory::classify(std::size_t w, double step) {
     }
     stick(w, mode.transitions[w], 0, 0);
     return false;
+}
+
+void Trajectory::finish_violated(std::size_t w) {
+    const Event& event = simulation_->model().events[simulation_->compiled().mode(mode_).watched[w]];
+    finish(Ending::inadmissible, time_,
+           fmt::format("barrier '{}' is already violated ({:.6g} < 0) {}: choose an initial state on its admissible "
+                       "side, or a jump that does not lead beyond it",
+                       event.name, event_series(w)[0], where()));
+}
+
+bool Trajectory::is_due(std::size_t event) const {
+    return std::find(together_.begin(), together_.end(), event) != together_.end();
+}
+
+/// How close to zero a watched event's function is on its surface at the start of an arc. Call after weigh_terms.
+/// @param size of its series; @param drifted that of it which is put down to a drift along the surface, or 0
+double Trajectory::surface_at_start(std::size_t w, double size, double& drifted) {
+    const std::size_t event = simulation_->compiled().mode(mode_).watched[w];
+    const double value = event_series(w)[0];
+    double at_surface = roundoff * std::max(size, terms_[0]);
+    if (event == served_ || is_due(event))
+        at_surface = std::max(at_surface, served_roundoff * size + 2 * std::abs(surface_values_[event]));
+    else if (value > 0) // no contact put it there: as far from the surface as its own terms can tell
+        at_surface = roundoff * terms_[0];
+    if (value < -at_surface) { // beyond the surface, or only so far as nobody can tell
+        at_surface = std::max(at_surface, uncertainty_at_start(w, size));
+        if (value < -at_surface)
+            at_surface = drifted = drift(event, std::max(size, terms_[0]));
+    }
+    return at_surface;
 }
 
 /// How far from zero a watched event's function may be at the start of an arc although the state is meant to be on its

@@ -244,11 +244,7 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
     largest_step_ = std::max(largest_step_, std::min(proposed_, remaining));
     if (proposed_ < shortest_step()) {
         announce_contact();
-        if (branch_ahead_ < states_)
-            return finish_at_branch(branch_ahead_);
-        // Where a series has only a few terms its last ones are round-off, and their ratio is no radius.
-        const double radius = step_size_.radius(series_.first(states_));
-        return finish(Ending::singular, time_ + std::min(radius, 16 * proposed_));
+        return branch_ahead_ < states_ ? finish_at_branch(branch_ahead_) : finish_singular();
     }
     double step = outlook.length(lane);
     const std::size_t jumping = limit_to_branch(step);
@@ -366,6 +362,12 @@ void Trajectory::finish(Ending ending, double time, std::string detail) {
 
 std::string Trajectory::where() const {
     return fmt::format("in mode '{}' at time {:.15g}", simulation_->model().modes[mode_].name, time_);
+}
+
+void Trajectory::finish_singular() {
+    // Where a series has only a few terms its last ones are round-off, and their ratio is no radius.
+    const double radius = step_size_.radius(series_.first(states_));
+    finish(Ending::singular, time_ + std::min(radius, 16 * proposed_));
 }
 
 void Trajectory::finish_unresolved() {

@@ -120,6 +120,7 @@ private:
     void add_time(double step);
     void finish(Ending ending, double time, std::string detail = {});
     void finish_undefined();
+    void finish_singular();
     void finish_unresolved();
     std::string where() const;
     // Roots of what falls to zero (branch_point.cpp)
@@ -157,6 +158,9 @@ private:
     // The start of an arc (arc_start.cpp)
     void begin_arc(double step);
     bool classify(std::size_t watched, double step);
+    double surface_at_start(std::size_t watched, double size, double& drifted);
+    bool is_due(std::size_t event) const;
+    void finish_violated(std::size_t watched);
     double uncertainty_at_start(std::size_t watched, double size);
     double drift(std::size_t event, double size) const;
     bool fell_before(std::size_t watched, double at_surface);

@@ -1,0 +1,145 @@
+// Motions that rest, will rest, or sit on something unstable.
+
+#include "sweep/approach.hpp"
+#include "sweep/attractor_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t most_disturbances = 3;
+constexpr double share_left = 0.1; ///< of a displacement, within which a motion has not been displaced yet
+constexpr double at_rest = 1e-8;   ///< distance between an orbit and an equilibrium that are the same
+
+} // namespace
+
+/// Whether the motion rests, or will, is seen from the field alone.
+/// @return what `proceed` returns, if anything was found
+std::optional<bool> AttractorSearch::consider_rest(std::span<const double> state, std::size_t mode) {
+    const auto equilibrium = equilibria_.find(state, mode, watcher_.widest());
+    if (!equilibrium)
+        return std::nullopt;
+    const double distance = equilibria_.distance(*equilibrium, state);
+    if (equilibrium->is_stable()) {
+        if (equilibria_.is_linear_within(*equilibrium, distance, true) ||
+            (comes_closer(*equilibrium) && equilibria_.is_linear_within(*equilibrium, distance, false)))
+            return finish_equilibrium(*equilibrium);
+        return std::nullopt;
+    }
+    return equilibrium->is_unstable() ? leave_equilibrium(*equilibrium, distance) : std::nullopt;
+}
+
+/// Whether a motion about a stable equilibrium has come closer from return to return, at least half as fast as its
+/// linear part foretells. Weakly damped motions are linear to that degree only when next to nothing is left of them.
+bool AttractorSearch::comes_closer(const Equilibrium& equilibrium) {
+    constexpr std::size_t fewest = 4;
+    const std::size_t last = std::min<std::size_t>(watcher_.remembered(), 2 * fewest + 1);
+    if (last <= fewest)
+        return false;
+    std::vector<double> distances;
+    for (std::size_t k = 0; k < last; ++k) {
+        const Return& one = watcher_.recent(k);
+        if (one.mode != equilibrium.mode || !one.contacts.empty())
+            return false;
+        distances.push_back(equilibria_.distance(equilibrium, one.state));
+        if (k > 0 && !(distances[k - 1] < distances[k]))
+            return false;
+    }
+    const double time = watcher_.recent(0).time - watcher_.recent(last - 1).time;
+    return std::log(distances.front() / distances.back()) <= 0.5 * equilibrium.growth() * time;
+}
+
+/// A motion that sits on an unstable equilibrium is displaced.
+std::optional<bool> AttractorSearch::leave_equilibrium(const Equilibrium& equilibrium, double distance) {
+    const double size = setting_->options.disturbance, usual = AttractorOptions{}.disturbance;
+    const std::vector<double> state = equilibria_.displaced(equilibrium, size > 0 ? size : usual);
+    if (!(distance <= share_left * equilibria_.distance(equilibrium, state)))
+        return std::nullopt;
+    if (size == 0)
+        return finish_still();
+    if (disturbances_ >= most_disturbances)
+        return std::nullopt;
+    ++disturbances_;
+    displace(state, equilibrium.mode, watcher_.returns() > 1 ? watcher_.recent(0).time - watcher_.recent(1).time : 0);
+    return true;
+}
+
+void AttractorSearch::displace(std::span<const double> state, std::size_t mode, double duration) {
+    std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
+    restart(state, mode, duration);
+    if (exponent_.begun() && !confirming_)
+        start_exponent();
+}
+
+/// The motion sits on something unstable, and is not to be displaced.
+bool AttractorSearch::finish_still() {
+    finish(Label::unsettled);
+    result_.outcome.detail = "the motion sits on an unstable orbit or equilibrium; allow a disturbance to displace it";
+    return false;
+}
+
+/// An orbit on which nothing but clocks moves is an equilibrium: that one, if it is so.
+std::optional<Equilibrium> AttractorSearch::equilibrium_of_orbit() {
+    auto equilibrium = equilibria_.find(finder_.point(), finder_.mode(), watcher_.widest());
+    if (equilibrium && finder_.contacts().empty() && equilibria_.distance(*equilibrium, finder_.point()) < at_rest)
+        return equilibrium;
+    if (!does_not_move())
+        return std::nullopt;
+    // Motions come to it more slowly than any linear one.
+    equilibrium.emplace();
+    equilibrium->state.assign(finder_.point().begin(), finder_.point().end());
+    equilibrium->mode = finder_.mode();
+    equilibrium->driven = true;
+    const bool attracts = finder_.multipliers().empty() || std::abs(finder_.multipliers().front()) < 1;
+    return attracts ? equilibrium : std::nullopt;
+}
+
+/// Whether nothing but clocks moves along the orbit that was found.
+bool AttractorSearch::does_not_move() const {
+    constexpr double nothing = 1e-10; ///< relative to the states and what the motion has gone through
+    if (!finder_.contacts().empty())
+        return false;
+    for (std::size_t i = 0; i < periods_.size(); ++i)
+        if (finder_.is_active(i) &&
+            !(finder_.extents()[i] <= nothing * std::max(watcher_.range(i), std::abs(finder_.point()[i]))))
+            return false;
+    return true;
+}
+
+/// A motion on an unstable orbit would stay there until round-off has grown: it is displaced.
+std::optional<bool> AttractorSearch::leave_unstable_orbit(const Equilibrium* equilibrium) {
+    const double size = setting_->options.disturbance, usual = AttractorOptions{}.disturbance;
+    if (finder_.multipliers().empty() || std::abs(finder_.multipliers().front()) <= 1 ||
+        disturbances_ >= most_disturbances ||
+        watcher_.distance(watcher_.recent(0).state, finder_.point()) > (size > 0 ? size : usual))
+        return std::nullopt;
+    if (size == 0)
+        return finish_still();
+    ++disturbances_;
+    const double duration = finder_.duration() / static_cast<double>(finder_.period());
+    if (equilibrium) {
+        displace(equilibria_.displaced(*equilibrium, size), finder_.mode(), duration);
+        return true;
+    }
+    const std::span<const double> scale = watcher_.scale();
+    std::vector<double> state(finder_.point().begin(), finder_.point().end()), deviation(state.size());
+    subtract_states(watcher_.recent(0).state, state, periods_, deviation);
+    const Eigen::VectorXd& direction = finder_.leading_direction();
+    double length = 0, along = 0;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        const double component = direction[static_cast<Eigen::Index>(i)] / scale[i];
+        length = std::max(length, std::abs(component));
+        along += component * deviation[i] / scale[i];
+    }
+    if (!(length > 0))
+        return std::nullopt;
+    for (std::size_t i = 0; i < state.size(); ++i)
+        state[i] += (along < 0 ? -size : size) * direction[static_cast<Eigen::Index>(i)] / length;
+    displace(state, finder_.mode(), duration);
+    return true;
+}
+
+} // namespace graze
