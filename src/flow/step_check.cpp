@@ -120,7 +120,7 @@ double StepCheck::misfit_of_values(double s) {
         const double sum = sizes_at(c, order_, length).value,
                      first = std::abs(c[0]) + length * (std::abs(c[1]) + length * std::abs(c[2]));
         const double size = std::max(first > 0 ? first : sum, floors_.empty() ? 0 : floors_[j]);
-        double allowed = value_allowance * tolerance_ * size;
+        double allowed = value_allowance * tolerance_ * (size + smallest_size);
         if (!(difference <= allowed)) {
             find_errors(s);
             allowed += roundoff_allowance * (errors_[j] + unit * sum);

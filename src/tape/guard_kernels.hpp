@@ -16,14 +16,23 @@ inline double size_of(const Series& series, int k, int lane) {
 
 /// How far an argument may change from where it is. Where the function is constant to the last digit, up to where it
 /// begins to be seen; a function that is seen limits the step by its own coefficients.
-inline double allowed_change(const Guards& guards, std::size_t argument, int order, int lane) {
-    constexpr double exponential_seen = 40, tangent_seen = 17, tangent_constant = 19;
-    const double now = guards.arguments[argument].first[lane];
-    if (guards.kinds[argument] == GuardKind::exponential && -now - exponential_seen > largest_change(order))
-        return -now - exponential_seen;
-    if (guards.kinds[argument] == GuardKind::hyperbolic_tangent && __builtin_fabs(now) > tangent_constant)
-        return __builtin_fabs(now) - tangent_seen;
-    return largest_change(order);
+inline double allowed_change(const GuardedArgument& argument, int order, int lane) {
+    constexpr double exponential_seen = 40, tangent_seen = 17, tangent_constant = 19, exponential_vanishes = -800;
+    const double now = argument.series.first[lane], size = __builtin_fabs(now);
+    const double usual = argument.absolute + size * argument.relative;
+    switch (argument.kind) {
+    case GuardKind::exponential:
+        // Zero, with series that are too large for numbers.
+        if (now < exponential_vanishes && !(size_of(argument.series, order, lane) < __builtin_inf()))
+            return __builtin_inf();
+        return greater(usual, -now - exponential_seen);
+    case GuardKind::hyperbolic_tangent:
+        return size > tangent_constant ? size - tangent_seen : usual;
+    case GuardKind::power:
+        return greater(usual, argument.seen - size);
+    default:
+        return usual;
+    }
 }
 
 /// Shortens the step of one lane, if it is finite, until its guards allow it.
@@ -31,11 +40,14 @@ inline double guarded(const Guards& guards, int order, int lane, double step) {
     if (!(step < __builtin_inf()))
         return step;
     for (std::size_t i = 0; i < guards.argument_count; ++i) {
-        const double allowed = allowed_change(guards, i, order, lane);
+        const Series& series = guards.arguments[i].series;
+        const double allowed = allowed_change(guards.arguments[i], order, lane);
+        if (!(allowed < __builtin_inf()))
+            continue;
         for (int sweep = 0; sweep < 100; ++sweep) {
             double change = 0;
             for (int k = order; k > 0; --k)
-                change = (change + size_of(guards.arguments[i], k, lane)) * step;
+                change = (change + size_of(series, k, lane)) * step;
             if (!(change > allowed))
                 break;
             // At least as much as the highest power asks for, so that a few sweeps are enough.
@@ -48,9 +60,13 @@ inline double guarded(const Guards& guards, int order, int lane, double step) {
         for (int sweep = 0; sweep < 100; ++sweep) {
             const double last = greater(size_of(series, order, lane) * step, size_of(series, order - 1, lane)) *
                                 integer_power(step, order - 1);
-            const double size =
+            double size =
                 size_of(series, 0, lane) + step * (size_of(series, 1, lane) + step * size_of(series, 2, lane));
-            if (!(last > size * largest_share.of[order - 1]))
+            if (size == 0) { // it has only begun to differ from zero
+                for (int k = order; k > 0; --k)
+                    size = (size + size_of(series, k, lane)) * step;
+            }
+            if (!(last > size * largest_share.of[order - 1]) || last < smallest_size)
                 break;
             step *= last < 1e300 ? 0.99 * ::pow(size * largest_share.of[order - 1] / last, 1.0 / (order - 1)) : 0.1;
         }
@@ -69,10 +85,12 @@ void guard(const Guards& guards, int order, double* steps) {
         return absolute(Numbers<L>::load(series.first + static_cast<std::size_t>(k) * Numbers<V>::width));
     };
     for (std::size_t i = 0; i < guards.argument_count; ++i) {
-        L change = at(guards.arguments[i], order);
+        const GuardedArgument& argument = guards.arguments[i];
+        L change = at(argument.series, order);
         for (int k = order; k-- > 1;)
-            change = multiply_add(change, step, at(guards.arguments[i], k));
-        most = greater(most, multiply_add(change, step, number<L>(-largest_change(order))));
+            change = multiply_add(change, step, at(argument.series, k));
+        const L allowed = at(argument.series, 0) * argument.relative + number<L>(argument.absolute);
+        most = greater(most, multiply_add(change, step, -allowed));
     }
     if (guards.quotient_count > 0) {
         const L power = integer_power(step, order - 1);

@@ -4,6 +4,7 @@
 #include "tape/tape_analysis.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -25,6 +26,8 @@ const KernelTable& table_of(LaneKind kind, [[maybe_unused]] InstructionSet set) 
 
 /// Where kernels do not jump but call each other, as without optimisation, this bounds the depth of the stack.
 constexpr std::size_t longest_chain = 64;
+/// Logarithm of what is lost beside one.
+constexpr double nothing = 40;
 
 void end_of_chain(const KernelOperands*, const KernelLink*, int) {}
 
@@ -136,11 +139,11 @@ private:
     std::vector<KernelStep> constant_code_;
     std::vector<Copy> constant_copies_; ///< to rates and outputs that are constants
     std::vector<const double*> outputs_;
-    std::vector<Series> series_;                             ///< states and outputs
-    std::vector<Series> followed_, lines_;                   ///< the same, sorted as steps want them
-    FollowedSeries to_follow_{};                             ///< both
-    std::vector<Series> arguments_, quotients_;              ///< guards of the steps
-    std::vector<GuardKind> kinds_;                           ///< of the arguments
+    std::vector<Series> series_;           ///< states and outputs
+    std::vector<Series> followed_, lines_; ///< the same, sorted as steps want them
+    FollowedSeries to_follow_{};           ///< both
+    std::vector<GuardedArgument> arguments_;
+    std::vector<Series> quotients_;
     Guards guards_{};                                        ///< all of them
     std::vector<Series> compared_states_, compared_outputs_; ///< at ends of steps
     std::vector<std::size_t> compared_indices_;              ///< of those states
@@ -178,13 +181,20 @@ TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
     for (const double* output : outputs_)
         series_.push_back({output, layout_.number});
     const GuardingRegisters guards = guarding_registers(tape);
-    for (const auto& [index, kind] : guards.arguments) {
-        arguments_.push_back({register_at(index), layout_.number});
-        kinds_.push_back(kind);
+    // Twice as far as to where the terms of an exponential or a sine are largest, and not so far that its last ones
+    // grow.
+    const double change = order < 6 ? 0.7 * order : 4;
+    for (const auto& [index, kind, exponent] : guards.arguments) {
+        const bool power = kind == GuardKind::power;
+        arguments_.push_back({{register_at(index), layout_.number},
+                              kind,
+                              power ? 0 : change,
+                              power ? change / exponent : 0,
+                              power ? std::exp(-nothing / exponent) : 0});
     }
     for (const std::uint32_t index : guards.quotients)
         quotients_.push_back({register_at(index), layout_.number});
-    guards_ = {arguments_.data(), kinds_.data(), arguments_.size(), quotients_.data(), quotients_.size()};
+    guards_ = {arguments_.data(), arguments_.size(), quotients_.data(), quotients_.size()};
     sort_series(tape);
     find_constants(tape, table);
     compute_constants();

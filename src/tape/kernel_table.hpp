@@ -39,12 +39,21 @@ struct KernelLink {
     Kernel kernel;
 };
 
-enum class GuardKind : unsigned char { other, exponential, hyperbolic_tangent };
+enum class GuardKind : unsigned char { other, exponential, hyperbolic_tangent, power };
+
+/// The argument of a function without singularities, such as exp: how far it may change over a step is bounded.
+struct GuardedArgument {
+    Series series;
+    GuardKind kind;  ///< of its function
+    double absolute; ///< bound on its change ...
+    double
+        relative; ///< ... and what is added to that for each unit of its size: high powers follow that of the logarithm
+    double seen;  ///< size below which a power is nothing beside one
+};
 
 /// Intermediate series that say how far others may be followed, whatever their own share of the sums that they enter.
 struct Guards {
-    const Series* arguments; ///< of functions without singularities (exp, sin): how far they may change is bounded
-    const GuardKind* kinds;  ///< of their functions
+    const GuardedArgument* arguments;
     std::size_t argument_count;
     const Series* quotients; ///< and roots, which have singularities: they must converge
     std::size_t quotient_count;

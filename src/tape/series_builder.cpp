@@ -127,7 +127,8 @@ LinearForm SeriesBuilder::power(LinearForm base, LinearForm exponent) {
         if (*value == 0)
             return constant(one_);
         if (std::trunc(*value) == *value)
-            return integer_power(split(base), *value);
+            // A factor that is split off would leave the range of numbers in a high power.
+            return integer_power(std::abs(*value) < 64 ? split(base) : Scaled{one_, reg_of(base)}, *value);
         if (std::trunc(2 * *value) == 2 * *value)
             return half_integer_power(reg_of(base), *value);
     }

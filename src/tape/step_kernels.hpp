@@ -96,11 +96,6 @@ GRAZE_INLINE L integer_power(L a, int exponent) {
 /// Of the last two terms to the two before. At the optimal step of a series with a finite radius it is 0.02.
 inline constexpr double largest_growth = 0.5;
 
-/// How far the argument of an exponential or a sine may change over a step: twice as far as where these are the largest
-/// that there is, and not so far that the last terms of its series grow.
-constexpr double largest_change(int order) {
-    return order < 6 ? 0.7 * order : 4;
-}
 /// Of the last terms of a quotient, in its size: at 0.7 of its radius of convergence.
 struct LargestShares {
     double of[highest_order + 1] = {};

@@ -112,7 +112,8 @@ void disagreement(const EndComparison& comparison, const EndValues& ends, const 
         const L size =
             absolute(at<L>(series, 0)) + length * (absolute(at<L>(series, 1)) + length * absolute(at<L>(series, 2)));
         const L difference = absolute(value - at<L>(ends.there + (series - ends.here), 0));
-        const L excess = difference - (size * ends.allowance.values + terms * round_off);
+        const L excess =
+            difference - ((size + Numbers<L>::of(ends.allowance.smallest)) * ends.allowance.values + terms * round_off);
         most = greater(most, excess);
         sum = sum + excess;
     }

@@ -1,6 +1,8 @@
 #include "tape/tape_analysis.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace graze {
 
@@ -90,10 +92,41 @@ std::vector<bool> needed_registers(const Tape& tape) {
     return needed;
 }
 
+namespace {
+
+/// Powers high enough to be narrow peaks where their bases are not: their bases are guarded, each with its highest
+/// power.
+void add_powers(const Tape& tape, GuardingRegisters& guards) {
+    constexpr double high = 64;
+    std::vector<std::uint32_t> base(tape.registers);
+    std::iota(base.begin(), base.end(), 0U);
+    std::vector<double> power(tape.registers, 1), highest(tape.registers, 1);
+    const auto set = [&](std::uint32_t result, std::uint32_t of, double exponent) {
+        base[result] = base[of];
+        power[result] = exponent;
+        highest[base[of]] = std::max(highest[base[of]], std::abs(exponent));
+    };
+    for (const Instruction& instruction : tape.code) {
+        if (instruction.operation == SeriesOperation::square)
+            set(instruction.result, instruction.left, 2 * power[instruction.left]);
+        if (instruction.operation == SeriesOperation::multiply && base[instruction.left] == base[instruction.right])
+            set(instruction.result, instruction.left, power[instruction.left] + power[instruction.right]);
+        if (instruction.operation == SeriesOperation::power_constant)
+            for (const auto& [index, value] : tape.literals)
+                if (index == instruction.right)
+                    set(instruction.result, instruction.left, value * power[instruction.left]);
+    }
+    for (std::uint32_t index = 0; index < tape.registers; ++index)
+        if (highest[index] >= high && tape.degrees[index] > 0)
+            guards.arguments.push_back({index, GuardKind::power, highest[index]});
+}
+
+} // namespace
+
 GuardingRegisters guarding_registers(const Tape& tape) {
     GuardingRegisters guards;
     const auto add = [&](std::uint32_t reg, GuardKind kind) {
-        const std::pair guard{reg, kind};
+        const GuardingRegisters::Argument guard{reg, kind, 1};
         if (std::find(guards.arguments.begin(), guards.arguments.end(), guard) == guards.arguments.end())
             guards.arguments.push_back(guard);
     };
@@ -131,6 +164,7 @@ GuardingRegisters guarding_registers(const Tape& tape) {
             break;
         }
     }
+    add_powers(tape, guards);
     return guards;
 }
 

@@ -56,9 +56,16 @@ std::vector<bool> needed_registers(const Tape& tape);
 std::vector<bool> affine_registers(const Tape& tape);
 
 /// Registers whose series tell how far others may be followed, whatever their share of the sums that they enter:
-/// arguments of functions without singularities, or quotients, roots and other functions that have some.
+/// arguments of functions without singularities, bases of high powers, or quotients, roots and other functions that
+/// have some.
 struct GuardingRegisters {
-    std::vector<std::pair<std::uint32_t, GuardKind>> arguments;
+    struct Argument {
+        std::uint32_t index;
+        GuardKind kind;
+        double exponent = 1; ///< of a power
+        bool operator==(const Argument&) const = default;
+    };
+    std::vector<Argument> arguments;
     std::vector<std::uint32_t> quotients;
 };
 GuardingRegisters guarding_registers(const Tape& tape);

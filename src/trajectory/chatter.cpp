@@ -23,12 +23,14 @@ constexpr int fewest_contacts_of_chatter = 3;
 void Trajectory::remember_contact(std::size_t event, double rate) {
     ContactHistory& history = histories_[event];
     ++contacts_;
-    history.count = history.count > 0 && rate > history.rate ? history.count + 1 : 1;
+    // Of a speed below round-off not even the sign may be right.
+    const bool slower = rate > history.rate || rate > 0;
+    history.count = history.count > 0 && slower ? history.count + 1 : 1;
     history.interrupted = contacts_ != history.serial + 1;
     history.serial = contacts_;
     history.flight = time_ - history.time;
     history.time = time_;
-    history.rate = rate;
+    history.rate = rate > 0 && slower ? std::min(history.rate, 0.0) : rate;
     history.previous_speed = history.speed;
     history.speed = 0;
 }

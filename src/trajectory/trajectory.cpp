@@ -214,15 +214,15 @@ double Trajectory::limited_by_floors(double step) {
 /// Shortens a step until polynomials and model agree at its end, and within as well if it is a leap. Returns false if
 /// they do so nowhere.
 bool Trajectory::check_step(double& step, const Outlook& outlook, std::size_t lane) {
-    if (outlook.agrees(lane) && !leap_ && step == outlook.length(lane)) {
+    const bool agrees = outlook.agrees(lane) && !leap_ && step == outlook.length(lane);
+    const double longest =
+        agrees ? step
+               : step_check_.longest(mode_, series_, step, leap_, floored_ ? floors_ : std::span<const double>{});
+    if (longest == step) {
         if (believed_ > 0)
             believed_ = proposed_ < believed_ ? 0 : 2 * proposed_;
         return true;
     }
-    const double longest =
-        step_check_.longest(mode_, series_, step, leap_, floored_ ? floors_ : std::span<const double>{});
-    if (longest == step)
-        return true;
     believed_ = 2 * longest;
     step = proposed_ = longest;
     return step > shortest_step();
@@ -242,7 +242,7 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
     }
     const double remaining = (end_time_ - time_) - time_low_;
     largest_step_ = std::max(largest_step_, std::min(proposed_, remaining));
-    if (proposed_ < shortest_step()) {
+    if (!(proposed_ > 0) || proposed_ < shortest_step()) {
         announce_contact();
         return branch_ahead_ < states_ ? finish_at_branch(branch_ahead_) : finish_singular();
     }
@@ -367,7 +367,7 @@ std::string Trajectory::where() const {
 void Trajectory::finish_singular() {
     // Where a series has only a few terms its last ones are round-off, and their ratio is no radius.
     const double radius = step_size_.radius(series_.first(states_));
-    finish(Ending::singular, time_ + std::min(radius, 16 * proposed_));
+    finish(Ending::singular, std::min(time_ + std::min(radius, 16 * proposed_), end_time_));
 }
 
 void Trajectory::finish_unresolved() {

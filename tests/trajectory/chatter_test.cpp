@@ -132,7 +132,7 @@ TEST(Chatter, RandomBallsComeToRestAndNeverPassTheFloor) {
     Random random(11);
     long late = 0, below = 0, other = 0;
     double worst = 0, lowest = 0;
-    for (int i = 0; i < 10000; ++i) {
+    for (int i = 0; i < 3000; ++i) {
         const double e = random.uniform(0, 0.95), g = random.log_uniform(1e-2, 1e3);
         const double height = random.chance(0.1) ? 0 : random.log_uniform(1e-6, 1e3), v = random.uniform(0, 10);
         const Real speed = std::sqrt(Real(v) * v + 2 * Real(g) * height);

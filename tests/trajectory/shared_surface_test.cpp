@@ -105,7 +105,7 @@ Model counting_ball(double e, double drag, const std::string& section, bool firs
 
 TEST(SharedSurface, ASectionWhereABarrierIsIsServedAsWell) {
     Random random(54);
-    for (int i = 0; i < 10000; ++i) {
+    for (int i = 0; i < 3000; ++i) {
         const bool first = random.chance(0.5), starts_at_rest = random.chance(0.5);
         const double e = random.uniform(0.3, 0.9), height = random.log_uniform(1e-9, 1e6);
         const double factor = random.chance(0.3) ? 3 : random.log_uniform(1e-9, 1e9);

@@ -29,7 +29,7 @@ inline constexpr int highest_order = 32;
 /// By how much ends of steps may differ from what the model says there.
 struct EndAllowance {
     double rates = 0, values = 0; ///< shares of the sizes of states and outputs that differences may come to
-    double smallest = 0;          ///< added to sizes of states
+    double smallest = 0;          ///< added to sizes
 };
 
 /// Computes Taylor coefficients of states and outputs of a tape (Jorba and Zou 2005; Griewank and Walther 2008,
