@@ -115,8 +115,8 @@ private:
         double* to;
     };
 
-    void add_segment(const std::vector<KernelStep>& steps);
-    void find_chains();
+    void add_segment(const std::vector<KernelStep>& steps, std::vector<Segment>& segments);
+    void find_chains(const std::vector<Segment>& segments);
     void find_constants(const Tape& tape, const KernelTable& table);
     void compute_constants();
     void set_states(std::span<const double> states);
@@ -133,9 +133,8 @@ private:
     std::vector<TermOperands> terms_;
     std::vector<KernelLink> kernels_;
     std::vector<KernelOperands> operands_;
-    std::vector<Segment> segments_; ///< by order
-    std::vector<Chain> chains_;     ///< in their order
-    std::size_t beginning_ = 0;     ///< chains of orders 0 and 1
+    std::vector<Chain> chains_; ///< in their order
+    std::size_t beginning_ = 0; ///< chains of orders 0 and 1
     std::vector<KernelStep> constant_code_;
     std::vector<Copy> constant_copies_; ///< to rates and outputs that are constants
     std::vector<const double*> outputs_;
@@ -162,9 +161,10 @@ TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
         terms_.push_back({register_at(term.series), memory_.data() + term.coefficient * layout_.number});
 
     const StepFinder finder(tape, table, layout_, memory_.data(), terms_);
+    std::vector<Segment> segments;
     for (int k = 0; k <= order; ++k)
-        add_segment(finder.steps(k));
-    find_chains();
+        add_segment(finder.steps(k), segments);
+    find_chains(segments);
 
     std::size_t constant_outputs = 0;
     for (const Tape::Location& location : tape.outputs) {
@@ -226,17 +226,17 @@ void TapeJet::sort_series(const Tape& tape) {
                    compared_outputs_.data(), compared_outputs_.size(), order_};
 }
 
-void TapeJet::add_segment(const std::vector<KernelStep>& steps) {
-    if (!segments_.empty()) {
-        const Segment& last = segments_.back();
+void TapeJet::add_segment(const std::vector<KernelStep>& steps, std::vector<Segment>& segments) {
+    if (!segments.empty()) {
+        const Segment& last = segments.back();
         bool same = last.count == steps.size();
         for (std::size_t i = 0; same && i < steps.size(); ++i)
             same = same_operands({nullptr, operands_[last.operands + i]}, steps[i]);
-        segments_.push_back({kernels_.size(), same ? last.operands : operands_.size(), steps.size()});
+        segments.push_back({kernels_.size(), same ? last.operands : operands_.size(), steps.size()});
     } else {
-        segments_.push_back({0, 0, steps.size()});
+        segments.push_back({0, 0, steps.size()});
     }
-    const bool new_operands = segments_.back().operands == operands_.size();
+    const bool new_operands = segments.back().operands == operands_.size();
     for (std::size_t i = 0; i < steps.size(); ++i) {
         if (i > 0 && i % longest_chain == 0)
             kernels_.push_back({end_of_chain});
@@ -247,9 +247,9 @@ void TapeJet::add_segment(const std::vector<KernelStep>& steps) {
     kernels_.push_back({end_of_chain});
 }
 
-void TapeJet::find_chains() {
+void TapeJet::find_chains(const std::vector<Segment>& segments) {
     for (int k = 0; k <= order_; ++k) {
-        const Segment& segment = segments_[static_cast<std::size_t>(k)];
+        const Segment& segment = segments[static_cast<std::size_t>(k)];
         const KernelLink* link = kernels_.data() + segment.kernels;
         const KernelOperands* operands = operands_.data() + segment.operands;
         for (std::size_t done = 0; done < segment.count; done += longest_chain) {

@@ -46,9 +46,8 @@ struct GuardedArgument {
     Series series;
     GuardKind kind;  ///< of its function
     double absolute; ///< bound on its change ...
-    double
-        relative; ///< ... and what is added to that for each unit of its size: high powers follow that of the logarithm
-    double seen;  ///< size below which a power is nothing beside one
+    double relative; ///< ... and what each unit of its size adds: a high power follows that of the logarithm
+    double seen;     ///< size below which a power is nothing beside one
 };
 
 /// Intermediate series that say how far others may be followed, whatever their own share of the sums that they enter.

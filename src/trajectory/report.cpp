@@ -19,8 +19,8 @@ bool Trajectory::make_step(double& length) {
     if (length > 4 * std::numeric_limits<double>::epsilon() * std::abs(time_))
         contacts_now_ = 0;
     const std::size_t watched = simulation_->compiled().mode(mode_).watched.size();
-    if (!simulation_->probes().empty() &&
-        series_.data() == lane_series_.data()) // roots are sought in those without gaps
+    // Roots are sought in series without gaps.
+    if (!simulation_->probes().empty() && series_.data() == lane_series_.data())
         for (std::size_t i = 0; i < series_.size(); ++i)
             series(i);
     Step step;

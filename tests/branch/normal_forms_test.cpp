@@ -250,12 +250,11 @@ TEST(NormalForms, pairs_within_one_step_are_found) {
     }
 }
 
-/// A motion that explicit steps must follow in half a million of them, since what it slides along attracts it with 3000
-/// per unit of time.
-TEST(NormalFormsSlow, relaxation_oscillation_is_followed_for_as_long_as_it_is_told) {
-    const Model model = model_from(R"toml(
+/// Van der Pol's oscillator from x = 2, with a section where x is largest.
+Model van_der_pol(double mu, double v) {
+    Model model = model_from(R"toml(
 [parameters]
-mu = 1000
+mu = 1
 [states]
 x = 2
 v = 0
@@ -265,6 +264,15 @@ rates = { x = "v", v = "mu*(1 - x^2)*v - x" }
 function = "v"
 direction = "falling"
 )toml");
+    model.set_parameter("mu", mu);
+    model.set_initial("v", v);
+    return model;
+}
+
+/// A motion that explicit steps must follow in half a million of them, since what it slides along attracts it with 3000
+/// per unit of time.
+TEST(NormalFormsSlow, relaxation_oscillation_is_followed_for_as_long_as_it_is_told) {
+    const Model model = van_der_pol(1000, 0);
     AttractorOptions options;
     options.section = "top";
     options.longest_return = 4000;
@@ -280,18 +288,7 @@ direction = "falling"
 }
 
 TEST(NormalForms, search_for_an_orbit_ends_when_it_is_interrupted) {
-    const Model model = model_from(R"toml(
-[parameters]
-mu = 1
-[states]
-x = 2
-v = 0.1
-[modes.only]
-rates = { x = "v", v = "mu*(1 - x^2)*v - x" }
-[sections.top]
-function = "v"
-direction = "falling"
-)toml");
+    const Model model = van_der_pol(1, 0.1);
     AttractorOptions options;
     options.section = "top";
     int asked = 0;
@@ -300,18 +297,7 @@ direction = "falling"
 }
 
 TEST(NormalForms, van_der_pol_has_its_published_period) {
-    const Model model = model_from(R"toml(
-[parameters]
-mu = 1
-[states]
-x = 2
-v = 0.1
-[modes.only]
-rates = { x = "v", v = "mu*(1 - x^2)*v - x" }
-[sections.top]
-function = "v"
-direction = "falling"
-)toml");
+    const Model model = van_der_pol(1, 0.1);
     const OrbitSolution solution = settled(model, "top");
     EXPECT_NEAR(solution.orbit.period(), 6.66328686, 1e-8);
     // The multiplier 1 of shifts along the orbit is not among them.

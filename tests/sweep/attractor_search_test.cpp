@@ -1,6 +1,6 @@
+#include "settle.hpp"
+
 #include "graze/model/catalogue.hpp"
-#include "graze/model/model_file.hpp"
-#include "graze/sweep/point_search.hpp"
 #include "graze/symbolic/parser.hpp"
 
 #include <gtest/gtest.h>
@@ -13,26 +13,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-PointResult settle(const Model& model, const AttractorOptions& options, std::vector<double> state = {},
-                   const SimulationOptions& simulation = {}) {
-    std::vector<Expression> values;
-    for (const Expression& symbol : model.state_symbols())
-        values.push_back(symbol);
-    Sampling sampling;
-    sampling.name = "returns";
-    sampling.section = options.section;
-    const auto factory = attractor_searches(model, options, {sampling}, values, simulation);
-    const auto search = factory->make();
-    if (state.empty())
-        state = model.initial_state();
-    search->begin(model.parameter_values(), state, model.initial_mode);
-    JetSet jets(factory->simulation(), LaneKind::single);
-    do
-        run(search->trajectory(), jets);
-    while (search->proceed());
-    return std::move(search->result());
-}
-
 PointResult settle(const Model& model, const std::string& section) {
     AttractorOptions options;
     options.section = section;
@@ -41,36 +21,7 @@ PointResult settle(const Model& model, const std::string& section) {
 
 /// z -> r z (1 - z) once in every unit of time.
 Model logistic(double r, double start = 0.3) {
-    Model model = parse_model(R"toml(
-name = "logistic"
-[parameters]
-r = 4
-z0 = 0.3
-[states]
-z = { initial = "z0" }
-theta = { initial = 0, period = 1 }
-[events]
-tick = { function = "cos(2*pi*theta)", kind = "section" }
-[modes.only]
-rates = { z = 0, theta = 1 }
-watch = ["tick"]
-[jumps.map]
-z = "r*z*(1 - z)"
-[[transitions]]
-mode = "only"
-event = "tick"
-jump = "map"
-next = "only"
-[sections.half]
-state = "theta"
-value = 0.5
-[initial]
-mode = "only"
-)toml",
-                              "logistic");
-    model.set_parameter("r", r);
-    model.set_parameter("z0", start);
-    return model;
+    return iterated(fmt::format("{:.17g}*z*(1 - z)", r), start);
 }
 
 TEST(AttractorSearch, logistic_map_has_its_known_periods) {

@@ -13,13 +13,14 @@
 namespace graze {
 
 /// What a model's motion settles on, from its initial state.
-inline PointResult settle(const Model& model, AttractorOptions options = {}, std::vector<double> state = {}) {
+inline PointResult settle(const Model& model, AttractorOptions options = {}, std::vector<double> state = {},
+                          const SimulationOptions& simulation = {}) {
     if (options.section.empty())
         options.section = model.sections.front().name;
     Sampling sampling;
     sampling.name = "returns";
     sampling.section = options.section;
-    const auto factory = attractor_searches(model, options, {sampling}, model.state_symbols(), {});
+    const auto factory = attractor_searches(model, options, {sampling}, model.state_symbols(), simulation);
     const auto search = factory->make();
     if (state.empty())
         state = model.initial_state();

@@ -19,10 +19,13 @@ struct Peak {
     std::string text;
     double integral = 0;
     double half_width = 0; ///< distance from the centre at which it is 1/2
+    double centre = 0;
+    double reach = 0; ///< how far from the centre there is no other peak
 };
 
 /// @param kind 0 .. 4
-Peak draw_peak(Random& random, int kind, double centre) {
+Peak draw_peak(Random& random, int kind) {
+    const double reach = kind == 3 ? 1.4 : kind == 4 ? 0.5 : 0.9, centre = random.uniform(-0.3, 0.3);
     const double n = std::round(random.log_uniform(64, 1e6));
     const auto raised = [&](const std::string& base, double exponent) {
         return fmt::format("({})^({:.17g})", base, exponent);
@@ -31,21 +34,22 @@ Peak draw_peak(Random& random, int kind, double centre) {
     const double log_half = std::log(2.0) / n;
     switch (kind) {
     case 0:
-        return {raised(fmt::format("exp(-{}^2)", u), n), std::sqrt(pi / n), std::sqrt(log_half)};
+        return {raised(fmt::format("exp(-{}^2)", u), n), std::sqrt(pi / n), std::sqrt(log_half), centre, reach};
     case 1:
         return {raised(fmt::format("1 - {}^2", u), n),
-                std::sqrt(pi) * std::exp(std::lgamma(n + 1) - std::lgamma(n + 1.5)), std::sqrt(-std::expm1(-log_half))};
+                std::sqrt(pi) * std::exp(std::lgamma(n + 1) - std::lgamma(n + 1.5)), std::sqrt(-std::expm1(-log_half)),
+                centre, reach};
     case 2:
         return {raised(fmt::format("1 + {}^2", u), -n), std::sqrt(pi) * std::exp(std::lgamma(n - 0.5) - std::lgamma(n)),
-                std::sqrt(std::expm1(log_half))};
+                std::sqrt(std::expm1(log_half)), centre, reach};
     case 3:
         return {raised(fmt::format("cos({})", u), n),
                 std::sqrt(pi) * std::exp(std::lgamma((n + 1) / 2) - std::lgamma(n / 2 + 1)),
-                std::acos(std::exp(-log_half))};
+                std::acos(std::exp(-log_half)), centre, reach};
     default:
         return {raised(fmt::format("4*({0} + 0.5)*(0.5 - {0})", u), n),
                 std::sqrt(pi) * std::exp(std::lgamma(n + 1) - std::lgamma(n + 1.5)) / 2,
-                std::sqrt(-std::expm1(-log_half)) / 2};
+                std::sqrt(-std::expm1(-log_half)) / 2, centre, reach};
     }
 }
 
@@ -54,41 +58,35 @@ Peak draw_peak(Random& random, int kind, double centre) {
 TEST(HiddenPeaks, HighPowersAreIntegrated) {
     Random random(71);
     for (int i = 0; i < 200; ++i) {
-        const int kind = i % 5;
-        // All of the peak, but not another one: its tails reach 1e-15 at a distance of ten half widths.
-        const double reach = kind == 3 ? 1.4 : kind == 4 ? 0.5 : 0.9, centre = random.uniform(-0.3, 0.3);
-        const Peak peak = draw_peak(random, kind, centre);
+        // Tails reach 1e-15 at a distance of ten half widths.
+        const auto [text, integral, half_width, centre, reach] = draw_peak(random, i % 5);
         const double tolerance = random.log_uniform(1e-13, 1e-6);
         Experiment experiment(
-            model_from(fmt::format("[states]\ns = 0\ny = 0\n[modes.m]\nrates = {{ s = 1, y = \"{}\" }}\n", peak.text)),
+            model_from(fmt::format("[states]\ns = 0\ny = 0\n[modes.m]\nrates = {{ s = 1, y = \"{}\" }}\n", text)),
             with_tolerance(tolerance));
         const Outcome outcome = experiment.run_from({centre - reach, 0}, 0, 2 * reach);
-        ASSERT_EQ(outcome.ending, Ending::end_time) << peak.text << " " << outcome.detail;
-        if (9 * peak.half_width > reach)
+        ASSERT_EQ(outcome.ending, Ending::end_time) << text << " " << outcome.detail;
+        if (9 * half_width > reach)
             continue;
         // What its position is uncertain by counts in half widths, and so does the round-off of a base near one.
-        const double sensitivity = 1 + epsilon / (peak.half_width * peak.half_width * tolerance);
-        EXPECT_NEAR(experiment.state()[1], peak.integral, 100 * tolerance * sensitivity * peak.integral) << peak.text;
+        const double sensitivity = 1 + epsilon / (half_width * half_width * tolerance);
+        EXPECT_NEAR(experiment.state()[1], integral, 100 * tolerance * sensitivity * integral) << text;
     }
 }
 
 TEST(HiddenPeaks, EventsOfHighPowersAreMet) {
     Random random(72);
     for (int i = 0; i < 300; ++i) {
-        const int kind = i % 5;
-        const double reach = kind == 3 ? 1.4 : kind == 4 ? 0.5 : 0.9, centre = random.uniform(-0.3, 0.3);
-        const Peak peak = draw_peak(random, kind, centre);
-        const double start = centre - random.uniform(std::min(1.5 * peak.half_width, reach), reach);
+        const auto [text, integral, half_width, centre, reach] = draw_peak(random, i % 5);
+        const double start = centre - random.uniform(std::min(1.5 * half_width, reach), reach);
         Experiment experiment(model_from(fmt::format(
                                   "[states]\ns = 0\n[events]\nhit = \"0.5 - {}\"\n[modes.m]\nrates = {{ s = 1 }}\n"
                                   "watch = [\"hit\"]\n[[transitions]]\nmode = \"m\"\nevent = \"hit\"\nnext = \"end\"\n",
-                                  peak.text)),
+                                  text)),
                               with_tolerance(random.log_uniform(1e-13, 1e-6)));
         const Outcome outcome = experiment.run_from({start}, 0, 2 * reach);
-        ASSERT_EQ(experiment.recorder.contacts().size(), 1U) << peak.text << " from " << start << outcome.detail;
-        EXPECT_NEAR(outcome.time, centre - peak.half_width - start,
-                    1e-6 * peak.half_width + 100 * epsilon / peak.half_width)
-            << peak.text;
+        ASSERT_EQ(experiment.recorder.contacts().size(), 1U) << text << " from " << start << outcome.detail;
+        EXPECT_NEAR(outcome.time, centre - half_width - start, 1e-6 * half_width + 100 * epsilon / half_width) << text;
     }
 }
 
