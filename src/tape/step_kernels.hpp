@@ -142,6 +142,25 @@ GRAZE_INLINE Packs<n> first_terms_or(Packs<n> size, Otherwise&& otherwise) {
     return where_zero(size, otherwise(), size);
 }
 
+/// Logarithm of the step at which the last two terms are as large as allowed, from their largest shares: the least of
+/// both.
+template <class L>
+GRAZE_INLINE L logarithm_of_step(L high, L low, double log_tolerance, int order) {
+    const L at_last = (number<L>(log_tolerance) - logarithm(high)) * (1.0 / order);
+    const L at_before = (number<L>(log_tolerance) - logarithm(low)) * (1.0 / (order - 1));
+    return lesser(where_zero(high, number<L>(1000), at_last), where_zero(low, number<L>(1000), at_before));
+}
+/// One lane has room for both logarithms in a register.
+GRAZE_INLINE double logarithm_of_step(double high, double low, double log_tolerance, int order) {
+    Packs<1> both = number<Packs<1>>(1);
+    both.part[0][0] = high;
+    both.part[0][1] = low;
+    const Pack logarithms = logarithm(both).part[0];
+    const double at_last = (log_tolerance - logarithms[0]) * (1.0 / order);
+    const double at_before = (log_tolerance - logarithms[1]) * (1.0 / (order - 1));
+    return lesser(where_zero(high, 1000.0, at_last), where_zero(low, 1000.0, at_before));
+}
+
 /// The largest step at which the last two terms of every series, relative to its size, are at most 2^log_tolerance, and
 /// smaller than those before them.
 /// @param references lengths over which sizes are taken
@@ -179,9 +198,7 @@ void steps(const FollowedSeries& followed, int order, double log_tolerance, cons
         high = greater(high, last / measure);
         low = greater(low, before / measure);
     }
-    const L at_last = (number<L>(log_tolerance) - logarithm(high)) * (1.0 / order);
-    const L at_before = (number<L>(log_tolerance) - logarithm(low)) * (1.0 / (order - 1));
-    const L limit = lesser(where_zero(high, number<L>(1000), at_last), where_zero(low, number<L>(1000), at_before));
+    const L limit = logarithm_of_step(high, low, log_tolerance, order);
     const L step = power_of_two(greater(lesser(limit, number<L>(1000)), number<L>(-1000)));
     // Where the last terms grow from one to the next, the terms left out are larger still, however small all of
     // them are: so it is with exp(-100 x^2) far from its peak, over which a step must not lead. In pairs, since

@@ -36,7 +36,7 @@ void Trajectory::begin_arc(double step) {
     arc_start_ = false;
     branch_ahead_ = states_;
     probes_->begin_arc();
-    const auto& mode = simulation_->compiled().mode(mode_);
+    const auto& mode = *compiled_mode_;
     for (std::size_t w = 0; w < mode.watched.size(); ++w)
         if (!classify(w, step))
             return;
@@ -53,7 +53,7 @@ void Trajectory::begin_arc(double step) {
 /// Decides on which side of a watched event's surface the arc begins. Returns false when something happens at
 /// once: a contact, sticking, or the end of the trajectory.
 bool Trajectory::classify(std::size_t w, double step) {
-    const auto& mode = simulation_->compiled().mode(mode_);
+    const auto& mode = *compiled_mode_;
     const std::size_t event = mode.watched[w];
     const Event& definition = simulation_->model().events[event];
     const auto c = event_series(w);
@@ -106,7 +106,7 @@ bool Trajectory::classify(std::size_t w, double step) {
 }
 
 void Trajectory::finish_violated(std::size_t w) {
-    const Event& event = simulation_->model().events[simulation_->compiled().mode(mode_).watched[w]];
+    const Event& event = simulation_->model().events[compiled_mode_->watched[w]];
     finish(Ending::inadmissible, time_,
            fmt::format("barrier '{}' is already violated ({:.6g} < 0) {}: choose an initial state on its admissible "
                        "side, or a jump that does not lead beyond it",
@@ -120,7 +120,7 @@ bool Trajectory::is_due(std::size_t event) const {
 /// How close to zero a watched event's function is on its surface at the start of an arc. Call after weigh_terms.
 /// @param size of its series; @param drifted that of it which is put down to a drift along the surface, or 0
 double Trajectory::surface_at_start(std::size_t w, double size, double& drifted) {
-    const std::size_t event = simulation_->compiled().mode(mode_).watched[w];
+    const std::size_t event = compiled_mode_->watched[w];
     const double value = event_series(w)[0];
     double at_surface = roundoff * std::max(size, terms_[0]);
     if (event == served_ || is_due(event))
@@ -170,7 +170,7 @@ double Trajectory::drift(std::size_t event, double size) const {
 
 /// Remembers the surfaces on which the state is at s: that of a contact, and those that it shares.
 void Trajectory::hold_surfaces(std::size_t watched, double s) {
-    const auto& mode = simulation_->compiled().mode(mode_);
+    const auto& mode = *compiled_mode_;
     for (std::size_t w = 0; w < mode.watched.size(); ++w) {
         const auto c = event_series(w);
         const double size = series_size(c, std::max(s, previous_step_));
@@ -185,7 +185,7 @@ void Trajectory::hold_surfaces(std::size_t watched, double s) {
 bool Trajectory::fell_before(std::size_t w, double at_surface) {
     if (served_ == no_event && !stuck_)
         return true;
-    const auto& mode = simulation_->compiled().mode(mode_);
+    const auto& mode = *compiled_mode_;
     std::copy(before_.begin(), before_.end(), inputs_.begin());
     values_.resize(std::max(mode.events.outputs(), mode.event_gradients.outputs()));
     mode.events.evaluate(inputs_, values_, work_);
@@ -202,7 +202,7 @@ bool Trajectory::fell_before(std::size_t w, double at_surface) {
 /// Sums, for each coefficient of a watched event function, the sizes of what the states contribute to it. What cancels
 /// there does not show in the coefficient but is what its round-off is measured by.
 void Trajectory::weigh_terms(std::size_t w) {
-    const Function& gradients = simulation_->compiled().mode(mode_).event_gradients;
+    const Function& gradients = compiled_mode_->event_gradients;
     values_.resize(gradients.outputs());
     std::copy(state_.begin(), state_.end(), inputs_.begin());
     gradients.evaluate(inputs_, values_, work_);

@@ -28,7 +28,7 @@ std::size_t Trajectory::jumping_rate(double s, double share) {
     for (std::size_t i = 0; i < states_; ++i)
         inputs_[i] = evaluate_state(i, s);
     values_.resize(states_);
-    simulation_->compiled().mode(mode_).rates.evaluate(inputs_, values_, work_);
+    compiled_mode_->rates.evaluate(inputs_, values_, work_);
     for (std::size_t i = 0; i < states_; ++i) {
         const double foreseen = evaluate_derivative(series(i), s), difference = std::abs(values_[i] - foreseen);
         const bool jumps = difference > 0.5 * (std::abs(values_[i]) + std::abs(foreseen)) &&
@@ -46,13 +46,13 @@ bool Trajectory::is_roundoff(std::size_t state, double difference) {
     std::vector<double> rates(states_);
     for (std::size_t i = 0; i < states_; ++i)
         inputs_[i] = evaluate_state(i, 0);
-    simulation_->compiled().mode(mode_).rates.evaluate(inputs_, rates, work_);
+    compiled_mode_->rates.evaluate(inputs_, rates, work_);
     return difference <= most * std::abs(rates[state] - evaluate_derivative(series(state), 0));
 }
 
 /// Whether something under a root is no longer a fair share at s of what it is at the start of the step.
 bool Trajectory::root_vanishes(double s) {
-    const Function& roots = simulation_->compiled().mode(mode_).roots;
+    const Function& roots = compiled_mode_->roots;
     values_.resize(2 * roots.outputs());
     const auto at_start = std::span(values_).subspan(roots.outputs());
     std::copy(state_.begin(), state_.end(), inputs_.begin());
@@ -72,7 +72,7 @@ bool Trajectory::root_vanishes(double s) {
 /// Ends the step on the way there, before anything of what lies behind is seen. Where no way is left, returns the state
 /// whose rate jumps.
 std::size_t Trajectory::limit_to_branch(double& step) {
-    if (!simulation_->compiled().mode(mode_).has_roots || !(step > 0))
+    if (!compiled_mode_->has_roots || !(step > 0))
         return states_;
     const double whole = step;
     const std::size_t jumping = jumping_rate(whole, std::max(least_jump, 1000 * simulation_->options().tolerance));

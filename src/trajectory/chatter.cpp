@@ -40,7 +40,7 @@ void Trajectory::remember_contact(std::size_t event, double rate) {
 /// 2u / (a (1 - r)); when other events come in between, the flights themselves tell it. It is taken at once when it
 /// is so short that all else is constant to within tolerance.
 bool Trajectory::complete_chatter(std::size_t w, double step) {
-    ContactHistory& history = histories_[simulation_->compiled().mode(mode_).watched[w]];
+    ContactHistory& history = histories_[compiled_mode_->watched[w]];
     const auto c = event_series(w);
     const double speed = c[1], deceleration = -2 * c[2];
     history.speed = speed;
@@ -73,7 +73,7 @@ bool Trajectory::complete_chatter(std::size_t w, double step) {
 }
 
 bool Trajectory::another_event_within(std::size_t w, double time) {
-    for (std::size_t other = 0; other < simulation_->compiled().mode(mode_).watched.size(); ++other) {
+    for (std::size_t other = 0; other < compiled_mode_->watched.size(); ++other) {
         const auto c = event_series(other);
         if (other != w && c[0] > 0 && c[0] + time * c[1] < 0)
             return true;
@@ -100,7 +100,7 @@ void Trajectory::judge_stand_still() {
 /// Ends an accumulation of contacts `remaining` after the present state: what the contacts still to come do to the
 /// event function's rate, `impulse` in all, they do to the state in the proportions of the last one.
 void Trajectory::stick(std::size_t w, std::size_t index, double remaining, double impulse) {
-    const std::size_t event = simulation_->compiled().mode(mode_).watched[w];
+    const std::size_t event = compiled_mode_->watched[w];
     const auto c = event_series(w);
     const double last_impulse = c[1] - histories_[event].rate;
     const double share = remaining > 0 && last_impulse > 0 ? impulse / last_impulse : 0;

@@ -14,7 +14,7 @@
 namespace graze {
 
 void Trajectory::make_contact(std::size_t w, double s) {
-    const auto& mode = simulation_->compiled().mode(mode_);
+    const auto& mode = *compiled_mode_;
     const std::size_t event = mode.watched[w];
     const std::size_t transition = mode.transitions[w];
     const double rate = evaluate_derivative(event_series(w), s);
@@ -134,6 +134,7 @@ void Trajectory::enter(std::size_t jump, std::size_t mode) {
             probes_->relocate(i, before_[i], after_[i]);
     state_ = after_;
     mode_ = mode;
+    compiled_mode_ = &simulation_->compiled().mode(mode);
     wrap_cyclic_states(true);
     arc_start_ = true;
     ++contacts_now_;
@@ -142,7 +143,7 @@ void Trajectory::enter(std::size_t jump, std::size_t mode) {
 void Trajectory::announce_contact() {
     if (!pending_)
         return;
-    const auto& mode = simulation_->compiled().mode(mode_);
+    const auto& mode = *compiled_mode_;
     for (std::size_t w = 0; w < mode.watched.size(); ++w)
         if (mode.watched[w] == pending_->event)
             pending_->rate_after = std::isfinite(event_series(w)[1]) ? event_series(w)[1] : 0;

@@ -38,7 +38,7 @@ double root_uncertainty(std::span<const double> c, double s, double step, double
 /// The watched event that happens first within `step`, which becomes the time until then. Roots are compared when they
 /// have been moved onto the surfaces themselves: those of surfaces that coincide then differ by round-off alone.
 std::size_t Trajectory::find_contact(double& step, const Outlook& outlook, std::size_t lane) {
-    const auto& mode = simulation_->compiled().mode(mode_);
+    const auto& mode = *compiled_mode_;
     const double whole = step;
     const bool looked_ahead = whole == outlook.length(lane) && whole >= previous_step_;
     double uncertain = 0; // of the first root
@@ -87,7 +87,7 @@ std::size_t Trajectory::find_contact(double& step, const Outlook& outlook, std::
 /// A contact at the end of a step has those at its time which round-off has put just behind.
 /// @param first may become one that comes before in the order of the mode
 void Trajectory::look_beyond(std::size_t& first, double step, double uncertain) {
-    const auto& watched = simulation_->compiled().mode(mode_).watched;
+    const auto& watched = compiled_mode_->watched;
     for (std::size_t w = 0; w < watched.size(); ++w) {
         if (w == first || watches_[w].side <= 0 ||
             std::find(together_.begin(), together_.end(), watched[w]) != together_.end())
@@ -111,7 +111,7 @@ std::span<const double> Trajectory::shifted_series(std::size_t w) {
 /// Where a watched event's function first falls through zero within `length`. Notes the
 /// touches before.
 bool Trajectory::find_fall(std::size_t w, double length, Root& root) {
-    const std::size_t event = simulation_->compiled().mode(mode_).watched[w];
+    const std::size_t event = compiled_mode_->watched[w];
     const Watch& watch = watches_[w];
     const auto c = shifted_series(w);
     const RootStart start = watch.strip > 0 ? RootStart::deflate : RootStart::as_is;
@@ -138,7 +138,7 @@ bool Trajectory::find_fall(std::size_t w, double length, Root& root) {
 
 /// Of the minima that may be touches those that are: enclosures have overrated how large the function is.
 void Trajectory::keep_touches(std::size_t w, std::span<const double> c) {
-    const std::size_t event = simulation_->compiled().mode(mode_).watched[w];
+    const std::size_t event = compiled_mode_->watched[w];
     const bool barrier = simulation_->model().events[event].kind == EventKind::barrier;
     for (const Root& touch : found_touches_) {
         double largest = 0;
@@ -156,7 +156,7 @@ void Trajectory::keep_touches(std::size_t w, std::span<const double> c) {
 /// Keeps account of the size of a watched event's function, from one step of an arc to the next: a maximum between them
 /// is where the polynomial of degree 5 has it that agrees with value, slope and curvature at both.
 void Trajectory::note_size(std::size_t w) {
-    EventSize& size = event_sizes_[simulation_->compiled().mode(mode_).watched[w]];
+    EventSize& size = event_sizes_[compiled_mode_->watched[w]];
     const Series& c = series_[states_ + w];
     const double value = c[0], rate = c[1], length = time_ - size.time;
     size.of_arc = std::max(size.of_arc, std::abs(value));
@@ -199,7 +199,7 @@ bool Trajectory::is_grazing(std::size_t w, double s, double rate) {
     if (std::abs(rate) * previous_step_ <= roundoff * series_size(c, previous_step_))
         return true;
     // A flight that leaves the surface and comes back is known relative to its own height.
-    const EventSize& sizes = event_sizes_[simulation_->compiled().mode(mode_).watched[w]];
+    const EventSize& sizes = event_sizes_[compiled_mode_->watched[w]];
     const double noise = roundoff * std::max({sizes.of_arc, series_size(c, s), sizes.left_surface ? 0 : sizes.terms});
     double second = 0;
     for (std::size_t k = c.size(); k-- > 2;)
@@ -211,7 +211,7 @@ bool Trajectory::is_grazing(std::size_t w, double s, double rate) {
 /// event and states may keep it by something like the tolerance.
 double Trajectory::on_surface(std::size_t w, double s) {
     const auto c = event_series(w);
-    const auto& events = simulation_->compiled().mode(mode_).events;
+    const auto& events = compiled_mode_->events;
     values_.resize(events.outputs());
     for (int sweep = 0; sweep < 2; ++sweep) {
         for (std::size_t i = 0; i < states_; ++i)
@@ -228,7 +228,7 @@ double Trajectory::on_surface(std::size_t w, double s) {
 
 /// How far round-off within an event's function, as in exp(x) - 1, may move its root at s.
 double Trajectory::error_of_root(std::size_t w, double s) {
-    const auto& events = simulation_->compiled().mode(mode_).events;
+    const auto& events = compiled_mode_->events;
     values_.resize(events.outputs());
     for (std::size_t i = 0; i < states_; ++i)
         inputs_[i] = evaluate_state(i, s);
@@ -239,7 +239,7 @@ double Trajectory::error_of_root(std::size_t w, double s) {
 }
 
 void Trajectory::update_sides(double length) {
-    const auto& mode = simulation_->compiled().mode(mode_);
+    const auto& mode = *compiled_mode_;
     for (std::size_t w = 0; w < mode.watched.size(); ++w) {
         Watch& watch = watches_[w];
         watch.strip = 0;

@@ -18,7 +18,7 @@ bool Trajectory::make_step(double& length) {
     // A step that time cannot tell from none is no progress: contacts must not go on for ever in it.
     if (length > 4 * std::numeric_limits<double>::epsilon() * std::abs(time_))
         contacts_now_ = 0;
-    const std::size_t watched = simulation_->compiled().mode(mode_).watched.size();
+    const std::size_t watched = compiled_mode_->watched.size();
     // Roots are sought in series without gaps.
     if (!simulation_->probes().empty() && series_.data() == lane_series_.data())
         for (std::size_t i = 0; i < series_.size(); ++i)
@@ -64,7 +64,7 @@ void Trajectory::report_passage(std::size_t index, double at, int direction, boo
 }
 
 void Trajectory::report_touches(double length) {
-    const auto& mode = simulation_->compiled().mode(mode_);
+    const auto& mode = *compiled_mode_;
     for (const Touch& touch : touches_) {
         if (touch.root.at > length)
             continue;
@@ -89,7 +89,7 @@ void Trajectory::report_touches(double length) {
 }
 
 void Trajectory::report_minima(double length) {
-    const auto& mode = simulation_->compiled().mode(mode_);
+    const auto& mode = *compiled_mode_;
     for (std::size_t w = 0; w < mode.watched.size(); ++w) {
         StepMinimum report;
         report.event = mode.watched[w];

@@ -31,6 +31,7 @@ Trajectory::Trajectory(const Simulation& simulation, std::span<const double> par
         throw InputError(
             fmt::format("{} parameters were given where {} are needed", parameters_.size(), compiled.parameters()),
             "give one value for each independent parameter of the model");
+    compiled_mode_ = &compiled.mode(mode_);
     std::size_t most_watched = 0;
     for (std::size_t m = 0; m < compiled.model().modes.size(); ++m)
         most_watched = std::max(most_watched, compiled.mode(m).watched.size());
@@ -85,6 +86,7 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     std::copy(state.begin(), state.end(), state_.begin());
     wrap_cyclic_states(true);
     mode_ = mode;
+    compiled_mode_ = &simulation_->compiled().mode(mode);
     outcome_ = {};
     steps_ = 0;
     time_ = start_time_ = time;
@@ -172,8 +174,7 @@ double Trajectory::propose(const Jet& jet, double step, std::size_t lane) {
     // Event functions and whatever else is observed must be as accurate as the states.
     step = limited_by_floors(step);
     const bool unlimited = !(previous_step_ > 0) || std::isinf(step);
-    leap_ = !(step <= longest_leap * previous_step_) && !std::isnan(step) &&
-            !simulation_->compiled().mode(mode_).polynomial;
+    leap_ = !(step <= longest_leap * previous_step_) && !std::isnan(step) && !compiled_mode_->polynomial;
     if ((leap_ || unlimited) && !floored_)
         step = step_size_(series_, previous_step_);
     const double remaining = (end_time_ - time_) - time_low_;
@@ -195,7 +196,7 @@ double Trajectory::propose(const Jet& jet, double step, std::size_t lane) {
 double Trajectory::limited_by_floors(double step) {
     constexpr double far_shorter = 1e-6;
     // What falls to zero under a root ends there.
-    if (std::isnan(step) || simulation_->compiled().mode(mode_).has_roots)
+    if (std::isnan(step) || compiled_mode_->has_roots)
         return step;
     if (arc_start_ || !(step < previous_step_)) {
         floored_ = false;
@@ -381,10 +382,10 @@ void Trajectory::finish_undefined() {
     const Model& model = simulation_->model();
     std::vector<double> rates(states_);
     std::copy(state_.begin(), state_.end(), inputs_.begin());
-    simulation_->compiled().mode(mode_).rates.evaluate(inputs_, rates, work_);
+    compiled_mode_->rates.evaluate(inputs_, rates, work_);
     constexpr std::string_view unknown = "a derivative of the vector field";
     std::string culprit(unknown);
-    const auto& mode = simulation_->compiled().mode(mode_);
+    const auto& mode = *compiled_mode_;
     values_.resize(mode.events.outputs());
     mode.events.evaluate(inputs_, values_, work_);
     for (std::size_t w = mode.watched.size(); w-- > 0;)

@@ -183,6 +183,7 @@ private:
     }
 
     const Simulation* simulation_;
+    const CompiledModel::CompiledMode* compiled_mode_ = nullptr; ///< of mode_
     Observer* observer_;
     std::vector<double> parameters_;
     StepSize step_size_;
