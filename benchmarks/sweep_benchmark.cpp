@@ -68,7 +68,7 @@ Totals run_all(const Plan& plan, const SearchFactory& searches, int jobs) {
 /// The whole diagram, against a plain simulation of as many periods as it takes for the motions to settle.
 void diagram(benchmark::State& state, std::size_t lyapunov_cycles) {
     const StudyRun run = sweep_run(lyapunov_cycles, 1);
-    const Plan plan = plan_of(run, nullptr);
+    const Plan plan = plan_of(run, run.model, nullptr);
     const auto searches = searches_of(run);
     Model model = run.model;
     model.set_parameter("V0", 4.95);
@@ -93,7 +93,7 @@ void diagram(benchmark::State& state, std::size_t lyapunov_cycles) {
 
 void threads(benchmark::State& state) {
     const StudyRun run = chains_run(32);
-    const Plan plan = plan_of(run, nullptr);
+    const Plan plan = plan_of(run, run.model, nullptr);
     const auto searches = searches_of(run);
     Duel duel;
     for (auto unused : state)
@@ -104,7 +104,7 @@ void threads(benchmark::State& state) {
 /// Sixteen chains side by side against the same ones after each other.
 void lanes(benchmark::State& state) {
     const StudyRun run = chains_run(16);
-    const Plan plan = plan_of(run, nullptr);
+    const Plan plan = plan_of(run, run.model, nullptr);
     const auto searches = searches_of(run);
     Duel duel;
     for (auto unused : state)
@@ -126,7 +126,7 @@ void lanes(benchmark::State& state) {
 void writing(benchmark::State& state) {
     Study study = load_study("electromagnetic-testbed");
     study.runs = {sweep_run(60, 1)};
-    const Plan plan = plan_of(study.runs[0], nullptr);
+    const Plan plan = plan_of(study.runs[0], study.runs[0].model, nullptr);
     const auto searches = searches_of(study.runs[0]);
     const auto folder = std::filesystem::temp_directory_path() / ("graze-benchmark-" + std::to_string(getpid()));
     Duel duel;

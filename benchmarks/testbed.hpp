@@ -59,7 +59,7 @@ public:
 
 private:
     double value(std::string_view parameter) const {
-        const std::vector expressions{model.expand(model.symbol(parameter))};
-        return graze::Function(model.parameter_symbols(), expressions)(model.parameter_values())[0];
+        const std::vector expressions{model.symbol(parameter)};
+        return model.values_of(expressions)[0];
     }
 };

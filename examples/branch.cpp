@@ -18,7 +18,7 @@ int main() {
     const OrbitSolution orbit = find_orbit(model, settle);
 
     BranchSettings settings;
-    settings.parameter = 2; // amplitude, among the independent parameters
+    settings.parameter = model.independent_parameter("amplitude");
     settings.greatest = 1;
     const Branch free = follow_branch(model, orbit.orbit, settings);
     const SpecialPoint& grazing = free.special.back();

@@ -46,15 +46,14 @@ int main() {
     Trajectory trajectory(simulation, simulation.model().parameter_values(), impacts);
     trajectory.start(simulation.model().initial_state(), 0, 0, 12);
 
-    // The derivatives of the final state with respect to the initial x, and to the third parameter, the gap.
-    const double seeds[2][7] = {{1, 0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 1, 0}};
-    trajectory.carry_tangents({&seeds[0][0], 14}, 2);
+    // The derivatives of the final state with respect to the initial x, and to the gap.
+    trajectory.carry_derivatives({"x", "gap"});
 
     JetSet jets(simulation, LaneKind::single);
     run(trajectory, jets);
 
     std::printf("%s at t = %g: x = %.12f\n", name_of(trajectory.outcome().ending).data(), trajectory.time(),
                 trajectory.state()[0]);
-    std::printf("dx/dx(0) = %.12f, dx/dgap = %.12f\n", trajectory.tangents()[0], trajectory.tangents()[1]);
+    std::printf("dx/dx(0) = %.12f, dx/dgap = %.12f\n", trajectory.derivative(0, 0), trajectory.derivative(0, 1));
     return trajectory.outcome().ending == Ending::end_time ? 0 : 1;
 }

@@ -17,18 +17,19 @@ constexpr double too_much_growth = 1e6;
 
 } // namespace
 
-BranchState::BranchState(const Model& model, const Orbit& candidate, const BranchSettings& settings)
-    : model_(&model), settings_(settings), simulation_(model, {}, {}, integration(settings.orbit.tolerance)) {
+BranchState::BranchState(const System& system, const Orbit& candidate, const BranchSettings& settings)
+    : settings_(settings), simulation_(system, {}, {}, integration(settings.orbit.tolerance)) {
+    const Model& model = system.model();
     settings_.validate(model);
     validate_orbit(model, candidate);
     if (is_outside(candidate.parameters[settings.parameter]))
         throw InputError(fmt::format("the orbit's {} = {} lies outside the branch's bounds",
-                                     model.parameter_symbols()[settings.parameter].name(),
+                                     model.independent_parameters()[settings.parameter],
                                      candidate.parameters[settings.parameter]),
                          "choose bounds on either side of it");
     if (!settings.monitors.empty())
         monitors_ =
-            std::make_unique<OrbitMonitors>(model, candidate.signature, settings.monitors, settings.orbit.tolerance);
+            std::make_unique<OrbitMonitors>(system, candidate.signature, settings.monitors, settings.orbit.tolerance);
     hold(candidate);
     make_problem(candidate);
 }
@@ -42,7 +43,7 @@ void BranchState::hold(const Orbit& candidate) {
         if (settings_.monitors[m].fixed && !settings_.monitors[m].held)
             settings_.monitors[m].held = values[m];
     monitors_ =
-        std::make_unique<OrbitMonitors>(*model_, candidate.signature, settings_.monitors, settings_.orbit.tolerance);
+        std::make_unique<OrbitMonitors>(system(), candidate.signature, settings_.monitors, settings_.orbit.tolerance);
 }
 
 void BranchState::make_problem(const Orbit& orbit) {
@@ -83,7 +84,7 @@ std::optional<double> BranchState::error_of(const Orbit& orbit, const std::vecto
     if (!settings_.free.empty())
         return std::nullopt;
     if (!tighter_) {
-        tighter_.emplace(*model_, std::vector<Probe>(), std::vector<Expression>(),
+        tighter_.emplace(system(), std::vector<Probe>(), std::vector<Expression>(),
                          integration(0.01 * settings_.orbit.tolerance));
     }
     OrbitProblem problem(*tighter_, orbit, settings_.parameter);
@@ -141,7 +142,7 @@ void BranchState::renew_pieces(const BranchPoint& from) {
 
 void BranchState::go_on(const BranchStart& start, double arclength) {
     if (monitors_)
-        monitors_ = std::make_unique<OrbitMonitors>(*model_, start.orbit.signature, settings_.monitors,
+        monitors_ = std::make_unique<OrbitMonitors>(system(), start.orbit.signature, settings_.monitors,
                                                     settings_.orbit.tolerance);
     const double length = continuation_->next_step();
     arclength_ = arclength;

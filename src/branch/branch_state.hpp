@@ -15,9 +15,10 @@ namespace graze {
 class BranchState {
 public:
     /// @throws InputError when candidate or settings do not fit the model
-    BranchState(const Model& model, const Orbit& candidate, const BranchSettings& settings);
+    BranchState(const System& system, const Orbit& candidate, const BranchSettings& settings);
 
-    const Model& model() const { return *model_; }
+    const System& system() const { return simulation_.system(); }
+    const Model& model() const { return system().model(); }
     const BranchSettings& settings() const { return settings_; }
     OrbitProblem& problem() { return *problem_; }
     Continuation& continuation() { return *continuation_; }
@@ -43,7 +44,6 @@ private:
     void hold(const Orbit& candidate);
     void make_problem(const Orbit& orbit);
 
-    const Model* model_;
     BranchSettings settings_;
     Simulation simulation_;
     std::optional<Simulation> tighter_; ///< once it has been asked for

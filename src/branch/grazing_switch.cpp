@@ -29,7 +29,8 @@ constexpr double before_next_touch = 1e-4;
 constexpr int most_iterations = 20;
 
 /// Rate of an event's function along the flow of a mode.
-Expression rate_of(const Model& model, std::size_t mode, std::size_t event) {
+Expression rate_of(const System& system, std::size_t mode, std::size_t event) {
+    Model model = system.model();
     const auto states = model.state_symbols();
     const Expression function = model.expand(model.events[event].function);
     const auto rates = model.expand(model.modes[mode].rates);
@@ -43,11 +44,11 @@ Expression rate_of(const Model& model, std::size_t mode, std::size_t event) {
 class Touch {
 public:
     Touch(const Simulation& simulation, const SpecialPoint& point)
-        : simulation_(&simulation), orbit_(&point.solution.orbit), mode_(orbit_->signature[point.segment].mode),
+        : simulation_(simulation), orbit_(&point.solution.orbit), mode_(orbit_->signature[point.segment].mode),
           event_(point.event), shooting_(simulation, *orbit_, {}) {
-        const Model& model = simulation.model();
-        function_ = shooting_.with_gradient(model.expand(model.events[event_].function));
-        rate_ = shooting_.with_gradient(rate_of(model, mode_, event_));
+        const System& system = simulation.system();
+        function_ = system.event(event_);
+        rate_ = system.with_gradient(rate_of(system, mode_, event_));
         ArcFlow flow(simulation, {});
         flow.set_parameters(orbit_->parameters);
         state_ = orbit_->starts[point.segment];
@@ -74,7 +75,7 @@ public:
         const std::size_t n = state_.size();
         Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, index(n));
         for (const std::size_t i : shooting_.active()) {
-            if (simulation_->model().states[i].period)
+            if (simulation_.model().states[i].period)
                 continue;
             const double scale = shooting_.scales()[index(i)];
             rows(0, index(i)) = h[1 + i] * scale;
@@ -94,7 +95,7 @@ public:
     }
 
 private:
-    const Simulation* simulation_;
+    Simulation simulation_;
     const Orbit* orbit_;
     std::size_t mode_, event_;
     Shooting shooting_;
@@ -104,8 +105,7 @@ private:
 };
 
 /// The mode after a transition, by its guards. None where the motion ends.
-std::optional<std::size_t> mode_after(const CompiledModel& model, std::size_t transition,
-                                      std::span<const double> inputs) {
+std::optional<std::size_t> mode_after(const System& model, std::size_t transition, std::span<const double> inputs) {
     std::vector<double> values, work(model.workspace());
     for (const auto& alternative : model.transition(transition).next) {
         values.resize(alternative.conditions.outputs());
@@ -128,7 +128,7 @@ double sum(const std::vector<double>& values) {
 std::vector<double> meet_at_speed(const Simulation& simulation, Orbit& orbit, const Expression& rate, double speed,
                                   const BranchSettings& settings) {
     Shooting shooting(simulation, orbit, {settings.parameter});
-    const Function rate_function = shooting.with_gradient(rate);
+    const Function rate_function = shooting.simulation().system().with_gradient(rate);
     Eigen::VectorXd unknowns = shooting.unknowns_of(orbit);
     const std::size_t last = shooting.pieces() - 1;
     for (int i = 0; i < most_iterations; ++i) {
@@ -137,8 +137,7 @@ std::vector<double> meet_at_speed(const Simulation& simulation, Orbit& orbit, co
         std::vector<double> inputs = shooting.piece(last).end;
         inputs.insert(inputs.end(), shooting.parameters().begin(), shooting.parameters().end());
         const std::vector<double> values = rate_function(inputs);
-        const Eigen::VectorXd gradient = Eigen::Map<const Eigen::VectorXd>(values.data() + 1, index(values.size() - 1));
-        const Eigen::RowVectorXd row = shooting.row_at_end(last, gradient);
+        const Eigen::RowVectorXd row = shooting.row_at_end(last, shooting.gradient_of(values));
         Eigen::VectorXd step;
         if (!shooting.solve(row, Eigen::VectorXd::Constant(1, -speed - values[0]), false, step))
             return {};
@@ -181,9 +180,10 @@ std::optional<Orbit> followed_after_contact(const Simulation& simulation, const 
 
 } // namespace
 
-BranchStart with_one_more_contact(const Model& model, const SpecialPoint& point, const BranchSettings& settings) {
-    const Simulation simulation(model, {}, {}, integration(settings.orbit.tolerance));
-    const CompiledModel& compiled = simulation.compiled();
+BranchStart with_one_more_contact(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
+    const Model& model = system.model();
+    const Simulation simulation(system, {}, {}, integration(settings.orbit.tolerance));
+    const System& compiled = simulation.system();
     const Orbit& grazing = point.solution.orbit;
     const Touch touch(simulation, point);
     const Transition* transition = model.find_transition(touch.mode(), touch.event());
@@ -193,8 +193,8 @@ BranchStart with_one_more_contact(const Model& model, const SpecialPoint& point,
     const auto transition_index = static_cast<std::size_t>(transition - model.transitions.data());
     Segment last{touch.mode(), SegmentEnd::event, transition_index};
     if (grazing.symmetry)
-        last = image_of(model, *grazing.symmetry, last, grazing);
-    const Expression rate = rate_of(model, last.mode, model.transitions[last.index].event);
+        last = image_of(system, *grazing.symmetry, last, grazing);
+    const Expression rate = rate_of(system, last.mode, model.transitions[last.index].event);
     std::string why = "Newton's method does not find it";
     for (const double share : speeds) {
         const double speed = share * touch.greatest_speed();
@@ -225,12 +225,13 @@ namespace {
 
 /// Cuts a motion off where it comes back to the contact that it is to be without, which it may meet early: by a time
 /// that grows with the root of the clearance.
-void leave_out_return(const Model& model, FollowedMotion& motion, const Orbit& old, std::size_t segment, double round) {
+void leave_out_return(const System& system, FollowedMotion& motion, const Orbit& old, std::size_t segment,
+                      double round) {
     constexpr double earliest = 0.02; // share of a round
     const double early = std::min(earliest * round, 0.5 * old.durations[segment]);
     Segment contact = old.signature[segment];
     if (old.symmetry)
-        contact = image_of(model, *old.symmetry, contact, old);
+        contact = image_of(system, *old.symmetry, contact, old);
     double time = 0;
     for (std::size_t k = 0; k < motion.segments.size(); ++k) {
         time += motion.durations[k];
@@ -246,9 +247,10 @@ void leave_out_return(const Model& model, FollowedMotion& motion, const Orbit& o
 
 } // namespace
 
-BranchStart with_one_contact_fewer(const Model& model, const SpecialPoint& point, const BranchSettings& settings) {
+BranchStart with_one_contact_fewer(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
+    const Model& model = system.model();
     constexpr double clearance = 1e-6; // share of the greatest gap by which the contact is missed
-    const Simulation simulation(model, {}, {}, integration(settings.orbit.tolerance));
+    const Simulation simulation(system, {}, {}, integration(settings.orbit.tolerance));
     const Orbit& old = point.solution.orbit;
     const Touch touch(simulation, point);
     const std::string& name = model.events[touch.event()].name;
@@ -256,7 +258,7 @@ BranchStart with_one_contact_fewer(const Model& model, const SpecialPoint& point
     const std::vector<double> state = touch.displaced(clearance * touch.greatest_value(), 0);
     FollowedMotion motion =
         follow_motion(simulation, old.parameters, state, touch.mode(), (1 - before_next_touch) * round);
-    leave_out_return(model, motion, old, point.segment, round);
+    leave_out_return(system, motion, old, point.segment, round);
     const auto fail = [&](const std::string& why) {
         throw InputError(fmt::format("no orbit with one contact fewer at '{}' was found: {}", name, why),
                          "the branch may end here");
@@ -264,11 +266,11 @@ BranchStart with_one_contact_fewer(const Model& model, const SpecialPoint& point
     if (!motion.problem.empty())
         fail(motion.problem);
     std::optional<Orbit> orbit =
-        motion.segments.empty() ? close_at_section(model, old.parameters, state, touch.mode(), round, "", old.symmetry)
-                                : std::optional(begun_after_first_contact(model, old, motion, round));
+        motion.segments.empty() ? close_at_section(system, old.parameters, state, touch.mode(), round, "", old.symmetry)
+                                : std::optional(begun_after_first_contact(system, old, motion, round));
     if (!orbit)
         fail("it passes none of the model's sections");
-    const OrbitSolution solution = solve_orbit(model, *orbit, settings.orbit);
+    const OrbitSolution solution = solve_orbit(system, *orbit, settings.orbit);
     if (solution.outcome != OrbitOutcome::converged)
         fail(solution.detail);
     // Of the two ways along the branch, the one on which the event is not reached.
@@ -277,7 +279,7 @@ BranchStart with_one_contact_fewer(const Model& model, const SpecialPoint& point
     trial.stop_when_unphysical = false;
     std::vector<double> direction;
     for (const int sign : {1, -1}) {
-        const Simulation here(model, {}, {}, integration(settings.orbit.tolerance));
+        const Simulation here(system, {}, {}, integration(settings.orbit.tolerance));
         OrbitProblem problem(here, solution.orbit, settings.parameter);
         const Eigen::VectorXd unknowns = problem.shooting().unknowns_of(solution.orbit);
         std::vector<double> row(problem.unknowns(), 0.0);
@@ -285,7 +287,7 @@ BranchStart with_one_contact_fewer(const Model& model, const SpecialPoint& point
         direction.resize(problem.unknowns());
         if (!problem.shooting().evaluate(unknowns) || !problem.solve(row, 1, true, direction, nullptr))
             fail("the branch turns right there");
-        OrbitBranch branch(model, solution.orbit, trial);
+        OrbitBranch branch(system, solution.orbit, trial);
         if (branch.start_along(direction, 0) && branch.step() && branch.point().solution.certificate.admissible)
             break;
     }

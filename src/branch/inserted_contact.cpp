@@ -15,15 +15,15 @@ struct Entry {
 };
 
 /// Segments of an orbit, and after them their images or themselves again.
-std::vector<Entry> two_rounds(const Model& model, const Orbit& orbit) {
+std::vector<Entry> two_rounds(const System& system, const Orbit& orbit) {
     std::vector<Entry> entries;
     for (std::size_t k = 0; k < orbit.segments(); ++k)
         entries.push_back({orbit.signature[k], orbit.starts[k], orbit.durations[k]});
-    const Function map = orbit.symmetry ? symmetry_map(model, *orbit.symmetry) : Function();
+    const Function map = orbit.symmetry ? system.symmetry(*orbit.symmetry).map : Function();
     for (std::size_t k = 0; k < orbit.segments(); ++k) {
         Entry entry = entries[k];
         if (orbit.symmetry) {
-            entry.segment = image_of(model, *orbit.symmetry, entry.segment, orbit);
+            entry.segment = image_of(system, *orbit.symmetry, entry.segment, orbit);
             entry.start.insert(entry.start.end(), orbit.parameters.begin(), orbit.parameters.end());
             entry.start = map(entry.start);
         }
@@ -57,7 +57,7 @@ Orbit joined(const Orbit& like, const std::vector<Entry>& entries) {
 std::optional<Orbit> with_contact_inserted(const Simulation& simulation, const SpecialPoint& point,
                                            const std::vector<double>& after, std::size_t mode, const Segment& last) {
     const Orbit& grazing = point.solution.orbit;
-    const std::vector<Entry> rounds = two_rounds(simulation.model(), grazing);
+    const std::vector<Entry> rounds = two_rounds(simulation.system(), grazing);
     const std::size_t touching = point.segment, count = grazing.segments();
     double left = grazing.durations[touching] - point.time;
     std::vector<Entry> entries;
@@ -85,7 +85,7 @@ std::optional<Orbit> with_contact_inserted(const Simulation& simulation, const S
     return joined(grazing, entries);
 }
 
-Orbit begun_after_first_contact(const Model& model, const Orbit& like, const FollowedMotion& motion, double round) {
+Orbit begun_after_first_contact(const System& system, const Orbit& like, const FollowedMotion& motion, double round) {
     Orbit orbit;
     orbit.parameters = like.parameters;
     orbit.symmetry = like.symmetry;
@@ -97,7 +97,7 @@ Orbit begun_after_first_contact(const Model& model, const Orbit& like, const Fol
         orbit.durations.push_back(motion.durations[k]);
         known += motion.durations[k];
     }
-    orbit.signature.push_back(like.symmetry ? image_of(model, *like.symmetry, motion.segments[0], like)
+    orbit.signature.push_back(like.symmetry ? image_of(system, *like.symmetry, motion.segments[0], like)
                                             : motion.segments[0]);
     orbit.starts.push_back(motion.starts[count]);
     orbit.durations.push_back(round - known);

@@ -19,6 +19,6 @@ std::optional<Orbit> with_contact_inserted(const Simulation& simulation, const S
 
 /// The contacts of a motion that has been followed for one round and begins between two of them, as an orbit that
 /// begins after the first. @param like has the parameters and the symmetry
-Orbit begun_after_first_contact(const Model& model, const Orbit& like, const FollowedMotion& motion, double round);
+Orbit begun_after_first_contact(const System& system, const Orbit& like, const FollowedMotion& motion, double round);
 
 } // namespace graze

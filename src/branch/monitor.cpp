@@ -54,19 +54,17 @@ std::size_t segment_named(const Model& model, const Signature& signature, const 
 
 class OrbitMonitors::Evaluator {
 public:
-    Evaluator(const Model& model, const Signature& signature, std::vector<Monitor> monitors, double tolerance)
-        : monitors_(std::move(monitors)), model_(&model), simulation_(model, {}, observed(), options(tolerance)),
+    Evaluator(const System& system, const Signature& signature, std::vector<Monitor> monitors, double tolerance)
+        : monitors_(std::move(monitors)), system_(system), simulation_(system, {}, observed(), options(tolerance)),
           flow_(simulation_, {}), roots_(simulation_.order()) {
-        std::vector<Expression> inputs = model.state_symbols();
-        for (const Expression& symbol : model.parameter_symbols())
-            inputs.push_back(symbol);
+        const Model& model = system.model();
         for (const Monitor& monitor : monitors_) {
             const bool at_point = monitor.kind == Monitor::Kind::value || monitor.kind == Monitor::Kind::start;
             segments_.push_back(monitor.segment.empty() ? std::optional<std::size_t>()
                                                         : segment_named(model, signature, monitor));
             if (at_point && !segments_.back())
                 segments_.back() = 0;
-            functions_.emplace_back(inputs, std::vector<Expression>{at_point ? monitor.expression : model.number(0)});
+            functions_.push_back(at_point ? system.function_of({&monitor.expression, 1}) : Function());
         }
     }
 
@@ -81,7 +79,7 @@ public:
             follow(orbit, s, [&](std::size_t m) { return segments_[m] ? *segments_[m] == s : !orbit.symmetry; });
         const auto is_whole = [&](std::size_t m) { return !segments_[m]; };
         if (orbit.symmetry && any_whole()) {
-            const Orbit whole = whole_orbit(*model_, orbit);
+            const Orbit whole = whole_orbit(system_, orbit);
             for (std::size_t s = 0; s < whole.segments(); ++s)
                 follow(whole, s, is_whole);
         }
@@ -138,7 +136,7 @@ private:
         if (!arcs && !end)
             return;
         const std::size_t mode = orbit.signature[s].mode;
-        const std::size_t events = simulation_.compiled().mode(mode).watched.size();
+        const std::size_t events = simulation_.system().mode(mode).watched.size();
         std::vector<double> state = orbit.starts[s];
         flow_.run(mode, state, orbit.durations[s], [&](const Jet& jet, double, double length) {
             for (std::size_t m = 0; m < monitors_.size(); ++m)
@@ -204,7 +202,7 @@ private:
 
     std::vector<Monitor> monitors_;
     std::vector<std::size_t> series_; ///< among the observed, of those along arcs
-    const Model* model_;
+    System system_;
     Simulation simulation_;
     ArcFlow flow_;
     RootFinder roots_;
@@ -222,9 +220,9 @@ void measure_multipliers(const std::vector<Monitor>& monitors, const std::vector
             values[m] = std::abs(multipliers[monitors[m].place - 1]);
 }
 
-OrbitMonitors::OrbitMonitors(const Model& model, const Signature& signature, std::vector<Monitor> monitors,
+OrbitMonitors::OrbitMonitors(const System& system, const Signature& signature, std::vector<Monitor> monitors,
                              double tolerance)
-    : evaluator_(std::make_unique<Evaluator>(model, signature, std::move(monitors), tolerance)) {}
+    : evaluator_(std::make_unique<Evaluator>(system, signature, std::move(monitors), tolerance)) {}
 OrbitMonitors::~OrbitMonitors() = default;
 OrbitMonitors::OrbitMonitors(OrbitMonitors&&) noexcept = default;
 

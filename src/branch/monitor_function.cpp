@@ -23,7 +23,7 @@ constexpr std::array<std::pair<double, double>, 8> gauss{{{0.019855071751231884,
 
 /// The monitor's expression and, for the second half of a symmetric orbit, the same of the image.
 std::vector<Expression> expressions_of(const Shooting& shooting, const Monitor& monitor, bool whole) {
-    const Model& model = shooting.model();
+    Model model = shooting.model();
     if (monitor.kind == Monitor::Kind::duration)
         return {};
     const Expression own = model.expand(monitor.kind == Monitor::Kind::norm ? monitor.expression * monitor.expression
@@ -44,10 +44,11 @@ std::vector<Expression> expressions_of(const Shooting& shooting, const Monitor& 
 
 MonitorFunction::MonitorFunction(const Shooting& shooting, const Monitor& monitor, std::optional<std::size_t> segment)
     : kind_(monitor.kind), segment_(segment),
-      simulation_(shooting.model(), {}, expressions_of(shooting, monitor, !segment), shooting.simulation().options()),
+      simulation_(shooting.simulation().system(), {}, expressions_of(shooting, monitor, !segment),
+                  shooting.simulation().options()),
       flow_(simulation_, shooting.free()), roots_(simulation_.order()) {
     for (const Expression& expression : expressions_of(shooting, monitor, !segment))
-        watched_.push_back({shooting.with_gradient(expression), watched_.size()});
+        watched_.push_back({simulation_.system().with_gradient(expression), watched_.size()});
 }
 
 bool MonitorFunction::evaluate(const Shooting& shooting, const Eigen::VectorXd& unknowns) {
@@ -87,22 +88,18 @@ std::vector<std::size_t> MonitorFunction::pieces(const Shooting& shooting) const
     return result;
 }
 
-std::vector<double> MonitorFunction::inputs(const Shooting& shooting, std::vector<double> state) const {
-    state.insert(state.end(), shooting.parameters().begin(), shooting.parameters().end());
-    return state;
-}
-
 /// With respect to states, then free parameters.
-Eigen::VectorXd MonitorFunction::gradient_at(const Watched& watched, const std::vector<double>& inputs,
-                                             double& value) const {
-    const std::vector<double> all = watched.function(inputs);
+Eigen::VectorXd MonitorFunction::gradient_at(const Shooting& shooting, const Watched& watched,
+                                             std::vector<double> state, double& value) const {
+    state.insert(state.end(), shooting.parameters().begin(), shooting.parameters().end());
+    const std::vector<double> all = watched.function(state);
     value = all[0];
-    return Eigen::Map<const Eigen::VectorXd>(&all[1], index(all.size() - 1));
+    return shooting.gradient_of(all);
 }
 
 bool MonitorFunction::at_end(const Shooting& shooting) {
     const std::size_t piece = shooting.last_piece(segment_.value_or(0));
-    const Eigen::VectorXd by_all = gradient_at(watched_[0], inputs(shooting, shooting.piece(piece).end), value_);
+    const Eigen::VectorXd by_all = gradient_at(shooting, watched_[0], shooting.piece(piece).end, value_);
     gradient_ = shooting.row_at_end(piece, by_all);
     return true;
 }
@@ -111,7 +108,7 @@ bool MonitorFunction::at_start(const Shooting& shooting, const Eigen::VectorXd& 
     const auto n = index(shooting.states());
     const Eigen::Index place = index(shooting.start_of(shooting.first_piece(segment_.value_or(0))));
     const std::vector<double> state(unknowns.data() + place, unknowns.data() + place + n);
-    const Eigen::VectorXd by_all = gradient_at(watched_[0], inputs(shooting, state), value_);
+    const Eigen::VectorXd by_all = gradient_at(shooting, watched_[0], state, value_);
     gradient_.segment(place, n) = by_all.head(n).transpose();
     gradient_.tail(by_all.size() - n) = by_all.tail(by_all.size() - n).transpose();
     return true;
@@ -142,7 +139,7 @@ std::optional<MonitorFunction::Place> MonitorFunction::find_extremum(const Shoot
         const double* start = unknowns.data() + shooting.start_of(k);
         std::vector<double> state(start, start + n);
         const std::size_t mode = shooting.signature()[shooting.piece(k).segment].mode;
-        const std::size_t events = simulation_.compiled().mode(mode).watched.size();
+        const std::size_t events = simulation_.system().mode(mode).watched.size();
         const double duration = unknowns[index(shooting.duration_of(k))];
         flow_.run(mode, state, duration, [&](const Jet& jet, double time, double length) {
             for (const Watched& watched : watched_) {
@@ -172,7 +169,7 @@ bool MonitorFunction::extremum(const Shooting& shooting, const Eigen::VectorXd& 
     const auto n = index(shooting.states()), q = index(shooting.free().size());
     const Watched& watched = watched_[place->watched];
     if (place->at_end) { // ends with its segment, however long that takes
-        const Eigen::VectorXd by_all = gradient_at(watched, inputs(shooting, shooting.piece(place->piece).end), value_);
+        const Eigen::VectorXd by_all = gradient_at(shooting, watched, shooting.piece(place->piece).end, value_);
         gradient_ = shooting.row_at_end(place->piece, by_all);
         return true;
     }
@@ -182,7 +179,7 @@ bool MonitorFunction::extremum(const Shooting& shooting, const Eigen::VectorXd& 
     if (flow_.run(shooting.signature()[shooting.piece(place->piece).segment].mode, state, place->time, flow) !=
         ArcFlow::Ending::done)
         return false;
-    const Eigen::VectorXd by_all = gradient_at(watched, inputs(shooting, state), value_);
+    const Eigen::VectorXd by_all = gradient_at(shooting, watched, state, value_);
     value_ = place->value;
     const Eigen::RowVectorXd by_state = by_all.head(n).transpose();
     gradient_.segment(index(shooting.start_of(place->piece)), n) = by_state * flow.leftCols(n);
@@ -216,7 +213,7 @@ bool MonitorFunction::mean(const Shooting& shooting, const Eigen::VectorXd& unkn
                 flow.rightCols(q) += part.rightCols(q);
                 for (const Watched& watched : watched_) {
                     double value = 0;
-                    const Eigen::VectorXd by_all = gradient_at(watched, inputs(shooting, state), value);
+                    const Eigen::VectorXd by_all = gradient_at(shooting, watched, state, value);
                     const Eigen::RowVectorXd by_state = by_all.head(n).transpose();
                     const double here = share * weight * length;
                     integral += here * value;
@@ -226,7 +223,7 @@ bool MonitorFunction::mean(const Shooting& shooting, const Eigen::VectorXd& unkn
             }
         for (const Watched& watched : watched_) {
             double value = 0;
-            gradient_at(watched, inputs(shooting, shooting.piece(k).end), value);
+            gradient_at(shooting, watched, shooting.piece(k).end, value);
             gradient_[index(shooting.duration_of(k))] += share * value;
         }
         time += duration;

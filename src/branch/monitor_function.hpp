@@ -46,8 +46,8 @@ private:
     bool extremum(const Shooting& shooting, const Eigen::VectorXd& unknowns);
     std::optional<Place> find_extremum(const Shooting& shooting, const Eigen::VectorXd& unknowns);
     bool mean(const Shooting& shooting, const Eigen::VectorXd& unknowns);
-    std::vector<double> inputs(const Shooting& shooting, std::vector<double> state) const;
-    Eigen::VectorXd gradient_at(const Watched& watched, const std::vector<double>& inputs, double& value) const;
+    Eigen::VectorXd gradient_at(const Shooting& shooting, const Watched& watched, std::vector<double> state,
+                                double& value) const;
 
     Monitor::Kind kind_;
     std::optional<std::size_t> segment_;

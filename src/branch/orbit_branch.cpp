@@ -29,7 +29,7 @@ bool is_among(PointType type, const std::vector<PointType>& types) {
 void BranchSettings::validate(const Model& model) const {
     continuation.validate();
     orbit.validate();
-    if (parameter >= model.parameter_symbols().size())
+    if (parameter >= model.independent_parameters().size())
         throw InputError("the branch's parameter is not one of the model's", "choose an independent parameter");
     if (direction != 1 && direction != -1)
         throw InputError(fmt::format("the direction {} is neither 1 nor -1", direction), "give 1 for up, -1 for down");
@@ -52,7 +52,7 @@ void BranchSettings::validate(const Model& model) const {
                              "give 1 for the largest, 2 for the next, ...");
     }
     for (const std::size_t one : free)
-        if (one >= model.parameter_symbols().size() || one == parameter ||
+        if (one >= model.independent_parameters().size() || one == parameter ||
             std::count(free.begin(), free.end(), one) > 1)
             throw InputError("a free parameter is not one of the model's, or there twice", "name other ones");
 }
@@ -83,8 +83,8 @@ std::string_view name_of(BranchOutcome outcome) {
 
 class OrbitBranch::Follower {
 public:
-    Follower(const Model& model, const Orbit& candidate, const BranchSettings& settings)
-        : state_(model, candidate, settings), candidate_(candidate), locator_(state_, point, tests_) {}
+    Follower(const System& system, const Orbit& candidate, const BranchSettings& settings)
+        : state_(system, candidate, settings), candidate_(candidate), locator_(state_, point, tests_) {}
 
     bool start() {
         const std::vector<double> u = state_.unknowns_of(candidate_);
@@ -249,7 +249,7 @@ private:
         if (++reorderings_ > most)
             return false;
         try {
-            const BranchStart start = branches_at(state_.model(), special, state_.settings()).front();
+            const BranchStart start = branches_at(state_.system(), special, state_.settings()).front();
             state_.go_on(start, special.arclength);
         } catch (const InputError& error) { // nothing beyond: the branch ends
             special.detail += fmt::format("; {}", error.problem());
@@ -323,8 +323,8 @@ private:
     bool ended_ = true;
 };
 
-OrbitBranch::OrbitBranch(const Model& model, const Orbit& candidate, const BranchSettings& settings)
-    : follower_(std::make_unique<Follower>(model, candidate, settings)) {}
+OrbitBranch::OrbitBranch(const System& system, const Orbit& candidate, const BranchSettings& settings)
+    : follower_(std::make_unique<Follower>(system, candidate, settings)) {}
 OrbitBranch::~OrbitBranch() = default;
 OrbitBranch::OrbitBranch(OrbitBranch&&) noexcept = default;
 
@@ -350,9 +350,9 @@ const std::string& OrbitBranch::detail() const {
     return follower_->detail;
 }
 
-Branch follow_branch(const Model& model, const Orbit& candidate, const BranchSettings& settings,
+Branch follow_branch(const System& system, const Orbit& candidate, const BranchSettings& settings,
                      const BranchVisitor& visit) {
-    OrbitBranch follower(model, candidate, settings);
+    OrbitBranch follower(system, candidate, settings);
     Branch branch;
     bool going = follower.start();
     while (going) {

@@ -37,7 +37,7 @@ void add_torus_test(const std::vector<std::complex<double>>& multipliers, std::v
 }
 
 void add_arc_tests(const Shooting& shooting, const Certificate& certificate, std::vector<BranchTest>& tests) {
-    const CompiledModel& compiled = shooting.simulation().compiled();
+    const System& compiled = shooting.simulation().system();
     for (std::size_t s = 0; s < shooting.signature().size(); ++s) {
         const auto& mode = compiled.mode(shooting.signature()[s].mode);
         for (std::size_t w = 0; w < mode.watched.size(); ++w) {

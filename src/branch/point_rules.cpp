@@ -81,7 +81,7 @@ bool is_what_it_seems(BranchState& state, SpecialPoint& special, const BranchTes
             if (bound && !test.monitor && std::abs(special.parameter - *bound) < 1e-9 * length_of_step(state))
                 special.parameter = special.solution.orbit.parameters[settings.parameter] = *bound;
         const std::string name =
-            test.monitor ? settings.monitors[*test.monitor].name : model.parameter_symbols()[settings.parameter].name();
+            test.monitor ? settings.monitors[*test.monitor].name : model.independent_parameters()[settings.parameter];
         const double value = test.monitor ? special.monitors[*test.monitor] : special.parameter;
         special.detail = fmt::format(
             "{} = {:.10g}", name,

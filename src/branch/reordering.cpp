@@ -39,8 +39,8 @@ std::optional<Orbit> followed(const Simulation& simulation, const Orbit& orbit, 
         return std::nullopt;
     }
     return motion.segments.empty()
-               ? close_at_section(simulation.model(), orbit.parameters, state, mode, round, "", orbit.symmetry)
-               : std::optional(begun_after_first_contact(simulation.model(), orbit, motion, round));
+               ? close_at_section(simulation.system(), orbit.parameters, state, mode, round, "", orbit.symmetry)
+               : std::optional(begun_after_first_contact(simulation.system(), orbit, motion, round));
 }
 
 /// Whether orbits have the same segments, wherever they begin: then the one is on the branch of the other.
@@ -58,8 +58,8 @@ bool are_alike(const Orbit& one, const Orbit& other) {
 
 } // namespace
 
-BranchStart with_events_reordered(const Model& model, const SpecialPoint& point, const BranchSettings& settings) {
-    const Simulation simulation(model, {}, {}, integration(settings.orbit.tolerance));
+BranchStart with_events_reordered(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
+    const Simulation simulation(system, {}, {}, integration(settings.orbit.tolerance));
     const Orbit& orbit = point.solution.orbit;
     std::string why = "the branch's direction is not known";
     OrbitProblem problem(simulation, orbit, settings.parameter);
@@ -76,7 +76,7 @@ BranchStart with_events_reordered(const Model& model, const SpecialPoint& point,
                 options.error_estimate = false;
                 OrbitSolution solution;
                 try {
-                    solution = solve_orbit(model, *candidate, options);
+                    solution = solve_orbit(system, *candidate, options);
                 } catch (const InputError& error) { // the motion does not close to a signature of the model
                     why = error.problem();
                     continue;

@@ -27,9 +27,9 @@ Orbit twice(const Orbit& orbit) {
 }
 
 /// Both ways along the null vector of an orbit's equations that is orthogonal to a row.
-std::vector<BranchStart> both_ways(const Model& model, Orbit orbit, const BranchSettings& settings,
+std::vector<BranchStart> both_ways(const System& system, Orbit orbit, const BranchSettings& settings,
                                    const std::vector<double>& along, const std::string& how, bool second) {
-    const Simulation simulation(model, {}, {}, integration(settings.orbit.tolerance));
+    const Simulation simulation(system, {}, {}, integration(settings.orbit.tolerance));
     join_drifts(simulation, orbit);
     OrbitProblem problem(simulation, orbit, settings.parameter);
     Shooting& shooting = problem.shooting();
@@ -50,23 +50,24 @@ std::vector<BranchStart> both_ways(const Model& model, Orbit orbit, const Branch
 
 } // namespace
 
-std::vector<BranchStart> branches_at(const Model& model, const SpecialPoint& point, const BranchSettings& settings) {
+std::vector<BranchStart> branches_at(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
+    const Model& model = system.model();
     settings.validate(model);
     const Orbit& orbit = point.solution.orbit;
     switch (point.type) {
     case PointType::flip:
-        return both_ways(model, twice(orbit), settings, {}, "doubled", false);
+        return both_ways(system, twice(orbit), settings, {}, "doubled", false);
     case PointType::asymmetry:
-        return both_ways(model, whole_orbit(model, orbit), settings, {}, "without the symmetry", true);
+        return both_ways(system, whole_orbit(system, orbit), settings, {}, "without the symmetry", true);
     case PointType::branch_point:
-        return both_ways(model, orbit, settings, point.tangent, "other branch", true);
+        return both_ways(system, orbit, settings, point.tangent, "other branch", true);
     case PointType::grazing:
-        return {point.at_end ? with_one_contact_fewer(model, point, settings)
-                             : with_one_more_contact(model, point, settings)};
+        return {point.at_end ? with_one_contact_fewer(system, point, settings)
+                             : with_one_more_contact(system, point, settings)};
     case PointType::vanishing:
     case PointType::two_events:
     case PointType::guard:
-        return {with_events_reordered(model, point, settings)};
+        return {with_events_reordered(system, point, settings)};
     default:
         throw InputError(fmt::format("no other branch leaves from a point of type {} ({})", short_name(point.type),
                                      name_of(point.type)),

@@ -39,13 +39,13 @@ void keep_most(double& most, double ratio) {
 
 } // namespace
 
-StepCheck::StepCheck(const CompiledModel& model, int order, double tolerance)
-    : model_(&model), states_(model.states()), order_(static_cast<std::size_t>(order)), tolerance_(tolerance),
-      inputs_(states_ + model.parameters()), input_errors_(inputs_.size()), slopes_(states_), seen_(states_) {
+StepCheck::StepCheck(const System& system, int order, double tolerance)
+    : system_(system), states_(system.states()), order_(static_cast<std::size_t>(order)), tolerance_(tolerance),
+      inputs_(states_ + system.parameters()), input_errors_(inputs_.size()), slopes_(states_), seen_(states_) {
     std::size_t outputs = 0, workspace = 0;
-    for (std::size_t m = 0; m < model.model().modes.size(); ++m) {
-        outputs = std::max(outputs, model.mode(m).evidence.outputs());
-        workspace = std::max(workspace, model.mode(m).evidence.workspace());
+    for (std::size_t m = 0; m < system.model().modes.size(); ++m) {
+        outputs = std::max(outputs, system.mode(m).evidence.outputs());
+        workspace = std::max(workspace, system.mode(m).evidence.workspace());
     }
     truth_.resize(outputs);
     errors_.resize(outputs);
@@ -69,7 +69,7 @@ void StepCheck::evaluate(std::size_t mode, double s) {
     }
     mode_ = mode;
     errors_known_ = false;
-    model_->mode(mode).evidence.evaluate(inputs_, truth_, work_);
+    system_.mode(mode).evidence.evaluate(inputs_, truth_, work_);
 }
 
 /// What round-off may have done to what the model makes of them.
@@ -79,7 +79,7 @@ void StepCheck::find_errors(double s) {
     errors_known_ = true;
     for (std::size_t i = 0; i < states_; ++i)
         input_errors_[i] = 4 * unit * sizes_at(series_[i], order_, std::abs(s)).value;
-    model_->mode(mode_).evidence.error_bounds(inputs_, input_errors_, errors_, work_);
+    system_.mode(mode_).evidence.error_bounds(inputs_, input_errors_, errors_, work_);
 }
 
 /// A state that starts without value, rate and acceleration has no size of its own yet. It is measured by that to which

@@ -157,13 +157,10 @@ private:
 
     /// Values of expressions in the initial state.
     std::vector<double> at_start(const std::vector<Expression>& expressions) const {
-        std::vector<Expression> inputs = model_.state_symbols();
         std::vector<double> values = model_.initial_state();
-        for (const Expression& symbol : model_.parameter_symbols())
-            inputs.push_back(symbol);
         for (const double value : model_.parameter_values())
             values.push_back(value);
-        return Function(inputs, model_.expand(expressions))(values);
+        return model_.function_of(expressions)(values);
     }
 
     void check_start() {

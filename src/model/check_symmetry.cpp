@@ -15,7 +15,7 @@ namespace {
 
 /// Both sides of DS(x) f(x) = f'(S(x)), where f' is the vector field of the image of the mode: first all
 /// components of the left side, then those of the right.
-Function both_sides(const Model& model, const Symmetry& symmetry, std::size_t mode) {
+Function both_sides(Model model, const Symmetry& symmetry, std::size_t mode) {
     const std::vector<Expression> states = model.state_symbols();
     const std::vector<Expression> map = model.expand(symmetry.map);
     const std::vector<Expression> rates = model.expand(model.modes[mode].rates);
@@ -30,10 +30,7 @@ Function both_sides(const Model& model, const Symmetry& symmetry, std::size_t mo
         replacements.emplace_back(states[i], map[i]);
     for (const Expression& rate : substitute(model.expand(model.modes[symmetry.modes[mode]].rates), replacements))
         sides.push_back(rate);
-    std::vector<Expression> inputs = states;
-    for (const Expression& symbol : model.parameter_symbols())
-        inputs.push_back(symbol);
-    return {inputs, sides};
+    return {model.inputs(), sides};
 }
 
 /// States around the initial one, at distances that suit models in any units; always the same ones.

@@ -3,6 +3,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "model/model_expand.hpp"
+#include "model/model_expressions.hpp"
 #include "model/model_validate.hpp"
 
 #include <fmt/format.h>
@@ -41,8 +42,36 @@ void require_finite(double value, std::string_view what) {
 
 } // namespace
 
-Model::Model() : graph(Graph::create()) {
+Model::Model() {
+    graph = Graph::create();
     jumps.push_back({"identity", "states stay as they are", {}});
+}
+
+Model::Model(const Model& other) : ModelItems(other) {
+    if (!graph)
+        return; // of a model that was moved from
+    graph = graph->copy();
+    visit_expressions(*this, [&](Expression& expression) {
+        if (expression.graph() == other.graph) // others are for `validate` to find
+            expression = Expression(graph, expression.index());
+    });
+}
+
+Model& Model::operator=(const Model& other) {
+    if (this != &other)
+        *this = Model(other);
+    return *this;
+}
+
+void Model::freeze() {
+    // What is asked for by name must be there.
+    for (const State& state : states)
+        symbol(state.name);
+    for (const Parameter& parameter : parameters)
+        symbol(parameter.name);
+    for (const Definition& definition : definitions)
+        symbol(definition.name);
+    graph->freeze();
 }
 
 std::vector<Expression> Model::state_symbols() const {
@@ -60,12 +89,41 @@ std::vector<Expression> Model::parameter_symbols() const {
     return result;
 }
 
+std::vector<Expression> Model::inputs() const {
+    std::vector<Expression> result = state_symbols();
+    for (const Expression& parameter : parameter_symbols())
+        result.push_back(parameter);
+    return result;
+}
+
 std::vector<double> Model::parameter_values() const {
     std::vector<double> result;
     for (const Parameter& parameter : parameters)
         if (!parameter.expression)
             result.push_back(parameter.value.value_or(std::nan("")));
     return result;
+}
+
+std::vector<std::string> Model::independent_parameters() const {
+    std::vector<std::string> names;
+    for (const Parameter& parameter : parameters)
+        if (!parameter.expression)
+            names.push_back(parameter.name);
+    return names;
+}
+
+std::optional<std::size_t> Model::find_independent_parameter(std::string_view item) const {
+    const std::vector<std::string> names = independent_parameters();
+    const auto found = std::find(names.begin(), names.end(), item);
+    return found == names.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - names.begin()));
+}
+
+std::size_t Model::independent_parameter(std::string_view item) const {
+    if (const auto place = find_independent_parameter(item))
+        return *place;
+    if (find_parameter(item))
+        throw InputError(fmt::format("parameter '{}' follows from others", item), "choose one that it depends on");
+    throw InputError(fmt::format("there is no parameter '{}'", item), name_remedy(item, independent_parameters()));
 }
 
 std::optional<std::size_t> Model::find_parameter(std::string_view item) const {
@@ -117,6 +175,14 @@ void Model::set_initial_mode(std::string_view item) {
 
 std::vector<double> Model::initial_state() const {
     return checked_initial_state(*this, Places(name));
+}
+
+std::vector<double> Model::periods() const {
+    std::vector<Expression> periods;
+    const Expression none = Graph::create()->number(0);
+    for (const State& state : states)
+        periods.push_back(state.period.value_or(none));
+    return values_of(periods);
 }
 
 void Model::validate() const {

@@ -3,6 +3,7 @@
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/transform.hpp"
+#include "model/model_validate.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -140,11 +141,14 @@ std::vector<std::string> find_circle(const Model& model) {
     return Abbreviations(model, all).circle();
 }
 
-Expression Model::expand(const Expression& expression) const {
+Expression Model::expand(const Expression& expression) {
     return expand(std::span<const Expression>(&expression, 1)).front();
 }
 
-std::vector<Expression> Model::expand(std::span<const Expression> expressions) const {
+std::vector<Expression> Model::expand(std::span<const Expression> given) {
+    std::vector<Expression> expressions;
+    for (const Expression& expression : given)
+        expressions.push_back(graph->adopt(expression));
     const Abbreviations abbreviations(*this, expressions);
     if (!abbreviations.circle().empty())
         throw InputError({name, 0, 0},
@@ -171,9 +175,30 @@ std::vector<Expression> Model::expand(std::span<const Expression> expressions) c
     return replace(expressions);
 }
 
-std::vector<double> evaluate_in_parameters(const Model& model, std::span<const Expression> expressions) {
-    const Function function(model.parameter_symbols(), model.expand(expressions));
-    return function(model.parameter_values());
+Function Model::function_of(std::span<const Expression> expressions) const {
+    Model scratch = *this;
+    const std::vector<Expression> inputs = scratch.inputs(), outputs = scratch.expand(expressions);
+    scratch.require_known(inputs, outputs);
+    return {inputs, outputs};
+}
+
+void Model::require_known(std::span<const Expression> inputs, std::span<const Expression> expressions) const {
+    for (const Expression& symbol : symbols_of(expressions)) {
+        if (std::find(inputs.begin(), inputs.end(), symbol) != inputs.end())
+            continue;
+        std::vector<std::string> names;
+        for (const Expression& input : inputs)
+            names.push_back(input.name());
+        throw InputError(fmt::format("an expression contains '{}', which is not one of the model's", symbol.name()),
+                         name_remedy(symbol.name(), names));
+    }
+}
+
+std::vector<double> Model::values_of(std::span<const Expression> expressions) const {
+    Model scratch = *this;
+    const std::vector<Expression> inputs = scratch.parameter_symbols(), outputs = scratch.expand(expressions);
+    scratch.require_known(inputs, outputs);
+    return Function(inputs, outputs)(scratch.parameter_values());
 }
 
 } // namespace graze

@@ -15,8 +15,4 @@ std::vector<std::string> find_circle(const Model& model);
 /// "a -> b -> a"
 std::string circle_text(const std::vector<std::string>& names);
 
-/// Values of expressions in terms of parameters at the present parameters; not finite where an operation is
-/// outside its domain.
-std::vector<double> evaluate_in_parameters(const Model& model, std::span<const Expression> expressions);
-
 } // namespace graze

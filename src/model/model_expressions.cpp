@@ -44,4 +44,41 @@ std::vector<ModelExpression> model_expressions(const Model& model) {
     return result;
 }
 
+void visit_expressions(Model& model, const std::function<void(Expression&)>& visit) {
+    const auto visit_all = [&](std::vector<Expression>& expressions) {
+        for (Expression& expression : expressions)
+            visit(expression);
+    };
+    const auto visit_optional = [&](std::optional<Expression>& expression) {
+        if (expression)
+            visit(*expression);
+    };
+    for (Parameter& parameter : model.parameters)
+        visit_optional(parameter.expression);
+    for (State& state : model.states) {
+        visit(state.initial);
+        visit_optional(state.period);
+    }
+    for (Definition& definition : model.definitions)
+        visit(definition.value);
+    for (Mode& mode : model.modes)
+        visit_all(mode.rates);
+    for (Event& event : model.events)
+        visit(event.function);
+    for (Jump& jump : model.jumps)
+        visit_all(jump.map);
+    for (Transition& transition : model.transitions)
+        for (Alternative& alternative : transition.next)
+            for (Condition& condition : alternative.when)
+                visit(condition.function);
+    for (Section& section : model.sections) {
+        visit(section.function);
+        visit(section.value);
+    }
+    for (Symmetry& symmetry : model.symmetries)
+        visit_all(symmetry.map);
+    for (Quantity& quantity : model.quantities)
+        visit(quantity.value);
+}
+
 } // namespace graze

@@ -2,6 +2,7 @@
 
 #include "graze/model/model.hpp"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,5 +17,8 @@ struct ModelExpression {
 
 /// All expressions of a model, conditions included, in the order of the file.
 std::vector<ModelExpression> model_expressions(const Model& model);
+
+/// Visits every expression that a model holds, to be changed, empty ones too.
+void visit_expressions(Model& model, const std::function<void(Expression&)>& visit);
 
 } // namespace graze

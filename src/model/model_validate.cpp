@@ -310,7 +310,7 @@ private:
                 items.push_back(&item);
                 expressions.push_back(item.expression);
             }
-        const std::vector<double> values = evaluate_in_parameters(model_, expressions);
+        const std::vector<double> values = model_.values_of(expressions);
         for (std::size_t i = 0; i < values.size(); ++i)
             if (!std::isfinite(values[i]))
                 fail(items[i]->path, fmt::format("{} is {} at these parameters", items[i]->path, values[i]),
@@ -355,7 +355,7 @@ std::vector<double> checked_initial_state(const Model& model, const Places& plac
         expressions.push_back(state.initial);
         expressions.push_back(state.period.value_or(model.graph->number(1)));
     }
-    const std::vector<double> values = evaluate_in_parameters(model, expressions);
+    const std::vector<double> values = model.values_of(expressions);
     std::vector<double> result;
     for (std::size_t i = 0; i < model.states.size(); ++i) {
         const std::string path = "states." + model.states[i].name;

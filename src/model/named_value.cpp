@@ -44,12 +44,13 @@ bool is_not_a_finite_number(std::string_view text) {
 } // namespace
 
 NamedValue named_value(const Model& model, const std::string& text, const Place& place) {
+    Model scratch = model;
     if (const auto index = model.find_quantity(text)) {
         const Quantity& quantity = model.quantities[*index];
-        return {quantity.name, quantity.unit, quantity.text, model.expand(quantity.value)};
+        return {quantity.name, quantity.unit, quantity.text, scratch.expand(quantity.value)};
     }
     NamedValue result{text, "", "", {}};
-    result.value = model.expand(parse_expression(*model.graph, text, scope_of(model), place));
+    result.value = scratch.expand(parse_expression(*scratch.graph, text, scope_of(scratch), place));
     if (const auto state = model.find_state(text)) {
         result.unit = model.states[*state].unit;
         result.text = model.states[*state].text;
@@ -63,11 +64,12 @@ NamedValue named_value(const Model& model, const std::string& text, const Place&
 double value_of_text(const Model& model, std::string_view text, const Place& place) {
     if (is_not_a_finite_number(text))
         throw InputError(place, fmt::format("'{}' is not a finite number", trimmed(text)), "give a finite number");
+    Model scratch = model;
     Scope scope;
-    for (const Parameter& parameter : model.parameters)
-        scope.emplace(parameter.name, model.symbol(parameter.name));
-    const Expression expression = model.expand(parse_expression(*model.graph, text, scope, place));
-    const double value = Function(model.parameter_symbols(), {{expression}})(model.parameter_values())[0];
+    for (const Parameter& parameter : scratch.parameters)
+        scope.emplace(parameter.name, scratch.symbol(parameter.name));
+    const Expression expression = scratch.expand(parse_expression(*scratch.graph, text, scope, place));
+    const double value = Function(scratch.parameter_symbols(), {{expression}})(scratch.parameter_values())[0];
     if (!std::isfinite(value))
         throw InputError(place, fmt::format("'{}' has no finite value", trimmed(text)),
                          "look for a division by zero, or a root or logarithm of a number that is not positive");

@@ -23,14 +23,14 @@ constexpr double longest_leap = 2;
 } // namespace
 
 ArcFlow::ArcFlow(const Simulation& simulation, std::vector<std::size_t> free)
-    : simulation_(&simulation), free_(std::move(free)), states_(simulation.compiled().states()),
+    : simulation_(simulation), free_(std::move(free)), states_(simulation.system().states()),
       directions_(states_ + free_.size()), step_size_(simulation.order(), simulation.options().tolerance),
-      step_check_(simulation.compiled(), simulation.order(), simulation.options().tolerance),
+      step_check_(simulation.system(), simulation.order(), simulation.options().tolerance),
       tolerance_(allowance * simulation.options().tolerance), single_(simulation, LaneKind::single),
       tangent_(simulation, LaneKind::tangent) {
     lanes_ = static_cast<std::size_t>(tangent_.width()) - 1;
     const std::size_t width = lanes_ + 1;
-    parameters_.resize(simulation.compiled().parameters());
+    parameters_.resize(simulation.system().parameters());
     parameter_lanes_.resize(parameters_.size() * width);
     seeds_.resize(states_ * width);
     sums_.resize(std::max<std::size_t>(states_, 1) * width);
@@ -65,7 +65,7 @@ double ArcFlow::step_of(std::size_t mode, const Jet& jet, double remaining, bool
         step = step_size_(series, first_share * std::abs(remaining));
     if (std::isnan(step))
         return step;
-    const bool leap = !(step <= longest_leap * previous_) && !simulation_->compiled().mode(mode).polynomial;
+    const bool leap = !(step <= longest_leap * previous_) && !simulation_.system().mode(mode).polynomial;
     const bool bounded = step < std::numeric_limits<double>::infinity();
     guarded_.assign(static_cast<std::size_t>(jet.width()), std::numeric_limits<double>::infinity());
     guarded_[0] = std::min(step, std::abs(remaining));

@@ -21,7 +21,7 @@ public:
     /// @param free parameters with respect to which there are derivatives
     ArcFlow(const Simulation& simulation, std::vector<std::size_t> free);
 
-    const Simulation& simulation() const { return *simulation_; }
+    const Simulation& simulation() const { return simulation_; }
     void set_parameters(std::span<const double> parameters);
     std::span<const double> parameters() const { return parameters_; }
 
@@ -40,7 +40,7 @@ private:
     double step_of(std::size_t mode, const Jet& jet, double remaining, bool watched);
     void load(std::size_t mode, std::span<const double> state, std::size_t first, std::size_t count);
 
-    const Simulation* simulation_;
+    Simulation simulation_;
     std::vector<std::size_t> free_;
     std::size_t states_, directions_, lanes_;
     StepSize step_size_;

@@ -21,11 +21,11 @@ class ArcWatcher {
 public:
     ArcWatcher(const Shooting& shooting, std::size_t segment, RootFinder& roots)
         : shooting_(&shooting), segment_(segment),
-          mode_(&shooting.simulation().compiled().mode(shooting.signature()[segment].mode)), roots_(&roots),
+          mode_(&shooting.simulation().system().mode(shooting.signature()[segment].mode)), roots_(&roots),
           order_(static_cast<std::size_t>(shooting.simulation().order())), sizes_(mode_->watched.size(), 0.0),
           falls_(mode_->watched.size(), std::numeric_limits<double>::infinity()), starts_(mode_->watched.size(), 0.0),
           lowest_(mode_->watched.size(), std::numeric_limits<double>::infinity()), lows_(mode_->watched.size(), 0.0) {
-        const CompiledModel& compiled = shooting.simulation().compiled();
+        const System& compiled = shooting.simulation().system();
         for (std::size_t w = 0; w < mode_->watched.size(); ++w)
             harmless_.push_back(is_harmless(compiled, mode_->transitions[w]));
     }
@@ -128,7 +128,7 @@ private:
 
     const Shooting* shooting_;
     std::size_t segment_;
-    const CompiledModel::CompiledMode* mode_;
+    const System::CompiledMode* mode_;
     RootFinder* roots_;
     std::size_t order_;
     std::vector<double> sizes_, falls_, starts_, lowest_, coefficients_, derivative_;
@@ -139,8 +139,8 @@ private:
 };
 
 /// How far the alternative that leads to `next` is from not being taken: negative when it is not.
-double guard_margin(const CompiledModel::CompiledTransition& transition, std::size_t next,
-                    std::span<const double> inputs, std::span<double> work) {
+double guard_margin(const System::CompiledTransition& transition, std::size_t next, std::span<const double> inputs,
+                    std::span<double> work) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double before = infinity, best = -infinity;
     std::vector<double> values;
@@ -160,7 +160,7 @@ double guard_margin(const CompiledModel::CompiledTransition& transition, std::si
 
 } // namespace
 
-bool is_harmless(const CompiledModel& model, std::size_t transition) {
+bool is_harmless(const System& model, std::size_t transition) {
     const Transition& one = model.model().transitions[transition];
     return model.jump(one.jump).identity &&
            std::all_of(one.next.begin(), one.next.end(),
@@ -168,7 +168,7 @@ bool is_harmless(const CompiledModel& model, std::size_t transition) {
 }
 
 Certificate certify(Shooting& shooting, const Eigen::VectorXd& unknowns) {
-    const CompiledModel& compiled = shooting.simulation().compiled();
+    const System& compiled = shooting.simulation().system();
     const std::size_t states = shooting.states();
     std::vector<double> inputs(states + shooting.parameters().size()), work(compiled.workspace()), values, gradients;
     std::copy(shooting.parameters().begin(), shooting.parameters().end(),

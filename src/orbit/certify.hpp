@@ -11,7 +11,7 @@
 namespace graze {
 
 /// Whether a transition changes nothing: neither state nor mode. Orbits need not list it.
-bool is_harmless(const CompiledModel& model, std::size_t transition);
+bool is_harmless(const System& model, std::size_t transition);
 
 /// Checks every watched event over every arc, by the roots of its Taylor polynomials. `shooting` must have been
 /// evaluated at the unknowns.

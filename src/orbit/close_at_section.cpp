@@ -39,24 +39,18 @@ std::vector<std::size_t> candidates(const Model& model, const std::string& prefe
     return result;
 }
 
-/// The smooth motion of the modes alone, in which what is only touched does not happen.
-Model without_events(Model model) {
-    for (Mode& mode : model.modes)
-        mode.watched.clear();
-    model.transitions.clear();
-    return model;
-}
-
 /// Whether the last passage is the first one again must not depend on round-off.
 constexpr double same_time = 1e-6;
 
 } // namespace
 
-Orbit cut_at_section(const Model& model, const Orbit& arcs, std::size_t section) {
-    const Model smooth = without_events(model);
+Orbit cut_at_section(const System& system, const Orbit& arcs, std::size_t section) {
+    const Model& model = system.model();
     SimulationOptions options;
     options.tolerance = 1e-13; // as orbits are computed
-    const Simulation simulation(smooth, {section_probe(smooth, smooth.sections[section].name)}, {}, options);
+    // The smooth motion alone, in which what is only touched does not happen.
+    const Simulation simulation(system.without_events(), {section_probe(model, model.sections[section].name)}, {},
+                                options);
     JetSet jets(simulation, LaneKind::single);
     const std::size_t mode = arcs.signature.front().mode;
     const double period = arcs.round(), near = same_time * period;
@@ -92,11 +86,12 @@ Orbit cut_at_section(const Model& model, const Orbit& arcs, std::size_t section)
     return orbit;
 }
 
-std::optional<Orbit> close_at_section(const Model& model, const std::vector<double>& parameters,
+std::optional<Orbit> close_at_section(const System& system, const std::vector<double>& parameters,
                                       std::span<const double> state, std::size_t mode, double duration,
                                       const std::string& preferred, std::optional<std::size_t> symmetry) {
+    const Model& model = system.model();
     for (const std::size_t index : candidates(model, preferred)) {
-        const Simulation simulation(model, {section_probe(model, model.sections[index].name)});
+        const Simulation simulation(system, {section_probe(model, model.sections[index].name)});
         PassageRecorder recorder(mode);
         Trajectory trajectory(simulation, parameters, recorder);
         trajectory.start(state, mode, 0, (2 + same_time) * duration);

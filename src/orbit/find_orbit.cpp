@@ -18,7 +18,7 @@ namespace {
 /// Writes down the contacts of a motion.
 class SegmentRecorder : public Observer {
 public:
-    SegmentRecorder(const CompiledModel& model, FollowedMotion& motion) : model_(&model), motion_(&motion) {}
+    SegmentRecorder(const System& model, FollowedMotion& motion) : model_(&model), motion_(&motion) {}
 
     void contact(const Contact& contact) override {
         if (contact.kind == ContactKind::touch)
@@ -38,7 +38,7 @@ public:
     bool stop() override { return !motion_->problem.empty(); }
 
 private:
-    const CompiledModel* model_;
+    const System* model_;
     FollowedMotion* motion_;
     double last_ = 0;
 };
@@ -70,7 +70,7 @@ FollowedMotion follow_motion(const Simulation& simulation, std::span<const doubl
                              std::span<const double> state, std::size_t mode, double time) {
     FollowedMotion motion;
     motion.starts.emplace_back(state.begin(), state.end());
-    SegmentRecorder recorder(simulation.compiled(), motion);
+    SegmentRecorder recorder(simulation.system(), motion);
     Trajectory trajectory(simulation, parameters, recorder);
     trajectory.start(state, mode, 0, time);
     JetSet jets(simulation, LaneKind::single);
@@ -82,14 +82,16 @@ FollowedMotion follow_motion(const Simulation& simulation, std::span<const doubl
     return motion;
 }
 
-OrbitSolution find_orbit(const Model& model, const AttractorOptions& settle, const OrbitOptions& options,
+OrbitSolution find_orbit(const System& system, const AttractorOptions& settle, const OrbitOptions& options,
                          const SimulationOptions& simulation) {
-    return *find_orbit(model, settle, options, simulation, [] { return false; });
+    return *find_orbit(system, settle, options, simulation, [] { return false; });
 }
 
-std::optional<OrbitSolution> find_orbit(const Model& model, const AttractorOptions& settle, const OrbitOptions& options,
-                                        const SimulationOptions& simulation, const std::function<bool()>& interrupted) {
-    const auto factory = attractor_searches(model, settle, {}, {}, simulation);
+std::optional<OrbitSolution> find_orbit(const System& system, const AttractorOptions& settle,
+                                        const OrbitOptions& options, const SimulationOptions& simulation,
+                                        const std::function<bool()>& interrupted) {
+    const Model& model = system.model();
+    const auto factory = attractor_searches(system, settle, {}, {}, simulation);
     const auto search = factory->make();
     search->begin(model.parameter_values(), model.initial_state(), model.initial_mode);
     JetSet jets(factory->simulation(), LaneKind::single);
@@ -114,7 +116,7 @@ std::optional<OrbitSolution> find_orbit(const Model& model, const AttractorOptio
     Orbit orbit;
     orbit.parameters = model.parameter_values();
     if (motion.segments.empty()) {
-        const auto closed = close_at_section(model, orbit.parameters, result.state, result.mode, result.duration,
+        const auto closed = close_at_section(system, orbit.parameters, result.state, result.mode, result.duration,
                                              settle.section, std::nullopt);
         if (!closed)
             throw InputError("the orbit passes none of the model's sections", "declare one that it passes");
@@ -122,9 +124,9 @@ std::optional<OrbitSolution> find_orbit(const Model& model, const AttractorOptio
     } else {
         cut_out(motion, result.duration, orbit);
     }
-    if (const auto half = half_orbit(model, orbit))
+    if (const auto half = half_orbit(system, orbit))
         orbit = *half;
-    return solve_orbit(model, orbit, options);
+    return solve_orbit(system, orbit, options);
 }
 
 } // namespace graze

@@ -78,7 +78,7 @@ std::optional<Orbit> half_of(const Shooting& shooting, const Orbit& orbit, doubl
         return std::nullopt;
     for (std::size_t index = 0; index < model.symmetries.size(); ++index) {
         const Symmetry& symmetry = model.symmetries[index];
-        const Function map = symmetry_map(model, index);
+        const Function& map = shooting.simulation().system().symmetry(index).map;
         Orbit half = orbit;
         half.symmetry = index;
         if (repeats_as_image(orbit, symmetry, map, shooting, tolerance)) {
@@ -99,10 +99,10 @@ std::optional<Orbit> half_of(const Shooting& shooting, const Orbit& orbit, doubl
     return std::nullopt;
 }
 
-std::optional<Orbit> half_orbit(const Model& model, const Orbit& orbit, double tolerance) {
-    if (model.symmetries.empty() || orbit.symmetry)
+std::optional<Orbit> half_orbit(const System& system, const Orbit& orbit, double tolerance) {
+    if (system.model().symmetries.empty() || orbit.symmetry)
         return std::nullopt;
-    const Simulation simulation(model);
+    const Simulation simulation(system);
     return half_of(Shooting(simulation, orbit, {}), orbit, tolerance);
 }
 

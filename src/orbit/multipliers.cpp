@@ -45,7 +45,7 @@ Eigen::MatrixXd complement(const Eigen::VectorXd& vector) {
 class SectionMapFactors {
 public:
     explicit SectionMapFactors(const Shooting& shooting)
-        : shooting_(&shooting), active_(&shooting.active()), work_(shooting.simulation().compiled().workspace()),
+        : shooting_(&shooting), active_(&shooting.active()), work_(shooting.simulation().system().workspace()),
           inputs_(shooting.states() + shooting.parameters().size()) {
         std::copy(shooting.parameters().begin(), shooting.parameters().end(),
                   inputs_.begin() + static_cast<std::ptrdiff_t>(shooting.states()));
@@ -89,7 +89,7 @@ private:
     Eigen::VectorXd direction(const std::vector<double>& state) {
         std::copy(state.begin(), state.end(), inputs_.begin());
         std::vector<double> field(state.size());
-        shooting_->simulation().compiled().mode(mode_).rates.evaluate(inputs_, field, work_);
+        shooting_->simulation().system().mode(mode_).rates.evaluate(inputs_, field, work_);
         Eigen::VectorXd result(index(active_->size()));
         for (std::size_t i = 0; i < active_->size(); ++i)
             result[index(i)] = field[(*active_)[i]] / shooting_->scales()[index((*active_)[i])];

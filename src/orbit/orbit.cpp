@@ -22,36 +22,19 @@ double Orbit::period() const {
 
 namespace {
 
-/// What functions of a state are functions of: states, then parameters.
-std::vector<Expression> inputs_of(const Model& model) {
-    std::vector<Expression> inputs = model.state_symbols();
-    const auto parameters = model.parameter_symbols();
-    inputs.insert(inputs.end(), parameters.begin(), parameters.end());
-    return inputs;
-}
-
-} // namespace
-
-Function symmetry_map(const Model& model, std::size_t symmetry) {
-    return {inputs_of(model), model.expand(model.symmetries[symmetry].map)};
-}
-
-namespace {
-
 /// The image of a segment that an event ends: in the image of its mode, the transition whose event function is the
 /// image of its own, which is judged by values at states of the orbit.
-std::size_t image_of_transition(const Model& model, const Function& symmetry, std::size_t mode, std::size_t transition,
+std::size_t image_of_transition(const System& system, std::size_t symmetry, std::size_t mode, std::size_t transition,
                                 const Orbit& orbit) {
+    const Model& model = system.model();
     const auto at = [&](std::vector<double> state) {
         state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
         return state;
     };
-    const std::vector<Expression> symbols = inputs_of(model);
-    const auto function_of = [&](std::size_t index) {
-        const Expression expanded = model.expand(model.events[model.transitions[index].event].function);
-        return Function(symbols, std::span(&expanded, 1));
+    const auto function_of = [&](std::size_t index) -> const Function& {
+        return system.event(model.transitions[index].event);
     };
-    const Function own = function_of(transition);
+    const Function &own = function_of(transition), &map = system.symmetry(symmetry).map;
     std::vector<double> sizes(model.states.size(), 0.0);
     for (const std::vector<double>& start : orbit.starts)
         for (std::size_t i = 0; i < start.size(); ++i)
@@ -61,7 +44,7 @@ std::size_t image_of_transition(const Model& model, const Function& symmetry, st
     for (std::size_t candidate = 0; candidate < model.transitions.size(); ++candidate) {
         if (model.transitions[candidate].mode != mode)
             continue;
-        const Function other = function_of(candidate);
+        const Function& other = function_of(candidate);
         bool same = true;
         double size = 0, difference = 0;
         for (const std::vector<double>& start : orbit.starts) {
@@ -70,7 +53,7 @@ std::size_t image_of_transition(const Model& model, const Function& symmetry, st
                 std::vector<double> state = start;
                 for (std::size_t i = 0; i < state.size(); ++i)
                     state[i] += displacement * sizes[i] / static_cast<double>(i + 2);
-                const double value = own(at(state))[0], image = other(at(symmetry(at(state))))[0];
+                const double value = own(at(state))[0], image = other(at(map(at(state))))[0];
                 same = same && std::isfinite(value) == std::isfinite(image);
                 if (std::isfinite(value) && std::isfinite(image)) {
                     size = std::max({size, std::abs(value), std::abs(image)});
@@ -88,26 +71,26 @@ std::size_t image_of_transition(const Model& model, const Function& symmetry, st
 
 } // namespace
 
-Segment image_of(const Model& model, std::size_t symmetry, const Segment& segment, const Orbit& orbit) {
+Segment image_of(const System& system, std::size_t symmetry, const Segment& segment, const Orbit& orbit) {
     Segment image = segment;
-    image.mode = model.symmetries[symmetry].modes[segment.mode];
+    image.mode = system.model().symmetries[symmetry].modes[segment.mode];
     if (segment.end == SegmentEnd::event)
-        image.index = image_of_transition(model, symmetry_map(model, symmetry), image.mode, segment.index, orbit);
+        image.index = image_of_transition(system, symmetry, image.mode, segment.index, orbit);
     return image;
 }
 
-Orbit whole_orbit(const Model& model, const Orbit& orbit) {
+Orbit whole_orbit(const System& system, const Orbit& orbit) {
     if (!orbit.symmetry)
         return orbit;
     const Segment& last = orbit.signature.back();
     const bool smooth = std::all_of(orbit.signature.begin(), orbit.signature.end(), [&](const Segment& segment) {
         return segment == last && segment.end == SegmentEnd::section;
     });
-    const Function map = symmetry_map(model, *orbit.symmetry);
+    const Function& map = system.symmetry(*orbit.symmetry).map;
     Orbit whole = orbit;
     whole.symmetry.reset();
     for (std::size_t k = 0; k < orbit.segments(); ++k) {
-        const Segment segment = image_of(model, *orbit.symmetry, orbit.signature[k], orbit);
+        const Segment segment = image_of(system, *orbit.symmetry, orbit.signature[k], orbit);
         std::vector<double> values = orbit.starts[k];
         values.insert(values.end(), orbit.parameters.begin(), orbit.parameters.end());
         // The image of a section is no section of the model: the motion just goes on.
@@ -120,16 +103,16 @@ Orbit whole_orbit(const Model& model, const Orbit& orbit) {
         whole.starts.push_back(map(values));
         whole.durations.push_back(orbit.durations[k]);
     }
-    return smooth ? cut_at_section(model, whole, last.index) : whole;
+    return smooth ? cut_at_section(system, whole, last.index) : whole;
 }
 
 void validate_orbit(const Model& model, const Orbit& orbit) {
     if (orbit.symmetry && *orbit.symmetry >= model.symmetries.size())
         throw InputError("the orbit has a symmetry that the model does not have", "declare it in the model");
     validate_signature(model, orbit.signature, {}, orbit.symmetry);
-    if (orbit.parameters.size() != model.parameter_symbols().size())
+    if (orbit.parameters.size() != model.independent_parameters().size())
         throw InputError(fmt::format("the orbit has {} parameters and the model {}", orbit.parameters.size(),
-                                     model.parameter_symbols().size()),
+                                     model.independent_parameters().size()),
                          "give one value for each independent parameter");
     if (orbit.starts.size() != orbit.segments() || orbit.durations.size() != orbit.segments())
         throw InputError(fmt::format("{} segments have {} starts and {} durations", orbit.segments(),

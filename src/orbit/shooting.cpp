@@ -1,6 +1,5 @@
 #include "orbit/shooting.hpp"
 
-#include "graze/symbolic/transform.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <Eigen/Dense>
@@ -22,14 +21,14 @@ constexpr std::size_t most_splits = 64;
 
 Shooting::Shooting(const Simulation& simulation, const Orbit& orbit, std::vector<std::size_t> free,
                    std::vector<double> ranges)
-    : simulation_(&simulation), signature_(orbit.signature), symmetry_(orbit.symmetry), free_(std::move(free)),
-      n_(simulation.compiled().states()), flow_(simulation, free_), system_(n_, free_.size()),
+    : simulation_(simulation), signature_(orbit.signature), symmetry_(orbit.symmetry), free_(std::move(free)),
+      n_(simulation.system().states()), flow_(simulation, free_), system_(n_, free_.size()),
       parameters_(orbit.parameters), periods_(n_), reference_(orbit.starts.front()), state_scales_(n_),
       ranges_(std::move(ranges)) {
     ranges_.resize(free_.size(), 0.0);
     validate_orbit(simulation.model(), orbit);
     inputs_.resize(n_ + parameters_.size());
-    compile_ends();
+    choose_ends();
     period_rates_ = Eigen::MatrixXd::Zero(index(n_), index(free_.size()));
     coupling_ = Eigen::MatrixXd::Zero(index(n_), index(n_));
     split(orbit);
@@ -42,65 +41,34 @@ Shooting::Shooting(const Simulation& simulation, const Orbit& orbit, std::vector
         set_scales(unknowns);
 }
 
-Function Shooting::with_gradient(const Expression& expression) const {
-    const auto states = model().state_symbols(), parameters = model().parameter_symbols();
-    std::vector<Expression> inputs = states, outputs{expression};
-    inputs.insert(inputs.end(), parameters.begin(), parameters.end());
-    for (const Expression& symbol : states)
-        outputs.push_back(differentiate(expression, symbol));
-    for (const std::size_t parameter : free_)
-        outputs.push_back(differentiate(expression, parameters[parameter]));
-    return {inputs, outputs};
-}
-
-void Shooting::compile_ends() {
-    const Model& m = model();
-    std::size_t workspace = simulation_->compiled().workspace();
-    const auto states = m.state_symbols(), parameters = m.parameter_symbols();
+void Shooting::choose_ends() {
+    const System& system = simulation_.system();
     for (std::size_t k = 0; k < signature_.size(); ++k) {
         const Segment& segment = signature_[k];
         EndFunction end;
-        Expression expression;
         if (segment.end == SegmentEnd::event) {
-            expression = m.expand(m.events[m.transitions[segment.index].event].function);
+            end.value = &system.event(model().transitions[segment.index].event);
         } else {
-            const Section& section = m.sections[segment.index];
+            const Section& section = model().sections[segment.index];
             end.cyclic = section.state.has_value();
             end.state = section.state.value_or(0);
-            expression = section.state ? states[*section.state] - m.expand(section.value) : m.expand(section.function);
             // A half orbit ends where its image passes the section.
-            if (symmetry_ && k + 1 == signature_.size()) {
-                std::vector<Replacement> replacements;
-                const auto map = m.expand(m.symmetries[*symmetry_].map);
-                for (std::size_t i = 0; i < n_; ++i)
-                    replacements.emplace_back(states[i], map[i]);
-                expression = substitute(expression, replacements);
-            }
+            const bool at_image = symmetry_ && k + 1 == signature_.size();
+            end.value = &system.section(segment.index, at_image ? symmetry_ : std::nullopt);
         }
-        end.value = with_gradient(expression);
-        workspace = std::max(workspace, end.value.workspace());
-        ends_.push_back(std::move(end));
+        ends_.push_back(end);
     }
-    std::vector<Expression> periods;
-    for (const State& state : m.states)
-        for (const std::size_t parameter : free_)
-            periods.push_back(state.period ? differentiate(m.expand(*state.period), parameters[parameter])
-                                           : m.graph->number(0));
-    period_gradients_ = Function(parameters, periods);
-    workspace = std::max(workspace, period_gradients_.workspace());
-    if (symmetry_) {
-        std::vector<Expression> inputs = states;
-        inputs.insert(inputs.end(), parameters.begin(), parameters.end());
-        const auto map = m.expand(m.symmetries[*symmetry_].map);
-        std::vector<Expression> jacobian;
-        for (const Expression& row : map)
-            for (const Expression& input : inputs)
-                jacobian.push_back(differentiate(row, input));
-        symmetric_ = Symmetric{Function(inputs, map), Function(inputs, jacobian)};
-        workspace = std::max({workspace, symmetric_->map.workspace(), symmetric_->jacobian.workspace()});
-    }
-    work_.resize(workspace);
-    values_.resize(std::max({n_ * (n_ + parameters_.size()), 1 + n_ + free_.size(), n_ * free_.size()}));
+    work_.resize(system.workspace());
+    values_.resize(std::max(n_, std::size_t{1}) * (1 + n_ + parameters_.size()));
+}
+
+Eigen::VectorXd Shooting::gradient_of(std::span<const double> values) const {
+    Eigen::VectorXd gradient(index(n_ + free_.size()));
+    for (std::size_t i = 0; i < n_; ++i)
+        gradient[index(i)] = values[1 + i];
+    for (std::size_t f = 0; f < free_.size(); ++f)
+        gradient[index(n_ + f)] = values[1 + n_ + free_[f]];
+    return gradient;
 }
 
 /// Derivatives of the state after a time, and on the way how strongly states act on one another.
@@ -249,11 +217,12 @@ void Shooting::set_parameters(const Eigen::VectorXd& unknowns) {
         parameters_[free_[f]] = unknowns[index(place_of_parameter(f))];
     std::copy(parameters_.begin(), parameters_.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(n_));
     flow_.set_parameters(parameters_);
-    simulation_->compiled().periods().evaluate(parameters_, periods_, work_);
-    period_gradients_.evaluate(parameters_, std::span(values_).first(n_ * free_.size()), work_);
+    simulation_.system().periods().evaluate(parameters_, periods_, work_);
+    const std::size_t count = parameters_.size();
+    simulation_.system().period_gradients().evaluate(parameters_, std::span(values_).first(n_ * count), work_);
     for (std::size_t i = 0; i < n_; ++i)
         for (std::size_t f = 0; f < free_.size(); ++f)
-            period_rates_(index(i), index(f)) = values_[i * free_.size() + f];
+            period_rates_(index(i), index(f)) = values_[i * count + free_[f]];
 }
 
 bool Shooting::evaluate(const Eigen::VectorXd& unknowns) {
@@ -306,7 +275,7 @@ bool Shooting::evaluate_piece(std::size_t k, const Eigen::VectorXd& unknowns) {
     }
     std::copy(piece.end.begin(), piece.end.end(), inputs_.begin());
     piece.field.resize(index(n_));
-    simulation_->compiled().mode(mode).rates.evaluate(inputs_, {piece.field.data(), n_}, work_);
+    simulation_.system().mode(mode).rates.evaluate(inputs_, {piece.field.data(), n_}, work_);
     return true;
 }
 
@@ -322,10 +291,10 @@ bool Shooting::pass_end(std::size_t k) {
     }
     const Segment& segment = signature_[piece.segment];
     const EndFunction& end = ends_[piece.segment];
-    const std::span<double> values = std::span(values_).first(end.value.outputs());
-    end.value.evaluate(inputs_, values, work_);
+    const std::span<double> values = std::span(values_).first(end.value->outputs());
+    end.value->evaluate(inputs_, values, work_);
     piece.condition_value = values[0];
-    piece.condition = Eigen::Map<const Eigen::VectorXd>(values.data() + 1, columns);
+    piece.condition = gradient_of(values);
     if (end.cyclic) {
         const double turns = std::round(piece.condition_value / periods_[end.state]);
         piece.condition_value -= turns * periods_[end.state];
@@ -351,12 +320,14 @@ bool Shooting::pass_end(std::size_t k) {
     };
     piece.jump.leftCols(index(n_)).setIdentity();
     if (segment.end == SegmentEnd::event) {
-        const auto& jump = simulation_->compiled().jump(model().transitions[segment.index].jump);
+        const auto& jump = simulation_.system().jump(model().transitions[segment.index].jump);
         if (!jump.identity)
             apply(jump.map, jump.jacobian);
     }
-    if (symmetric_ && k + 1 == pieces_.size())
-        apply(symmetric_->map, symmetric_->jacobian);
+    if (symmetry_ && k + 1 == pieces_.size()) {
+        const auto& image = simulation_.system().symmetry(*symmetry_);
+        apply(image.map, image.jacobian);
+    }
     for (const double value : piece.after)
         if (!std::isfinite(value)) {
             problem_ = fmt::format("the jump after segment {} is not defined", piece.segment + 1);

@@ -27,13 +27,13 @@ inline constexpr double least_rate = 1e-11;
 /// frame at rest), are held at their first values instead of being closed.
 class Shooting {
 public:
-    /// @param simulation whose model the orbit belongs to; must outlive this
+    /// @param simulation whose model the orbit belongs to
     /// @param free parameters that are unknown
     /// @param ranges in which they are looked at, where that is known; 0 where it is not
     Shooting(const Simulation& simulation, const Orbit& orbit, std::vector<std::size_t> free,
              std::vector<double> ranges = {});
 
-    const Model& model() const { return simulation_->model(); }
+    const Model& model() const { return simulation_.model(); }
     std::size_t states() const { return n_; }
     std::size_t pieces() const { return pieces_.size(); }
     const std::vector<std::size_t>& free() const { return free_; }
@@ -68,8 +68,8 @@ public:
     /// A vector that the derivatives map to (nearly) zero and whose product with the row is zero: where the equations
     /// are singular beyond their one branch, the direction of another. For one free parameter, after `evaluate`.
     bool null_vector(const Eigen::RowVectorXd& row, Eigen::VectorXd& vector) const;
-    /// A function of states and parameters: value, then gradient with respect to states and free parameters.
-    Function with_gradient(const Expression& expression) const;
+    /// Of values as System::with_gradient gives them the gradient with respect to states and free parameters.
+    Eigen::VectorXd gradient_of(std::span<const double> values) const;
 
     /// What `evaluate` has found for a piece.
     struct Piece {
@@ -97,20 +97,17 @@ public:
     /// States that are neither drifting nor unchanged by everything.
     const std::vector<std::size_t>& active() const { return active_; }
     ArcFlow& flow() { return flow_; }
-    const Simulation& simulation() const { return *simulation_; }
+    const Simulation& simulation() const { return simulation_; }
     const Signature& signature() const { return signature_; }
     std::optional<std::size_t> symmetry() const { return symmetry_; }
 
 private:
     struct EndFunction {
-        Function value;      ///< and gradient with respect to states, then free parameters
-        bool cyclic = false; ///< a phase section: holds up to whole periods of `state`
+        const Function* value = nullptr; ///< and its gradient, of the system
+        bool cyclic = false;             ///< a phase section: holds up to whole periods of `state`
         std::size_t state = 0;
     };
-    struct Symmetric {
-        Function map, jacobian;
-    };
-    void compile_ends();
+    void choose_ends();
     void split(const Orbit& orbit);
     bool follow(std::size_t mode, std::span<double> state, double duration, Eigen::MatrixXd& derivatives);
     bool evaluate_piece(std::size_t k, const Eigen::VectorXd& unknowns);
@@ -121,7 +118,7 @@ private:
     double parameter_scale(std::size_t f, double value);
     void clear_remnants(Eigen::VectorXd& unknowns) const;
 
-    const Simulation* simulation_;
+    Simulation simulation_;
     Signature signature_;
     std::optional<std::size_t> symmetry_;
     std::vector<std::size_t> free_;
@@ -129,8 +126,6 @@ private:
     ArcFlow flow_;
     CyclicSystem system_;
     std::vector<EndFunction> ends_;
-    std::optional<Symmetric> symmetric_;
-    Function period_gradients_; ///< of cyclic states with respect to the free parameters, row by row
     std::vector<Piece> pieces_;
     std::vector<std::size_t> last_pieces_;
     std::vector<double> parameters_, periods_, inputs_, work_, values_, reference_;

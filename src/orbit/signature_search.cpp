@@ -24,9 +24,10 @@ std::vector<Probe> probes_of(const Model& model, const Signature& signature) {
 /// Follows a motion and tries its pieces.
 class SignatureSearch : public Observer {
 public:
-    SignatureSearch(const Model& model, const Signature& wanted, const OrbitOptions& options,
+    SignatureSearch(const System& system, const Signature& wanted, const OrbitOptions& options,
                     const Simulation& simulation, const SignatureSearchOptions& search)
-        : model_(&model), wanted_(&wanted), options_(options), simulation_(&simulation), search_(&search) {
+        : system_(system), wanted_(&wanted), options_(options), simulation_(simulation), search_(&search) {
+        const Model& model = system.model();
         for (std::size_t s = 0; s < model.sections.size(); ++s)
             for (const Segment& one : wanted)
                 if (one.end == SegmentEnd::section && one.index == s) {
@@ -44,12 +45,12 @@ public:
         if (contact.kind == ContactKind::touch)
             return;
         if (contact.kind == ContactKind::sticking) {
-            problem_ = fmt::format("contacts at '{}' accumulate at time {:.9g}", model_->events[contact.event].name,
-                                   contact.time);
+            problem_ = fmt::format("contacts at '{}' accumulate at time {:.9g}",
+                                   system_.model().events[contact.event].name, contact.time);
             return;
         }
         const Segment segment{contact.mode_before, SegmentEnd::event, contact.transition};
-        if (is_wanted(segment) || !is_harmless(simulation_->compiled(), contact.transition))
+        if (is_wanted(segment) || !is_harmless(simulation_.system(), contact.transition))
             note(contact.time, segment, contact.after);
     }
     void passage(const Passage& passage) override {
@@ -120,12 +121,12 @@ private:
     }
     void try_piece() {
         ++trials_;
-        Orbit guess{*wanted_, model_->parameter_values(), {}, {}, std::nullopt};
+        Orbit guess{*wanted_, system_.model().parameter_values(), {}, {}, std::nullopt};
         for (std::size_t k = next_; k < next_ + wanted_->size(); ++k) {
             guess.starts.push_back(entries_[k].state);
             guess.durations.push_back(entries_[k + 1].time - entries_[k].time);
         }
-        OrbitSolution solution = solve_orbit(*model_, guess, options_);
+        OrbitSolution solution = solve_orbit(system_, guess, options_);
         if (solution.outcome != OrbitOutcome::converged) {
             solution.orbit = guess;
             if (!failed_)
@@ -140,10 +141,10 @@ private:
         }
     }
 
-    const Model* model_;
+    System system_;
     const Signature* wanted_;
     OrbitOptions options_;
-    const Simulation* simulation_;
+    Simulation simulation_;
     const SignatureSearchOptions* search_;
     std::vector<std::size_t> section_of_probe_;
     std::vector<Entry> entries_;
@@ -156,13 +157,14 @@ private:
 
 } // namespace
 
-std::optional<OrbitSolution> orbit_with_signature(const Model& model, const Signature& signature,
+std::optional<OrbitSolution> orbit_with_signature(const System& system, const Signature& signature,
                                                   const OrbitOptions& options, const SimulationOptions& simulation,
                                                   const SignatureSearchOptions& search) {
+    const Model& model = system.model();
     constexpr double forever = 1e300;
     options.validate();
-    const Simulation simulated(model, probes_of(model, signature), {}, simulation);
-    SignatureSearch follower(model, signature, options, simulated, search);
+    const Simulation simulated(system, probes_of(model, signature), {}, simulation);
+    SignatureSearch follower(system, signature, options, simulated, search);
     Trajectory trajectory(simulated, model.parameter_values(), follower);
     trajectory.start(model.initial_state(), model.initial_mode, 0, forever);
     JetSet jets(simulated, LaneKind::single);
@@ -171,8 +173,8 @@ std::optional<OrbitSolution> orbit_with_signature(const Model& model, const Sign
     if (follower.interrupted())
         return std::nullopt;
     if (follower.found()) {
-        const auto half = half_orbit(model, follower.found()->orbit);
-        return half ? solve_orbit(model, *half, options) : follower.found();
+        const auto half = half_orbit(system, follower.found()->orbit);
+        return half ? solve_orbit(system, *half, options) : follower.found();
     }
     const std::string text = to_string(model, signature);
     if (follower.unphysical())

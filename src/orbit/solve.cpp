@@ -121,10 +121,11 @@ void describe_orbit(Shooting& shooting, const Eigen::VectorXd& unknowns, OrbitSo
     solution.certificate = certify(shooting, unknowns);
 }
 
-OrbitSolution solve_orbit(const Model& model, const Orbit& candidate, const OrbitOptions& options) {
+OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const OrbitOptions& options) {
+    const Model& model = system.model();
     options.validate();
     validate_orbit(model, candidate);
-    const Simulation simulation(model, {}, {}, integration(options.tolerance));
+    const Simulation simulation(system, {}, {}, integration(options.tolerance));
     Shooting shooting(simulation, candidate, {});
     Eigen::VectorXd unknowns = shooting.unknowns_of(candidate);
     OrbitSolution solution;
@@ -139,7 +140,7 @@ OrbitSolution solve_orbit(const Model& model, const Orbit& candidate, const Orbi
         return solution;
     describe_orbit(shooting, unknowns, solution);
     if (options.error_estimate) {
-        const Simulation tighter(model, {}, {}, integration(0.01 * options.tolerance));
+        const Simulation tighter(system, {}, {}, integration(0.01 * options.tolerance));
         Shooting again(tighter, solution.orbit, {});
         Eigen::VectorXd step, there = again.unknowns_of(solution.orbit);
         const Eigen::MatrixXd no_borders(0, static_cast<Eigen::Index>(again.unknowns()));

@@ -59,7 +59,7 @@ private:
 
 /// Whether the motion from the initial state soon leads where the model itself says that it must not.
 std::vector<ModelWarning> motion_warnings(const Model& model) {
-    const Simulation simulation(model);
+    const Simulation simulation{System(model)};
     Limit limit;
     Trajectory trajectory(simulation, model.parameter_values(), limit);
     trajectory.start(model.initial_state(), model.initial_mode, 0, 1e300);

@@ -130,8 +130,8 @@ private:
 std::vector<double> all_parameter_values(const Model& model) {
     std::vector<Expression> values;
     for (const Parameter& parameter : model.parameters)
-        values.push_back(model.expand(model.symbol(parameter.name)));
-    return Function(model.parameter_symbols(), values)(model.parameter_values());
+        values.push_back(model.symbol(parameter.name));
+    return model.values_of(values);
 }
 
 Table describe_in_table(const Model& model) {

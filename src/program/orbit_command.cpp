@@ -131,7 +131,7 @@ int orbit_command(const OrbitArguments& arguments, const Console& console) {
     }
     if (!arguments.x.empty() || !arguments.y.empty())
         throw InputError("--x and --y say what to draw, and nothing is drawn", "name a picture by --plot FILE");
-    const Orbit orbit = whole_orbit(stored.run.model, stored.record.point.solution.orbit);
+    const Orbit orbit = whole_orbit(System(stored.run.model), stored.record.point.solution.orbit);
     const Model model = model_at(stored.run.model, orbit);
     const auto quantities = requested_quantities(model, arguments.quantities, "--quantity");
     const auto motion = orbit_motion(model, orbit, arguments.samples.value_or(default_samples));

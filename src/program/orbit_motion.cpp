@@ -25,19 +25,13 @@ Model without_events(Model model, bool backwards) {
     return model;
 }
 
-std::vector<double> periods_of(const Model& model) {
-    std::vector<Expression> periods;
-    for (const State& state : model.states)
-        periods.push_back(state.period ? model.expand(*state.period) : model.number(0));
-    return Function(model.parameter_symbols(), periods)(model.parameter_values());
-}
-
 /// Follows segments in one direction of time.
 class SmoothMotion {
 public:
     SmoothMotion(const Model& model, bool backwards)
-        : parameters_(model.parameter_values()), periods_(periods_of(model)),
-          simulation_(without_events(model, backwards), {}, {}, options()), jets_(simulation_, LaneKind::single) {}
+        : parameters_(model.parameter_values()), periods_(model.periods()),
+          simulation_(System(without_events(model, backwards)), {}, {}, options()),
+          jets_(simulation_, LaneKind::single) {}
 
     /// @param duration positive; @param receive given the time since the segment's start, and the state
     /// @return why it ended before; empty when it did not
@@ -71,9 +65,9 @@ private:
 
 Model model_at(const Model& model, const Orbit& orbit) {
     Model result = model;
-    const std::vector<Expression> symbols = model.parameter_symbols();
-    for (std::size_t i = 0; i < symbols.size(); ++i)
-        result.set_parameter(symbols[i].name(), orbit.parameters[i]);
+    const std::vector<std::string> names = model.independent_parameters();
+    for (std::size_t i = 0; i < names.size(); ++i)
+        result.set_parameter(names[i], orbit.parameters[i]);
     return result;
 }
 

@@ -85,10 +85,7 @@ Axes axes_of(const Model& model, const StudyPicture& picture, bool portrait) {
         axes.values.push_back(named_value(model, name, picture.place));
         const auto state = model.find_state(name);
         const bool cyclic = state && model.states[*state].period;
-        axes.periods.push_back(
-            !cyclic ? 0
-                    : Function(model.parameter_symbols(),
-                               std::vector{model.expand(*model.states[*state].period)})(model.parameter_values())[0]);
+        axes.periods.push_back(cyclic ? model.periods()[*state] : 0);
     }
     return axes;
 }
@@ -103,7 +100,7 @@ struct DrawnOrbit {
 };
 
 DrawnOrbit drawn_orbit(const StoredRun& run, OrbitRecord record, const StudyPicture& picture, bool portrait) {
-    const Orbit orbit = whole_orbit(run.model, record.point.solution.orbit);
+    const Orbit orbit = whole_orbit(System(run.model), record.point.solution.orbit);
     DrawnOrbit drawn{
         std::move(record), orbit_motion(run.model, orbit, drawn_samples), {}, model_at(run.model, orbit), {}};
     drawn.axes = axes_of(drawn.model, picture, portrait);
@@ -206,7 +203,7 @@ void add_curves(FigurePanel& panel, const DrawnOrbit& orbit, std::size_t value, 
     }
     panel.series.push_back({"", FigureSeries::Style::dotted, FigureSeries::black, curves.jumps()});
     const SpecialPoint& point = orbit.record.point;
-    const Signature signature = whole_orbit(orbit.model, point.solution.orbit).signature;
+    const Signature signature = whole_orbit(System(orbit.model), point.solution.orbit).signature;
     panel.series.push_back({"", FigureSeries::Style::circles, FigureSeries::black, curves.events(signature)});
     if (point.type == PointType::grazing && !point.at_end && point.segment < orbit.motion.size() &&
         !orbit.motion[point.segment].times.empty()) {

@@ -33,7 +33,7 @@ std::size_t column_of(PlotContents& contents, RequestedQuantity quantity) {
 
 /// Whether an event depends on nothing but phases: a switch that a clock operates, not something met by the motion.
 bool is_clock(const Model& model, const Event& event) {
-    const std::vector<Expression> symbols = symbols_of({{model.expand(event.function)}});
+    const std::vector<Expression> symbols = symbols_of({{Model(model).expand(event.function)}});
     return std::none_of(symbols.begin(), symbols.end(), [&](const Expression& symbol) {
         const auto state = model.find_state(symbol.name());
         return state && !model.states[*state].period;
@@ -66,11 +66,12 @@ void choose_panels(const Model& model, const SimulateArguments& arguments, PlotC
 
 std::vector<std::string> default_portrait(const Model& model) {
     std::vector<std::string> plain;
+    const std::vector<Expression> rates = Model(model).expand(model.modes[model.initial_mode].rates);
     for (std::size_t i = 0; i < model.states.size(); ++i) {
         if (!is_plain(model.states[i]))
             continue;
         plain.push_back(model.states[i].name);
-        const Expression rate = model.expand(model.modes[model.initial_mode].rates[i]);
+        const Expression& rate = rates[i];
         if (!rate.is_symbol())
             continue;
         const auto velocity = model.find_state(rate.name());

@@ -14,9 +14,9 @@ constexpr std::size_t most_points = 2'000'000;
 } // namespace
 
 PlotRecorder::PlotRecorder(const Simulation& simulation, PlotContents contents)
-    : simulation_(&simulation), contents_(std::move(contents)), evaluate_(simulation.model(), contents_.columns) {
+    : simulation_(simulation), contents_(std::move(contents)), evaluate_(simulation.model(), contents_.columns) {
     const Model& model = simulation.model();
-    periods_ = simulation.compiled().periods()(model.parameter_values());
+    periods_ = simulation.system().periods()(model.parameter_values());
     state_.resize(periods_.size());
     for (const RequestedQuantity& column : contents_.columns) {
         const auto state = column.value.is_symbol() ? model.find_state(column.value.name()) : std::nullopt;
@@ -68,7 +68,7 @@ void PlotRecorder::passage(const Passage& passage) {
 std::string PlotRecorder::section_names() const {
     std::string names;
     for (std::size_t i = 0; i < contents_.sections; ++i)
-        names += (i > 0 ? ", " : "") + simulation_->probes()[i].name;
+        names += (i > 0 ? ", " : "") + simulation_.probes()[i].name;
     return names;
 }
 

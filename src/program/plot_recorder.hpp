@@ -46,7 +46,7 @@ public:
     void finish(const Trajectory& trajectory);
 
     const PlotContents& contents() const { return contents_; }
-    const std::string& time_unit() const { return simulation_->model().time_unit; }
+    const std::string& time_unit() const { return simulation_.model().time_unit; }
     const std::vector<Arc>& arcs() const { return arcs_; }
     const std::vector<Jump>& jumps() const { return jumps_; }
     const std::vector<Point>& passages() const { return passages_; }
@@ -60,7 +60,7 @@ public:
 private:
     std::vector<double> evaluate(std::span<const double> state);
 
-    const Simulation* simulation_;
+    Simulation simulation_;
     PlotContents contents_;
     QuantityEvaluator evaluate_;
     std::vector<double> periods_, column_periods_, state_;

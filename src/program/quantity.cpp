@@ -18,15 +18,12 @@ std::vector<RequestedQuantity> requested_quantities(const Model& model, const st
 
 QuantityEvaluator::QuantityEvaluator(const Model& model, const std::vector<RequestedQuantity>& quantities)
     : states_(model.states.size()), inputs_(states_), values_(quantities.size()) {
-    std::vector<Expression> symbols = model.state_symbols();
-    for (const Expression& symbol : model.parameter_symbols())
-        symbols.push_back(symbol);
     for (const double value : model.parameter_values())
         inputs_.push_back(value);
     std::vector<Expression> outputs;
     for (const RequestedQuantity& quantity : quantities)
         outputs.push_back(quantity.value);
-    function_ = Function(symbols, outputs);
+    function_ = model.function_of(outputs);
     work_.resize(function_.workspace());
 }
 

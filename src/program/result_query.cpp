@@ -214,17 +214,13 @@ std::vector<std::vector<double>> dense_motion(const StoredRun& run, const PointR
         duration = point.result.samples.times.empty()
                        ? 0
                        : point.result.samples.times.back() - point.result.samples.times.front();
-    std::vector<Expression> inputs = model.state_symbols(), values, periods;
-    for (const Expression& symbol : model.parameter_symbols())
-        inputs.push_back(symbol);
+    std::vector<Expression> values;
+    const Expression none = Graph::create()->number(0); // stands for time, which is no function of the state
     for (const std::string& name : names)
-        values.push_back(name == "t" ? model.number(0) : named_value(model, name, place).value);
-    for (const State& item : model.states)
-        periods.push_back(item.period ? model.expand(*item.period) : model.number(0));
+        values.push_back(name == "t" ? none : named_value(model, name, place).value);
+    const Simulation simulation{System(model)};
     const std::vector<double> parameters = model.parameter_values();
-    DenseRecorder recorder(Function(inputs, values), parameters,
-                           Function(model.parameter_symbols(), periods)(parameters), duration);
-    const Simulation simulation(model);
+    DenseRecorder recorder(simulation.system().function_of(values), parameters, model.periods(), duration);
     Trajectory trajectory(simulation, parameters, recorder);
     trajectory.start(state, mode, 0, duration);
     JetSet jets(simulation, LaneKind::single);

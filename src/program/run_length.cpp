@@ -22,12 +22,12 @@ struct Phase {
 };
 
 std::optional<double> value_in_parameters(const Model& model, const Expression& expression) {
-    const Expression expanded = model.expand(expression);
+    const Expression expanded = Model(model).expand(expression);
     const auto is_parameter = [&](const Expression& symbol) { return model.find_parameter(symbol.name()).has_value(); };
     const std::vector<Expression> symbols = symbols_of({{expanded}});
     if (!std::all_of(symbols.begin(), symbols.end(), is_parameter))
         return std::nullopt;
-    return Function(model.parameter_symbols(), {{expanded}})(model.parameter_values())[0];
+    return model.values_of({{expanded}})[0];
 }
 
 std::optional<double> time_of_period(const Model& model, std::size_t state) {

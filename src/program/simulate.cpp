@@ -93,8 +93,8 @@ std::vector<std::string> chosen_directions(const Model& model, const SimulateArg
     std::vector<std::string> known, chosen = split_list(arguments.derivatives);
     for (const State& state : model.states)
         known.push_back(state.name);
-    for (const Expression& symbol : model.parameter_symbols())
-        known.push_back(symbol.name());
+    for (const std::string& name : model.independent_parameters())
+        known.push_back(name);
     if (chosen.empty() || chosen == std::vector<std::string>{"all"})
         return known;
     for (const std::string& name : chosen)
@@ -156,20 +156,6 @@ std::vector<Probe> probes_for(const Model& model, const SimulateArguments& argum
     return probes;
 }
 
-/// Seeds of derivatives in the directions of states and parameters.
-std::vector<double> unit_seeds(const Model& model, const std::vector<std::string>& names) {
-    std::vector<std::string> all;
-    for (const State& state : model.states)
-        all.push_back(state.name);
-    for (const Expression& symbol : model.parameter_symbols())
-        all.push_back(symbol.name());
-    std::vector<double> seeds;
-    for (const std::string& name : names)
-        for (const std::string& other : all)
-            seeds.push_back(name == other ? 1 : 0);
-    return seeds;
-}
-
 /// Everything that one run needs and leaves behind.
 class SimulateCommand {
 public:
@@ -183,7 +169,8 @@ public:
         const SimulationOptions options = simulation_options(model_, arguments, request_.kind);
         auto probes = probes_for(model_, arguments, request_, length_);
         period_probe_ = length_.period ? std::optional(probes.size() - 1) : std::nullopt;
-        simulation_ = std::make_unique<Simulation>(model_, std::move(probes), std::vector<Expression>{}, options);
+        simulation_ =
+            std::make_unique<Simulation>(System(model_), std::move(probes), std::vector<Expression>{}, options);
         table_ = make_table_recorder(*simulation_, request_);
         if (plot_)
             curves_ = std::make_unique<PlotRecorder>(*simulation_, plot_->contents);
@@ -235,7 +222,7 @@ private:
         const InterruptGuard guard;
         trajectory_->start(model_.initial_state(), model_.initial_mode, 0, first.duration);
         if (!request_.directions.empty())
-            trajectory_->carry_tangents(unit_seeds(model_, request_.directions), request_.directions.size());
+            trajectory_->carry_derivatives(request_.directions);
         JetSet jets(*simulation_, LaneKind::single);
         if (!length_.transient.empty()) {
             control.begin(length_.transient, 0, false);

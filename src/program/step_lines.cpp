@@ -18,11 +18,11 @@ bool is_period(const Monitor& monitor) {
 } // namespace
 
 void StepLines::begin(const StudyRun& run, const std::string& part) {
-    const auto symbols = run.model.parameter_symbols();
+    const std::vector<std::string> names = run.model.independent_parameters();
     const std::size_t parameter = run.branch.settings.parameter;
-    std::string line = fmt::format("{:>5} {:<4} {:<6} {:>{}} {:>{}} {:<6}", "step", "type", "label",
-                                   parameter < symbols.size() ? symbols[parameter].name() : "parameter", wide, "period",
-                                   wide, "stable");
+    std::string line =
+        fmt::format("{:>5} {:<4} {:<6} {:>{}} {:>{}} {:<6}", "step", "type", "label",
+                    parameter < names.size() ? names[parameter] : "parameter", wide, "period", wide, "stable");
     for (const Monitor& monitor : run.branch.settings.monitors)
         if (!is_period(monitor))
             line += fmt::format(" {:>{}}", monitor.name, wide);

@@ -137,12 +137,10 @@ std::string followed_parameter(const RunRecord& run) {
 }
 
 std::vector<double> parameters_of(const StoredRun& run, const OrbitRecord& record) {
-    const std::vector<Expression> symbols = run.model.parameter_symbols();
     std::vector<double> values;
     for (const ResultColumn& column : run.record.coordinates)
-        for (std::size_t i = 0; i < symbols.size(); ++i)
-            if (symbols[i].name() == column.name)
-                values.push_back(record.point.solution.orbit.parameters[i]);
+        if (const auto place = run.model.find_independent_parameter(column.name))
+            values.push_back(record.point.solution.orbit.parameters[*place]);
     return values;
 }
 

@@ -29,7 +29,7 @@ public:
         std::vector<Table::Column> columns{{"time", model_->time_unit}, {"mode", ""}};
         columns_.declare(columns);
         table_ = Table(std::move(columns));
-        periods_ = simulation.compiled().periods()(model_->parameter_values());
+        periods_ = simulation.system().periods()(model_->parameter_values());
     }
 
     void begin(const Trajectory& trajectory, std::optional<double> duration) override {
@@ -120,7 +120,7 @@ private:
 class SectionTable : public TableRecorder {
 public:
     SectionTable(const Simulation& simulation, const TableRequest& request)
-        : simulation_(&simulation), end_(request.first_extremum), columns_(simulation.model(), request.quantities) {
+        : simulation_(simulation), end_(request.first_extremum), columns_(simulation.model(), request.quantities) {
         std::vector<Table::Column> columns{
             {"section", ""}, {"time", simulation.model().time_unit}, {"direction", ""}, {"mode", ""}};
         columns_.declare(columns);
@@ -130,15 +130,15 @@ public:
     void passage(const Passage& passage) override {
         if (passage.probe >= end_)
             return;
-        table_.add(simulation_->probes()[passage.probe].name);
+        table_.add(simulation_.probes()[passage.probe].name);
         table_.add(passage.time);
         table_.add(passage.direction);
-        table_.add(simulation_->model().modes[passage.mode].name);
+        table_.add(simulation_.model().modes[passage.mode].name);
         columns_.add(table_, passage.state);
     }
 
 private:
-    const Simulation* simulation_;
+    Simulation simulation_;
     std::size_t end_;
     StateColumns columns_;
 };
@@ -146,7 +146,7 @@ private:
 class ExtremumTable : public TableRecorder {
 public:
     ExtremumTable(const Simulation& simulation, const TableRequest& request)
-        : simulation_(&simulation), first_(request.first_extremum), values_(simulation.model(), request.extrema),
+        : simulation_(simulation), first_(request.first_extremum), values_(simulation.model(), request.extrema),
           columns_(simulation.model(), request.quantities) {
         std::vector<Table::Column> columns{{"expression", ""}, {"time", simulation.model().time_unit},
                                            {"kind", ""},       {"value", ""},
@@ -158,17 +158,17 @@ public:
     void passage(const Passage& passage) override {
         if (passage.probe < first_)
             return;
-        table_.add(simulation_->probes()[passage.probe].name);
+        table_.add(simulation_.probes()[passage.probe].name);
         table_.add(passage.time);
         table_.add(passage.direction > 0 ? "minimum" : "maximum");
         table_.add(values_(passage.state)[passage.probe - first_]);
-        table_.add(simulation_->model().modes[passage.mode].name);
+        table_.add(simulation_.model().modes[passage.mode].name);
         table_.add(passage.at_contact ? 1 : 0);
         columns_.add(table_, passage.state);
     }
 
 private:
-    const Simulation* simulation_;
+    Simulation simulation_;
     std::size_t first_;
     QuantityEvaluator values_;
     StateColumns columns_;

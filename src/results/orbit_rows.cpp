@@ -22,12 +22,9 @@ OrbitOutcome outcome_named(const std::string& name) {
 
 /// Where the parameters of a run's columns are among the model's.
 std::vector<std::size_t> parameter_places(const Model& model, const RunRecord& run) {
-    const auto symbols = model.parameter_symbols();
     std::vector<std::size_t> places;
     for (const ResultColumn& column : run.coordinates)
-        places.push_back(static_cast<std::size_t>(
-            std::find_if(symbols.begin(), symbols.end(), [&](const auto& one) { return one.name() == column.name; }) -
-            symbols.begin()));
+        places.push_back(model.independent_parameter(column.name));
     return places;
 }
 

@@ -11,11 +11,8 @@ namespace graze {
 namespace {
 
 bool fits(const Model& model, const RunRecord& run) {
-    const auto parameters = model.parameter_symbols();
     const auto is_known = [&](const ResultColumn& column) {
-        return std::any_of(parameters.begin(), parameters.end(),
-                           [&](const Expression& symbol) { return symbol.name() == column.name; }) ||
-               (!run.is_branch() && model.find_state(column.name));
+        return model.find_independent_parameter(column.name) || (!run.is_branch() && model.find_state(column.name));
     };
     const bool states =
         std::equal(model.states.begin(), model.states.end(), run.states.begin(), run.states.end(),

@@ -40,50 +40,50 @@ auto at_place(const Place& place, const StudyRun& run, const Work& work) {
 }
 
 /// An orbit with the signature that is asked for. None when interrupted.
-std::optional<Orbit> orbit_asked_for(const StudyRun& run, const RunnerOptions& options) {
+std::optional<Orbit> orbit_asked_for(const StudyRun& run, const System& system, const RunnerOptions& options) {
     const Signature wanted = parse_signature(run.model, run.branch.signature, run.branch.signature_place);
     SignatureSearchOptions search;
     search.unphysical = !run.branch.settings.stop_when_unphysical;
     search.interrupted = options.interrupted;
     const auto solution = at_place(run.branch.signature_place, run, [&] {
-        return orbit_with_signature(run.model, wanted, run.branch.settings.orbit, run.simulation, search);
+        return orbit_with_signature(system, wanted, run.branch.settings.orbit, run.simulation, search);
     });
     return solution ? std::optional(solution->orbit) : std::nullopt;
 }
 
 /// A candidate from a table: given by its half if it leads to an orbit that is its own image.
-Orbit orbit_of_table(const StudyRun& run) {
+Orbit orbit_of_table(const StudyRun& run, const System& system) {
     const Orbit candidate = read_orbit_table(run.model, run.branch.table, run.branch.signature);
     if (run.model.symmetries.empty())
         return candidate;
     return at_place(run.place, run, [&] {
-        const OrbitSolution solution = solve_orbit(run.model, candidate, run.branch.settings.orbit);
+        const OrbitSolution solution = solve_orbit(system, candidate, run.branch.settings.orbit);
         const bool converged = solution.outcome == OrbitOutcome::converged;
-        return (converged ? half_orbit(run.model, solution.orbit) : std::nullopt).value_or(candidate);
+        return (converged ? half_orbit(system, solution.orbit) : std::nullopt).value_or(candidate);
     });
 }
 
 /// What simulation settles on, from the model's initial state. None when interrupted.
-std::optional<Orbit> settled(const StudyRun& run, const Model& model, const RunnerOptions& options) {
+std::optional<Orbit> settled(const StudyRun& run, const System& system, const RunnerOptions& options) {
     const auto interrupted = [&] { return options.interrupted && options.interrupted(); };
     const auto solution = at_place(run.place, run, [&] {
-        return find_orbit(model, run.attractor, run.branch.settings.orbit, run.simulation, interrupted);
+        return find_orbit(system, run.attractor, run.branch.settings.orbit, run.simulation, interrupted);
     });
     return solution ? std::optional(solution->orbit) : std::nullopt;
 }
 
-OrbitSolution solved(const StudyRun& run, const Orbit& candidate) {
-    return at_place(run.place, run, [&] { return solve_orbit(run.model, candidate, run.branch.settings.orbit); });
+OrbitSolution solved(const StudyRun& run, const System& system, const Orbit& candidate) {
+    return at_place(run.place, run, [&] { return solve_orbit(system, candidate, run.branch.settings.orbit); });
 }
 
-/// The model with the parameters and the state of a point of a sweep.
-Model model_at(const StudyRun& run, const StartPoint& start) {
+/// The system with the parameters and the state of a point of a sweep.
+System system_at(const StudyRun& run, const StartPoint& start) {
     Model model = run.model;
     set_parameters(model, start.parameters);
     for (std::size_t i = 0; i < model.states.size(); ++i)
         model.set_initial(model.states[i].name, start.point.result.state[i]);
     model.set_initial_mode(model.modes[start.point.result.mode].name);
-    return model;
+    return System(model);
 }
 
 const StudyRun& run_named(const Study& study, const std::string& name) {
@@ -108,14 +108,14 @@ std::vector<Part> both_directions(const StudyRun& run, const Orbit& orbit) {
     return parts;
 }
 
-Orbit twin_of(const StudyRun& run, const Orbit& orbit) {
+Orbit twin_of(const StudyRun& run, const System& system, const Orbit& orbit) {
     if (run.model.symmetries.empty())
         throw InputError(run.start->place, fmt::format("model '{}' declares no symmetry", run.model.name),
                          "declare one in the model");
     // The second half of an orbit whose first is this one is its image.
     Orbit half = orbit;
     half.symmetry = orbit.symmetry.value_or(0);
-    const Orbit whole = whole_orbit(run.model, half);
+    const Orbit whole = whole_orbit(system, half);
     const std::size_t count = orbit.segments();
     if (whole.segments() != 2 * count)
         throw InputError(run.start->place, "the image of an orbit that ends at a section cannot be taken",
@@ -127,7 +127,8 @@ Orbit twin_of(const StudyRun& run, const Orbit& orbit) {
     return twin;
 }
 
-std::vector<Part> parts_from_orbit(const StudyRun& run, const StudyRun& parent, const OrbitRecord& record) {
+std::vector<Part> parts_from_orbit(const StudyRun& run, const System& system, const StudyRun& parent,
+                                   const OrbitRecord& record) {
     const StartFrom& start = *run.start;
     const SpecialPoint& point = record.point;
     const bool same_parameter =
@@ -136,13 +137,14 @@ std::vector<Part> parts_from_orbit(const StudyRun& run, const StudyRun& parent, 
     if (onto.empty())
         onto = leads_on(point.type) && same_parameter ? "other" : "same";
     if (onto == "twin")
-        return both_directions(run, at_place(start.place, run, [&] { return twin_of(run, point.solution.orbit); }));
+        return both_directions(run,
+                               at_place(start.place, run, [&] { return twin_of(run, system, point.solution.orbit); }));
     if (onto == "same")
         return both_directions(run, taken_over(run, point.solution.orbit));
     if (!same_parameter && point.type == PointType::branch_point)
         throw InputError(start.place, "another branch is left for only along the parameter of the first",
                          "follow the same parameter first");
-    const auto starts = at_place(start.place, run, [&] { return branches_at(run.model, point, run.branch.settings); });
+    const auto starts = at_place(start.place, run, [&] { return branches_at(system, point, run.branch.settings); });
     if (!run.branch.set.empty()) // at other parameters there is no direction yet
         return both_directions(run, taken_over(run, starts.front().orbit));
     std::vector<Part> parts;
@@ -153,19 +155,19 @@ std::vector<Part> parts_from_orbit(const StudyRun& run, const StudyRun& parent, 
 }
 
 /// @return none when interrupted
-std::vector<Part> parts_of(const Study& study, const StudyRun& run, const ResultFile& file,
+std::vector<Part> parts_of(const Study& study, const StudyRun& run, const System& system, const ResultFile& file,
                            const RunnerOptions& options) {
     const BranchRequest& branch = run.branch;
     if (run.start) {
         const StudyRun& parent = run_named(study, run.start->run);
         if (parent.is_branch())
-            return parts_from_orbit(run, parent, orbit_to_start_from(*run.start, parent, file));
-        const auto orbit = settled(run, model_at(run, point_to_start_from(run, study, file)), options);
+            return parts_from_orbit(run, system, parent, orbit_to_start_from(*run.start, parent, file));
+        const auto orbit = settled(run, system_at(run, point_to_start_from(run, study, file)), options);
         return orbit ? both_directions(run, *orbit) : std::vector<Part>();
     }
     if (!branch.table.empty())
-        return both_directions(run, orbit_of_table(run));
-    const auto orbit = branch.signature.empty() ? settled(run, run.model, options) : orbit_asked_for(run, options);
+        return both_directions(run, orbit_of_table(run, system));
+    const auto orbit = branch.signature.empty() ? settled(run, system, options) : orbit_asked_for(run, system, options);
     return orbit ? both_directions(run, *orbit) : std::vector<Part>();
 }
 
@@ -268,11 +270,11 @@ SpecialPoint failed_start(const Part& part, const StudyRun& run, const std::stri
 }
 
 /// @return how the part ended, or nothing if it was interrupted
-std::optional<BranchOutcome> follow_part(const StudyRun& run, const Part& part, PointWriter& writer,
-                                         const RunnerOptions& options) {
+std::optional<BranchOutcome> follow_part(const StudyRun& run, const System& system, const Part& part,
+                                         PointWriter& writer, const RunnerOptions& options) {
     BranchSettings settings = run.branch.settings;
     settings.direction = part.direction;
-    OrbitBranch branch = at_place(run.place, run, [&] { return OrbitBranch(run.model, part.orbit, settings); });
+    OrbitBranch branch = at_place(run.place, run, [&] { return OrbitBranch(system, part.orbit, settings); });
     bool going = part.onto ? branch.start_along(part.onto->direction, part.onto->distance) : branch.start();
     if (!going) {
         writer.add(part.name, failed_start(part, run, branch.detail()), false);
@@ -302,22 +304,22 @@ std::optional<BranchOutcome> follow_part(const StudyRun& run, const Part& part, 
     return branch.outcome();
 }
 
-bool compute_orbit(const Study& study, const StudyRun& run, const ResultFile& file, const RunnerOptions& options,
-                   PointWriter& writer) {
-    const std::vector<Part> parts = parts_of(study, run, file, options);
+bool compute_orbit(const Study& study, const StudyRun& run, const System& system, const ResultFile& file,
+                   const RunnerOptions& options, PointWriter& writer) {
+    const std::vector<Part> parts = parts_of(study, run, system, file, options);
     if (parts.empty())
         return false;
     const Part& part = parts.front();
     SpecialPoint point;
     point.type = PointType::end;
-    point.solution = solved(run, part.orbit);
+    point.solution = solved(run, system, part.orbit);
     point.detail = point.solution.detail;
     const Orbit& orbit = point.solution.orbit;
     if (point.solution.outcome == OrbitOutcome::converged && !run.branch.settings.monitors.empty())
         point.monitors = at_place(run.place, run, [&] {
             const std::vector<Monitor>& monitors = run.branch.settings.monitors;
             std::vector<double> values =
-                OrbitMonitors(run.model, orbit.signature, monitors, run.branch.settings.orbit.tolerance)(orbit);
+                OrbitMonitors(system, orbit.signature, monitors, run.branch.settings.orbit.tolerance)(orbit);
             measure_multipliers(monitors, point.solution.multipliers, values);
             return values;
         });
@@ -337,16 +339,17 @@ bool compute_orbit(const Study& study, const StudyRun& run, const ResultFile& fi
 
 bool run_branch(const Study& study, const StudyRun& run, ResultFile& file, const RunnerOptions& options,
                 RunReport& report) {
+    const System system = at_place(run.place, run, [&] { return System(run.model); });
     PointWriter writer(run, file, options, report);
     report.points = 0;
     if (run.kind == RunKind::orbit)
-        return compute_orbit(study, run, file, options, writer);
-    const std::vector<Part> parts = parts_of(study, run, file, options);
+        return compute_orbit(study, run, system, file, options, writer);
+    const std::vector<Part> parts = parts_of(study, run, system, file, options);
     if (parts.empty())
         return false;
     for (const Part& part : parts) {
         writer.set_twin(part.twin);
-        const auto outcome = follow_part(run, part, writer, options);
+        const auto outcome = follow_part(run, system, part, writer, options);
         if (!outcome)
             return false;
         if (*outcome == BranchOutcome::closed)

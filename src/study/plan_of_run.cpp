@@ -77,27 +77,33 @@ std::vector<double> coordinates_of(const StudyRun& run, std::size_t point) {
     return coordinates;
 }
 
-Plan plan_of(const StudyRun& run, const PointRecord* start) {
+namespace {
+
+std::size_t chains_of(const StudyRun& run) {
+    return combinations(run) * std::max<std::size_t>(run.draws, 1);
+}
+
+} // namespace
+
+std::size_t points_of(const StudyRun& run) {
+    return chains_of(run) * chain_length_of(run);
+}
+
+Plan plan_of(const StudyRun& run, const System& system, const PointRecord* start) {
     Plan plan;
     plan.chain_length = chain_length_of(run);
-    plan.chains = combinations(run) * std::max<std::size_t>(run.draws, 1);
+    plan.chains = chains_of(run);
     plan.carry = run.kind == RunKind::sweep && run.carry;
     std::vector<double> state = start ? start->result.state : std::vector<double>();
     const std::size_t mode = start ? start->result.mode : run.model.initial_mode;
-    const auto initial = std::make_shared<Function>(run.model.parameter_symbols(), [&] {
-        std::vector<Expression> expressions;
-        for (const State& item : run.model.states)
-            expressions.push_back(run.model.expand(item.initial));
-        return expressions;
-    }());
-    plan.start = [&run, state, mode, initial](std::size_t point) {
+    plan.start = [&run, state, mode, system](std::size_t point) {
         PointStart result{run.model.parameter_values(), state, mode};
         const std::vector<double> coordinates = coordinates_of(run, point);
         for (std::size_t a = 0; a < run.axes.size(); ++a)
             if (!run.axes[a].is_state)
                 result.parameters[run.axes[a].index] = coordinates[a];
         if (result.state.empty())
-            result.state = (*initial)(result.parameters);
+            result.state = system.initial()(result.parameters);
         for (std::size_t a = 0; a < run.axes.size(); ++a)
             if (run.axes[a].is_state)
                 result.state[run.axes[a].index] = coordinates[a];
@@ -226,21 +232,21 @@ std::vector<Settings> monitors_of(const BranchSettings& branch) {
 
 Settings branch_settings(const StudyRun& run) {
     const BranchSettings& branch = run.branch.settings;
-    const auto symbols = run.model.parameter_symbols();
+    const std::vector<std::string> parameters = run.model.independent_parameters();
     Settings settings;
     settings.add("signature", run.branch.signature).add("table", text_of_table(run.branch.table));
     std::vector<std::string> set, free, stop;
     for (const std::size_t parameter : run.branch.set)
-        set.push_back(symbols[parameter].name());
+        set.push_back(parameters[parameter]);
     for (const std::size_t parameter : branch.free)
-        free.push_back(symbols[parameter].name());
+        free.push_back(parameters[parameter]);
     for (const PointType type : branch.stop_at)
         stop.emplace_back(short_name(type));
     settings.add("set", set).add("monitors", monitors_of(branch)).add("accuracy", branch.orbit.accuracy);
     settings.add("orbit_tolerance", branch.orbit.tolerance);
     if (run.kind == RunKind::orbit)
         return settings;
-    settings.add("along", symbols[branch.parameter].name())
+    settings.add("along", parameters[branch.parameter])
         .add("direction", static_cast<int>(run.direction))
         .add("steps", branch.steps)
         .add("free", free)

@@ -31,14 +31,14 @@ std::string hash(const std::string& text) {
 
 /// All parameters, the one that is followed first.
 void add_parameters(const StudyRun& run, RunRecord& record) {
-    const auto symbols = run.model.parameter_symbols();
+    const std::vector<std::string> parameters = run.model.independent_parameters();
     const auto add = [&](std::size_t p) {
-        const std::string& name = symbols[p].name();
+        const std::string& name = parameters[p];
         record.coordinates.push_back({name, run.model.parameters[*run.model.find_parameter(name)].unit});
     };
-    if (!symbols.empty())
+    if (!parameters.empty())
         add(run.branch.settings.parameter);
-    for (std::size_t p = 0; p < symbols.size(); ++p)
+    for (std::size_t p = 0; p < parameters.size(); ++p)
         if (p != run.branch.settings.parameter)
             add(p);
 }
@@ -90,10 +90,10 @@ std::vector<std::string> direction_names(const StudyRun& run) {
 
 namespace {
 
-std::unique_ptr<SearchFactory> searches_of(const StudyRun& run) {
+std::unique_ptr<SearchFactory> searches_of(const StudyRun& run, const System& system) {
     return run.kind == RunKind::simulate
-               ? transient_searches(run.model, run.transient, run.samplings, run.values, run.simulation)
-               : attractor_searches(run.model, run.attractor, run.samplings, run.values, run.simulation);
+               ? transient_searches(system, run.transient, run.samplings, run.values, run.simulation)
+               : attractor_searches(system, run.attractor, run.samplings, run.values, run.simulation);
 }
 
 /// What the file has of each chain.
@@ -179,9 +179,7 @@ public:
     }
 
 private:
-    static std::size_t planned_points(const StudyRun& run) {
-        return run.is_branch() ? 1 : plan_of(run, nullptr).points();
-    }
+    static std::size_t planned_points(const StudyRun& run) { return run.is_branch() ? 1 : points_of(run); }
 
     /// A run that fails is told of, and those that do not start from it go on.
     RunReport attempt(const StudyRun& run) {
@@ -263,18 +261,19 @@ private:
         if (wanted.start)
             start = point_to_start_from(wanted, *study_, *file_);
         const StudyRun run = start ? at_start(wanted, *start) : wanted;
-        const Plan plan = plan_of(run, start ? &start->point : nullptr);
-        const RunRecord record = record_of(run, parent_fingerprint(run), plan.points());
+        report.points = points_of(run);
+        const RunRecord record = record_of(run, parent_fingerprint(run), report.points);
         fingerprints_[run.name] = record.fingerprint;
-        report.points = plan.points();
         if (is_done(record, *file_))
             return;
+        const System system(run.model);
+        const Plan plan = plan_of(run, system, start ? &start->point : nullptr);
         std::size_t done = 0;
         const auto progress = progress_of(*file_, run, plan, done);
         ExecutionOptions execution;
         execution.jobs = options_->jobs;
         execution.interrupted = options_->interrupted;
-        const auto searches = searches_of(run);
+        const auto searches = searches_of(run, system);
         const bool complete = execute(
             plan, *searches, progress, execution, [&](std::size_t point, const PointStart&, PointResult& result) {
                 report.returns += result.periods_run;

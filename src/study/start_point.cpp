@@ -42,21 +42,19 @@ std::vector<double> with_own_parameters(const StudyRun& run, std::vector<double>
 }
 
 void set_parameters(Model& model, const std::vector<double>& values) {
-    const std::vector<Expression> symbols = model.parameter_symbols();
-    for (std::size_t i = 0; i < symbols.size(); ++i)
-        model.set_parameter(symbols[i].name(), values[i]);
+    const std::vector<std::string> names = model.independent_parameters();
+    for (std::size_t i = 0; i < names.size(); ++i)
+        model.set_parameter(names[i], values[i]);
 }
 
 OrbitRecord orbit_to_start_from(const StartFrom& start, const StudyRun& parent, const ResultFile& file) {
     std::optional<OrbitRecord> record;
     if (start.coordinate) {
-        const auto symbols = parent.model.parameter_symbols();
-        const auto found = std::find_if(symbols.begin(), symbols.end(),
-                                        [&](const auto& symbol) { return symbol.name() == *start.coordinate; });
-        if (found == symbols.end())
+        const auto found = parent.model.find_independent_parameter(*start.coordinate);
+        if (!found)
             throw InputError(start.place, fmt::format("run '{}' has no parameter '{}'", start.run, *start.coordinate),
                              "name one of the model's");
-        const auto place = static_cast<std::size_t>(found - symbols.begin());
+        const std::size_t place = *found;
         double least = std::numeric_limits<double>::infinity();
         for (OrbitRecord& one : file.orbits(start.run, false)) {
             const double distance = std::abs(one.point.solution.orbit.parameters[place] - start.value);

@@ -13,17 +13,13 @@ namespace {
 
 std::size_t parameter_named(const StudyReader& reader, const Model& model, const TomlEntry& entry,
                             const std::string& name) {
-    const auto symbols = model.parameter_symbols();
-    std::vector<std::string> known;
-    for (const auto& symbol : symbols)
-        known.push_back(symbol.name());
-    const auto found = std::find(known.begin(), known.end(), name);
-    if (found == known.end())
+    const auto place = model.find_independent_parameter(name);
+    if (!place)
         reader.fail(entry,
                     model.find_parameter(name) ? fmt::format("parameter '{}' follows from others", name)
                                                : fmt::format("the model has no parameter '{}'", name),
-                    study_name_remedy(name, known));
-    return static_cast<std::size_t>(found - known.begin());
+                    study_name_remedy(name, model.independent_parameters()));
+    return *place;
 }
 
 void read_along(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
@@ -150,11 +146,9 @@ std::vector<Monitor> usual_monitors(const Model& model) {
 } // namespace
 
 void note_set(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    const auto symbols = run.model.parameter_symbols();
     for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path))
-        for (std::size_t i = 0; i < symbols.size(); ++i)
-            if (symbols[i].name() == item.name)
-                run.branch.set.push_back(i);
+        if (const auto place = run.model.find_independent_parameter(item.name))
+            run.branch.set.push_back(*place);
 }
 
 void read_branch(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {

@@ -174,20 +174,15 @@ void read_variation_table(const StudyReader& reader, const Model& model, const T
 Variation read_variation(const StudyReader& reader, const Model& model, const TomlEntry& entry, bool& random) {
     Variation variation;
     variation.name = entry.name;
-    const auto symbols = model.parameter_symbols();
-    const auto parameter =
-        std::find_if(symbols.begin(), symbols.end(), [&](const auto& symbol) { return symbol.name() == entry.name; });
-    if (parameter != symbols.end()) {
-        variation.index = static_cast<std::size_t>(parameter - symbols.begin());
+    if (const auto parameter = model.find_independent_parameter(entry.name)) {
+        variation.index = *parameter;
         variation.unit = model.parameters[*model.find_parameter(entry.name)].unit;
     } else if (const auto state = model.find_state(entry.name)) {
         variation.is_state = true;
         variation.index = *state;
         variation.unit = model.states[*state].unit;
     } else {
-        std::vector<std::string> known;
-        for (const auto& symbol : symbols)
-            known.push_back(symbol.name());
+        std::vector<std::string> known = model.independent_parameters();
         for (const State& item : model.states)
             known.push_back(item.name);
         throw InputError(entry.place,

@@ -35,7 +35,7 @@ AttractorSearch::AttractorSearch(const AttractorSetting& setting)
       exponent_(setting.map), equilibria_(setting.field), growth_(setting.field, setting.map) {}
 
 void AttractorSearch::begin(std::span<const double> parameters, std::span<const double> state, std::size_t mode) {
-    const CompiledModel& compiled = setting_->simulation.compiled();
+    const System& compiled = setting_->simulation.system();
     parameters_.assign(parameters.begin(), parameters.end());
     periods_.resize(compiled.states());
     std::vector<double> work(compiled.workspace());
@@ -87,7 +87,7 @@ void AttractorSearch::limit_steps(std::span<const double> state, std::size_t mod
     if (!setting_->map.is_phase())
         return;
     const std::size_t clock = setting_->simulation.probes()[setting_->map.probe()].state;
-    const CompiledModel& compiled = setting_->simulation.compiled();
+    const System& compiled = setting_->simulation.system();
     std::vector<double> inputs(state.begin(), state.end()), rates(state.size()), work(compiled.workspace());
     inputs.insert(inputs.end(), parameters_.begin(), parameters_.end());
     compiled.mode(mode).rates.evaluate(inputs, rates, work);
@@ -340,9 +340,9 @@ namespace {
 
 class AttractorSearches : public SearchFactory {
 public:
-    AttractorSearches(const Model& model, const AttractorOptions& options, const std::vector<Sampling>& samplings,
+    AttractorSearches(const System& system, const AttractorOptions& options, const std::vector<Sampling>& samplings,
                       const std::vector<Expression>& values, const SimulationOptions& simulation_options)
-        : setting_(model, options, samplings, values, simulation_options) {}
+        : setting_(system, options, samplings, values, simulation_options) {}
 
     const Simulation& simulation() const override { return setting_.simulation; }
     std::unique_ptr<PointSearch> make() const override { return std::make_unique<AttractorSearch>(setting_); }
@@ -353,11 +353,11 @@ private:
 
 } // namespace
 
-std::unique_ptr<SearchFactory> attractor_searches(const Model& model, const AttractorOptions& options,
+std::unique_ptr<SearchFactory> attractor_searches(const System& system, const AttractorOptions& options,
                                                   const std::vector<Sampling>& samplings,
                                                   const std::vector<Expression>& values,
                                                   const SimulationOptions& simulation) {
-    return std::make_unique<AttractorSearches>(model, options, samplings, values, simulation);
+    return std::make_unique<AttractorSearches>(system, options, samplings, values, simulation);
 }
 
 } // namespace graze

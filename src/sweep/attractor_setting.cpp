@@ -45,18 +45,16 @@ void AttractorOptions::validate(const Model& model) const {
             refuse("bounds of a state are not in order", "give the least value, then the greatest");
 }
 
-AttractorSetting::AttractorSetting(const Model& model, const AttractorOptions& given,
+AttractorSetting::AttractorSetting(const System& system, const AttractorOptions& given,
                                    const std::vector<Sampling>& samplings, const std::vector<Expression>& values,
                                    const SimulationOptions& simulation_options)
-    : options((given.validate(model), given)), layout(model, samplings, values),
-      simulation(model, probes_of(model, options, layout), {}, simulation_options),
-      map(simulation, simulation.probes().size() - 1), field(simulation.compiled()) {
+    : options((given.validate(system.model()), given)), layout(system, samplings, values),
+      simulation(system, probes_of(system.model(), options, layout), {}, simulation_options),
+      map(simulation, simulation.probes().size() - 1), field(system) {
+    const Model& model = system.model();
     if (model.symmetries.empty())
         return;
-    std::vector<Expression> inputs = model.state_symbols();
-    for (const Expression& symbol : model.parameter_symbols())
-        inputs.push_back(symbol);
-    image = Function(inputs, model.expand(model.symmetries.front().map));
+    image = system.symmetry(0).map;
     image_modes = model.symmetries.front().modes;
 }
 

@@ -12,7 +12,7 @@ namespace graze {
 
 /// What all searches of a run share.
 struct AttractorSetting {
-    AttractorSetting(const Model& model, const AttractorOptions& given, const std::vector<Sampling>& samplings,
+    AttractorSetting(const System& system, const AttractorOptions& given, const std::vector<Sampling>& samplings,
                      const std::vector<Expression>& values, const SimulationOptions& simulation_options);
 
     AttractorOptions options;

@@ -64,7 +64,7 @@ bool EquilibriumFinder::classify(Equilibrium& equilibrium) {
     field_->evaluate(workspace_, equilibrium.mode, equilibrium.state);
     clocks_.clear();
     for (std::size_t i = 0; i < count; ++i) {
-        if (field_->compiled().model().states[i].drifting)
+        if (field_->system().model().states[i].drifting)
             continue;
         const std::span<const double> row(&workspace_.jacobian[i * count], count);
         if (!std::isfinite(workspace_.rates[i]) ||
@@ -234,7 +234,7 @@ double EquilibriumFinder::remainder(const Equilibrium& equilibrium, const Eigen:
 bool EquilibriumFinder::events_are_away(const Equilibrium& equilibrium, double distance) {
     const auto size = static_cast<Eigen::Index>(equilibrium.active.size());
     const std::size_t count = field_->states();
-    const std::size_t watched = field_->compiled().mode(equilibrium.mode).watched.size();
+    const std::size_t watched = field_->system().mode(equilibrium.mode).watched.size();
     std::vector<double> at = equilibrium.state;
     std::vector<int> sides(watched, 0);
     for (std::size_t k = 0; watched > 0 && k < (clocks_.empty() ? 1 : phases); ++k) {

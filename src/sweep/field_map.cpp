@@ -7,12 +7,9 @@
 
 namespace graze {
 
-FieldMap::FieldMap(const CompiledModel& compiled) : compiled_(&compiled) {
-    const Model& model = compiled.model();
-    const std::vector<Expression> states = model.state_symbols();
-    std::vector<Expression> inputs = states;
-    for (const Expression& symbol : model.parameter_symbols())
-        inputs.push_back(symbol);
+FieldMap::FieldMap(const System& system) : system_(system) {
+    Model model = system.model();
+    const std::vector<Expression> states = model.state_symbols(), inputs = model.inputs();
     for (const Mode& mode : model.modes) {
         std::vector<Expression> outputs;
         for (const Expression& rate : model.expand(mode.rates))
@@ -27,11 +24,11 @@ FieldMap::Workspace FieldMap::workspace(std::span<const double> parameters) cons
     const std::size_t count = states();
     workspace.inputs.resize(count + parameters.size());
     std::copy(parameters.begin(), parameters.end(), workspace.inputs.begin() + static_cast<std::ptrdiff_t>(count));
-    std::size_t work = compiled_->workspace(), watched = 0;
+    std::size_t work = system_.workspace(), watched = 0;
     for (const Function& function : jacobians_)
         work = std::max(work, function.workspace());
     for (std::size_t m = 0; m < jacobians_.size(); ++m)
-        watched = std::max(watched, compiled_->mode(m).watched.size());
+        watched = std::max(watched, system_.mode(m).watched.size());
     workspace.work.resize(work);
     workspace.rates.resize(count);
     workspace.jacobian.resize(count * count);
@@ -42,7 +39,7 @@ FieldMap::Workspace FieldMap::workspace(std::span<const double> parameters) cons
 
 void FieldMap::evaluate_rates(Workspace& workspace, std::size_t mode, std::span<const double> state) const {
     std::copy(state.begin(), state.end(), workspace.inputs.begin());
-    compiled_->mode(mode).rates.evaluate(workspace.inputs, workspace.rates, workspace.work);
+    system_.mode(mode).rates.evaluate(workspace.inputs, workspace.rates, workspace.work);
 }
 
 void FieldMap::evaluate(Workspace& workspace, std::size_t mode, std::span<const double> state) const {
@@ -52,8 +49,8 @@ void FieldMap::evaluate(Workspace& workspace, std::size_t mode, std::span<const 
 
 void FieldMap::evaluate_events(Workspace& workspace, std::size_t mode, std::span<const double> state) const {
     std::copy(state.begin(), state.end(), workspace.inputs.begin());
-    compiled_->mode(mode).events.evaluate(workspace.inputs, workspace.events, workspace.work);
-    compiled_->mode(mode).event_gradients.evaluate(workspace.inputs, workspace.event_gradients, workspace.work);
+    system_.mode(mode).events.evaluate(workspace.inputs, workspace.events, workspace.work);
+    system_.mode(mode).event_gradients.evaluate(workspace.inputs, workspace.event_gradients, workspace.work);
 }
 
 bool FieldMap::is_affine_beyond(Workspace& workspace, std::size_t mode, std::span<const double> state,
@@ -63,7 +60,7 @@ bool FieldMap::is_affine_beyond(Workspace& workspace, std::size_t mode, std::spa
     const std::size_t count = states();
     std::vector<double> step(count), at(count);
     std::vector<std::vector<double>> rates(3, std::vector<double>(count));
-    const Model& model = compiled_->model();
+    const Model& model = system_.model();
     bool any = false;
     for (std::size_t pattern = 0; pattern < 2 * count + 2; ++pattern) {
         for (std::size_t i = 0; i < count; ++i) {

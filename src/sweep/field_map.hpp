@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/flow/compiled_model.hpp"
+#include "graze/flow/system.hpp"
 
 #include <cstddef>
 #include <span>
@@ -11,10 +11,10 @@ namespace graze {
 /// Vector fields of all modes with their derivatives by the states. Immutable; threads may share it.
 class FieldMap {
 public:
-    explicit FieldMap(const CompiledModel& compiled);
+    explicit FieldMap(const System& system);
 
-    const CompiledModel& compiled() const { return *compiled_; }
-    std::size_t states() const { return compiled_->states(); }
+    const System& system() const { return system_; }
+    std::size_t states() const { return system_.states(); }
 
     /// Numbers that every use needs, for one thread.
     struct Workspace {
@@ -35,7 +35,7 @@ public:
                           std::span<const double> extents, std::span<const double> periods) const;
 
 private:
-    const CompiledModel* compiled_;
+    System system_;
     std::vector<Function> jacobians_; ///< of each mode
 };
 

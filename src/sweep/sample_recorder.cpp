@@ -11,22 +11,18 @@ constexpr auto none = static_cast<std::size_t>(-1);
 
 } // namespace
 
-SampleRecorder::Layout::Layout(const Model& model, const std::vector<Sampling>& samplings,
+SampleRecorder::Layout::Layout(const System& system, const std::vector<Sampling>& samplings,
                                const std::vector<Expression>& values)
-    : samplings_of_event_(model.events.size()), states_(model.states.size()) {
-    std::vector<Expression> inputs = model.state_symbols(), periods;
-    const std::vector<Expression> parameters = model.parameter_symbols();
-    inputs.insert(inputs.end(), parameters.begin(), parameters.end());
-    parameters_ = parameters.size();
-    for (const State& state : model.states)
-        periods.push_back(state.period ? model.expand(*state.period) : model.number(0));
-    periods_ = Function(parameters, periods);
-    values_ = Function(inputs, model.expand(values));
+    : samplings_of_event_(system.model().events.size()), states_(system.states()) {
+    const Model& model = system.model();
+    parameters_ = system.parameters();
+    periods_ = system.periods();
+    values_ = system.function_of(values);
     for (std::size_t s = 0; s < samplings.size(); ++s) {
         const Sampling& sampling = samplings[s];
         image_of_sampling_.push_back(sampling.symmetry ? images_.size() : none);
         if (sampling.symmetry)
-            images_.emplace_back(inputs, model.expand(model.symmetries.at(*sampling.symmetry).map));
+            images_.push_back(system.symmetry(*sampling.symmetry).map);
         if (sampling.at == Sampling::At::contact) {
             for (const std::size_t event : sampling.events)
                 samplings_of_event_.at(event).push_back(s);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/flow/system.hpp"
 #include "graze/sweep/sampling.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/trajectory/observer.hpp"
@@ -19,7 +20,7 @@ public:
     class Layout {
     public:
         /// @throws InputError for sections that the model does not have
-        Layout(const Model& model, const std::vector<Sampling>& samplings, const std::vector<Expression>& values);
+        Layout(const System& system, const std::vector<Sampling>& samplings, const std::vector<Expression>& values);
         /// For samplings at sections and extrema, in their order.
         const std::vector<Probe>& probes() const { return probes_; }
 

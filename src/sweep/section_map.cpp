@@ -16,31 +16,24 @@ constexpr double simultaneous_phase = 1e-10; ///< share of a period
 } // namespace
 
 SectionMap::SectionMap(const Simulation& simulation, std::size_t probe)
-    : simulation_(&simulation), probe_(probe), states_(simulation.compiled().states()), takes_part_(states_, true) {
+    : simulation_(simulation), probe_(probe), states_(simulation.system().states()), takes_part_(states_, true) {
     const Model& model = simulation.model();
     const Probe& section = simulation.probes()[probe];
     for (std::size_t i = 0; i < states_; ++i)
         takes_part_[i] = !model.states[i].drifting && !(is_phase() && section.state == i);
     if (is_phase())
         return;
-    std::vector<Expression> inputs = model.state_symbols();
-    const Expression value = model.expand(section.expression);
-    std::vector<Expression> outputs{value};
-    for (const Expression& symbol : inputs)
-        outputs.push_back(differentiate(value, symbol));
-    for (const Expression& symbol : model.parameter_symbols())
-        inputs.push_back(symbol);
-    section_ = Function(inputs, outputs);
+    section_ = simulation.system().with_gradient(section.expression);
 }
 
 SectionMap::Workspace SectionMap::workspace(std::span<const double> parameters) const {
-    const CompiledModel& compiled = simulation_->compiled();
+    const System& compiled = simulation_.system();
     Workspace workspace;
     workspace.inputs.resize(states_ + parameters.size());
     std::copy(parameters.begin(), parameters.end(), workspace.inputs.begin() + static_cast<std::ptrdiff_t>(states_));
     workspace.work.resize(std::max(compiled.workspace(), section_.workspace()));
     workspace.field.resize(states_);
-    workspace.gradient.resize(1 + states_);
+    workspace.gradient.resize(std::max(1 + states_, section_.outputs()));
     std::size_t watched = 0;
     for (std::size_t m = 0; m < compiled.model().modes.size(); ++m)
         watched = std::max(watched, compiled.mode(m).watched.size());
@@ -52,12 +45,12 @@ SectionMap::Workspace SectionMap::workspace(std::span<const double> parameters) 
 bool SectionMap::project(Workspace& workspace, std::size_t mode, std::span<const double> state,
                          Eigen::MatrixXd& tangents) const {
     std::copy(state.begin(), state.end(), workspace.inputs.begin());
-    simulation_->compiled().mode(mode).rates.evaluate(workspace.inputs, workspace.field, workspace.work);
+    simulation_.system().mode(mode).rates.evaluate(workspace.inputs, workspace.field, workspace.work);
     const auto states = static_cast<Eigen::Index>(states_);
     const Eigen::Map<const Eigen::VectorXd> field(workspace.field.data(), states);
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(states);
     if (is_phase()) {
-        gradient[static_cast<Eigen::Index>(simulation_->probes()[probe_].state)] = 1;
+        gradient[static_cast<Eigen::Index>(simulation_.probes()[probe_].state)] = 1;
     } else {
         section_.evaluate(workspace.inputs, workspace.gradient, workspace.work);
         gradient = Eigen::Map<const Eigen::VectorXd>(workspace.gradient.data() + 1, states);
@@ -86,7 +79,7 @@ void SectionMap::settle_on_section(Workspace& workspace, std::span<double> state
 
 bool SectionMap::is_on_event(Workspace& workspace, std::size_t mode, std::span<const double> state,
                              std::span<const double> periods, double time) const {
-    if (simulation_->compiled().mode(mode).watched.empty())
+    if (simulation_.system().mode(mode).watched.empty())
         return false;
     std::copy(state.begin(), state.end(), workspace.inputs.begin());
     if (meets_event(workspace, mode, time))
@@ -102,7 +95,7 @@ bool SectionMap::is_on_event(Workspace& workspace, std::size_t mode, std::span<c
 }
 
 bool SectionMap::meets_event(Workspace& workspace, std::size_t mode, double time) const {
-    const auto& compiled = simulation_->compiled().mode(mode);
+    const auto& compiled = simulation_.system().mode(mode);
     compiled.rates.evaluate(workspace.inputs, workspace.field, workspace.work);
     compiled.events.evaluate(workspace.inputs, workspace.events, workspace.work);
     compiled.event_gradients.evaluate(workspace.inputs, workspace.event_gradients, workspace.work);

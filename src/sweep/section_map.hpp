@@ -19,10 +19,10 @@ public:
     /// @param probe of the simulation, whose passages are returns
     SectionMap(const Simulation& simulation, std::size_t probe);
 
-    const Simulation& simulation() const { return *simulation_; }
+    const Simulation& simulation() const { return simulation_; }
     std::size_t probe() const { return probe_; }
     std::size_t states() const { return states_; }
-    bool is_phase() const { return simulation_->probes()[probe_].kind == Probe::Kind::phase; }
+    bool is_phase() const { return simulation_.probes()[probe_].kind == Probe::Kind::phase; }
     /// Whether the state takes part in returns: neither drifting nor the section's own phase.
     bool takes_part(std::size_t state) const { return takes_part_[state]; }
 
@@ -45,7 +45,7 @@ public:
 private:
     bool meets_event(Workspace& workspace, std::size_t mode, double time) const;
 
-    const Simulation* simulation_;
+    Simulation simulation_;
     std::size_t probe_, states_;
     Function section_; ///< value, then gradient; of crossings
     std::vector<bool> takes_part_;

@@ -36,11 +36,12 @@ void TransientOptions::validate(const Model& model) const {
         refuse("nothing ends the simulation", "give a time, a number of periods or of contacts");
 }
 
-TransientSetting::TransientSetting(const Model& model, const TransientOptions& given,
+TransientSetting::TransientSetting(const System& system, const TransientOptions& given,
                                    const std::vector<Sampling>& samplings, const std::vector<Expression>& values,
                                    const SimulationOptions& simulation_options)
-    : options((given.validate(model), given)), layout(model, samplings, values),
-      simulation(model, probes_of(model, options, layout), {}, simulation_options), counted(model.events.size()) {
+    : options((given.validate(system.model()), given)), layout(system, samplings, values),
+      simulation(system, probes_of(system.model(), options, layout), {}, simulation_options),
+      counted(system.model().events.size()) {
     for (const std::size_t event : options.counted)
         counted.at(event) = true;
 }
@@ -139,9 +140,9 @@ namespace {
 
 class TransientSearches : public SearchFactory {
 public:
-    TransientSearches(const Model& model, const TransientOptions& options, const std::vector<Sampling>& samplings,
+    TransientSearches(const System& system, const TransientOptions& options, const std::vector<Sampling>& samplings,
                       const std::vector<Expression>& values, const SimulationOptions& simulation_options)
-        : setting_(model, options, samplings, values, simulation_options) {}
+        : setting_(system, options, samplings, values, simulation_options) {}
 
     const Simulation& simulation() const override { return setting_.simulation; }
     std::unique_ptr<PointSearch> make() const override { return std::make_unique<TransientSearch>(setting_); }
@@ -152,11 +153,11 @@ private:
 
 } // namespace
 
-std::unique_ptr<SearchFactory> transient_searches(const Model& model, const TransientOptions& options,
+std::unique_ptr<SearchFactory> transient_searches(const System& system, const TransientOptions& options,
                                                   const std::vector<Sampling>& samplings,
                                                   const std::vector<Expression>& values,
                                                   const SimulationOptions& simulation) {
-    return std::make_unique<TransientSearches>(model, options, samplings, values, simulation);
+    return std::make_unique<TransientSearches>(system, options, samplings, values, simulation);
 }
 
 } // namespace graze

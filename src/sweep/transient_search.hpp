@@ -14,7 +14,7 @@ Label label_of(Ending ending);
 
 /// What all searches of a run share.
 struct TransientSetting {
-    TransientSetting(const Model& model, const TransientOptions& given, const std::vector<Sampling>& samplings,
+    TransientSetting(const System& system, const TransientOptions& given, const std::vector<Sampling>& samplings,
                      const std::vector<Expression>& values, const SimulationOptions& simulation_options);
 
     TransientOptions options;

@@ -1,6 +1,7 @@
 #include "graze/symbolic/expression.hpp"
 
 #include "symbolic/simplify.hpp"
+#include "symbolic/subgraph.hpp"
 
 #include <bit>
 #include <cmath>
@@ -68,10 +69,41 @@ std::shared_ptr<Graph> Graph::create() {
     return std::shared_ptr<Graph>(new Graph);
 }
 
+std::shared_ptr<Graph> Graph::copy() const {
+    std::shared_ptr<Graph> result(new Graph(*this));
+    result->frozen_ = false;
+    return result;
+}
+
+void Graph::require_growing() const {
+    if (frozen_)
+        throw std::logic_error(
+            "the graph of a compiled system cannot grow: make new expressions in a copy of its model");
+}
+
+Expression Graph::adopt(const Expression& foreign) {
+    if (foreign.graph().get() == this)
+        return foreign;
+    const Subgraph part = subgraph_of(std::span(&foreign, 1));
+    std::vector<NodeIndex> own;
+    for (const Subgraph::Item& item : part.items) {
+        Node node = part.node(item);
+        if (node.operation == Operation::symbol)
+            node.left = symbol(part.graph->symbol_name(node)).index();
+        else if (arity(node.operation) > 0)
+            node.left = own[item.left];
+        if (arity(node.operation) == 2)
+            node.right = own[item.right];
+        own.push_back(node.operation == Operation::symbol ? node.left : intern(node));
+    }
+    return {shared_from_this(), own[part.roots.front()]};
+}
+
 NodeIndex Graph::intern(Node node) {
     const auto found = indices_.find(node);
     if (found != indices_.end())
         return found->second;
+    require_growing();
     if (nodes_.size() >= std::numeric_limits<NodeIndex>::max())
         throw std::length_error("an expression graph is full");
     // What could be folded has been; constant operands that are left have no finite value.
@@ -105,9 +137,12 @@ Expression Graph::number(double value) {
 }
 
 Expression Graph::symbol(std::string_view name) {
-    const auto [entry, is_new] = name_indices_.try_emplace(std::string(name), static_cast<NodeIndex>(names_.size()));
-    if (is_new)
+    auto entry = name_indices_.find(std::string(name));
+    if (entry == name_indices_.end()) {
+        require_growing();
+        entry = name_indices_.emplace(std::string(name), static_cast<NodeIndex>(names_.size())).first;
         names_.emplace_back(name);
+    }
     return {shared_from_this(), intern({Operation::symbol, entry->second, 0, 0})};
 }
 

@@ -55,7 +55,7 @@ void Trajectory::begin_arc(double step) {
 bool Trajectory::classify(std::size_t w, double step) {
     const auto& mode = *compiled_mode_;
     const std::size_t event = mode.watched[w];
-    const Event& definition = simulation_->model().events[event];
+    const Event& definition = simulation_.model().events[event];
     const auto c = event_series(w);
     const double size = series_size(c, step);
     const bool served = event == served_;
@@ -106,7 +106,7 @@ bool Trajectory::classify(std::size_t w, double step) {
 }
 
 void Trajectory::finish_violated(std::size_t w) {
-    const Event& event = simulation_->model().events[compiled_mode_->watched[w]];
+    const Event& event = simulation_.model().events[compiled_mode_->watched[w]];
     finish(Ending::inadmissible, time_,
            fmt::format("barrier '{}' is already violated ({:.6g} < 0) {}: choose an initial state on its admissible "
                        "side, or a jump that does not lead beyond it",
@@ -138,7 +138,7 @@ double Trajectory::surface_at_start(std::size_t w, double size, double& drifted)
 /// How far from zero a watched event's function may be at the start of an arc although the state is meant to be on its
 /// surface: what evaluating it rounds, and what the state itself is uncertain by, from the jump that made it.
 double Trajectory::uncertainty_at_start(std::size_t w, double size) {
-    const CompiledModel& compiled = simulation_->compiled();
+    const System& compiled = simulation_.system();
     std::fill(uncertain_.begin(), uncertain_.end(), 0.0);
     const bool jumped = served_ != no_event || stuck_;
     for (std::size_t j = states_; j < inputs_.size(); ++j)
@@ -165,7 +165,7 @@ double Trajectory::drift(std::size_t event, double size) const {
     if (!hold.carried)
         return 0;
     const double steps = static_cast<double>(steps_ - hold.since + 1);
-    return std::min(steps * simulation_->options().tolerance, most_uncertain) * std::max(size, hold.size);
+    return std::min(steps * simulation_.options().tolerance, most_uncertain) * std::max(size, hold.size);
 }
 
 /// Remembers the surfaces on which the state is at s: that of a contact, and those that it shares.

@@ -75,7 +75,7 @@ std::size_t Trajectory::limit_to_branch(double& step) {
     if (!compiled_mode_->has_roots || !(step > 0))
         return states_;
     const double whole = step;
-    const std::size_t jumping = jumping_rate(whole, std::max(least_jump, 1000 * simulation_->options().tolerance));
+    const std::size_t jumping = jumping_rate(whole, std::max(least_jump, 1000 * simulation_.options().tolerance));
     // High powers of what vanishes are flat there, and look harmless a good way behind: hence the look half way, too.
     if (jumping == states_ && !root_vanishes(whole) && !root_vanishes(0.5 * whole))
         return states_;
@@ -100,7 +100,7 @@ void Trajectory::finish_at_branch(std::size_t state) {
         Ending::undefined, time_,
         fmt::format("the rate of state '{}' jumps {}: what stands under a root or a power reaches zero; end the mode "
                     "by an event before it does",
-                    simulation_->model().states[state].name, where()));
+                    simulation_.model().states[state].name, where()));
 }
 
 } // namespace graze

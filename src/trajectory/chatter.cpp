@@ -56,7 +56,7 @@ bool Trajectory::complete_chatter(std::size_t w, double step) {
     const double lengthening = -c[3] / c[2] * steady;
     const double remaining = history.interrupted ? steady : steady * (1 + lengthening);
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
-    const double allowed = std::max(4 * epsilon, 0.01 * simulation_->options().tolerance);
+    const double allowed = std::max(4 * epsilon, 0.01 * simulation_.options().tolerance);
     const double height = deceleration * remaining * remaining;
     const double change = std::abs(lengthening);
     const double neglected =
@@ -86,7 +86,7 @@ bool Trajectory::another_event_within(std::size_t w, double time) {
 void Trajectory::judge_stand_still() {
     const ContactHistory history = histories_[served_];
     hand_over_contact();
-    if (history.count >= simulation_->options().contacts_at_once / 20) {
+    if (history.count >= simulation_.options().contacts_at_once / 20) {
         before_ = state_;
         if (tangents_)
             row_.assign(tangents_->directions(), 0.0);
@@ -119,7 +119,7 @@ void Trajectory::stick(std::size_t w, std::size_t index, double remaining, doubl
 
 /// Makes the sticking that a transition declares, from `before_`.
 void Trajectory::come_to_rest(std::size_t event, std::size_t index, double rate) {
-    const Transition& transition = simulation_->model().transitions[index];
+    const Transition& transition = simulation_.model().transitions[index];
     histories_[event] = {};
     if (!transition.chatter) {
         state_ = before_;
@@ -127,7 +127,7 @@ void Trajectory::come_to_rest(std::size_t event, std::size_t index, double rate)
             Ending::chatter, time_,
             fmt::format("contacts at barrier '{}' accumulate in mode '{}' at time {:.15g}, and its transition "
                         "does not say what follows: give it `chatter = {{ jump = ..., mode = ... }}`",
-                        simulation_->model().events[event].name, simulation_->model().modes[mode_].name, time_));
+                        simulation_.model().events[event].name, simulation_.model().modes[mode_].name, time_));
     }
     Contact contact;
     contact.kind = ContactKind::sticking;

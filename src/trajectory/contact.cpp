@@ -53,8 +53,8 @@ void Trajectory::make_contact(std::size_t w, double s) {
 
 /// Makes the transition's jump from `before_` and finds the next mode.
 void Trajectory::apply_transition(std::size_t transition, double rate) {
-    const Model& model = simulation_->model();
-    const auto& compiled = simulation_->compiled().transition(transition);
+    const Model& model = simulation_.model();
+    const auto& compiled = simulation_.system().transition(transition);
     pending_->transition = transition;
     pending_->time = time_;
     pending_->mode_before = pending_->mode_after = mode_;
@@ -78,18 +78,18 @@ void Trajectory::apply_transition(std::size_t transition, double rate) {
                         time_));
     }
     enter(compiled.jump, *next);
-    if (!finished() && contacts_now_ > simulation_->options().contacts_at_once)
+    if (!finished() && contacts_now_ > simulation_.options().contacts_at_once)
         judge_stand_still();
 }
 
 void Trajectory::jump(std::size_t jump) {
     std::copy(before_.begin(), before_.end(), inputs_.begin());
-    simulation_->compiled().jump(jump).map.evaluate(inputs_, after_, work_);
+    simulation_.system().jump(jump).map.evaluate(inputs_, after_, work_);
 }
 
 std::optional<std::size_t> Trajectory::next_mode(std::size_t transition, bool& ends) {
     std::copy(after_.begin(), after_.end(), inputs_.begin());
-    for (const auto& alternative : simulation_->compiled().transition(transition).next) {
+    for (const auto& alternative : simulation_.system().transition(transition).next) {
         conditions_.resize(alternative.strict.size());
         alternative.conditions.evaluate(inputs_, conditions_, work_);
         bool holds = true;
@@ -106,7 +106,7 @@ std::optional<std::size_t> Trajectory::next_mode(std::size_t transition, bool& e
 /// Goes on in a mode from `after_`, reached from `before_` by a jump whose time depends on the initial state as
 /// `row_` says.
 void Trajectory::enter(std::size_t jump, std::size_t mode) {
-    const CompiledModel& compiled = simulation_->compiled();
+    const System& compiled = simulation_.system();
     last_jump_ = jump;
     if (tangents_) {
         jacobian_.resize(states_ * (states_ + parameters_.size()));
@@ -134,7 +134,7 @@ void Trajectory::enter(std::size_t jump, std::size_t mode) {
             probes_->relocate(i, before_[i], after_[i]);
     state_ = after_;
     mode_ = mode;
-    compiled_mode_ = &simulation_->compiled().mode(mode);
+    compiled_mode_ = &simulation_.system().mode(mode);
     wrap_cyclic_states(true);
     arc_start_ = true;
     ++contacts_now_;

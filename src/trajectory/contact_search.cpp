@@ -139,7 +139,7 @@ bool Trajectory::find_fall(std::size_t w, double length, Root& root) {
 /// Of the minima that may be touches those that are: enclosures have overrated how large the function is.
 void Trajectory::keep_touches(std::size_t w, std::span<const double> c) {
     const std::size_t event = compiled_mode_->watched[w];
-    const bool barrier = simulation_->model().events[event].kind == EventKind::barrier;
+    const bool barrier = simulation_.model().events[event].kind == EventKind::barrier;
     for (const Root& touch : found_touches_) {
         double largest = 0;
         constexpr int samples = 16;
@@ -183,7 +183,7 @@ void Trajectory::note_size(std::size_t w) {
 
 /// How close to zero a minimum is a touch, of a function that is now of this size.
 double Trajectory::touch_distance(std::size_t event, double size) const {
-    const SimulationOptions& options = simulation_->options();
+    const SimulationOptions& options = simulation_.options();
     return options.touch > 0 ? options.touch : 100 * options.tolerance * std::max(event_sizes_[event].largest, size);
 }
 
@@ -246,7 +246,7 @@ void Trajectory::update_sides(double length) {
         if (watch.side > 0)
             continue; // had it fallen, it would have been found; within round-off of zero the next step decides
         const double value = evaluate_polynomial(event_series(w), length);
-        const bool barrier = simulation_->model().events[mode.watched[w]].kind == EventKind::barrier;
+        const bool barrier = simulation_.model().events[mode.watched[w]].kind == EventKind::barrier;
         if (value > 0)
             watch.side = 1;
         else if (watch.side == 0 && std::abs(value) > roundoff * series_size(event_series(w), length))

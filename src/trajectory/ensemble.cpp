@@ -12,12 +12,12 @@ constexpr auto nobody = static_cast<std::size_t>(-1);
 } // namespace
 
 Ensemble::Ensemble(const Simulation& simulation, InstructionSet set)
-    : simulation_(&simulation), lanes_(static_cast<std::size_t>(lanes_of(LaneKind::ensemble, set))),
+    : simulation_(simulation), lanes_(static_cast<std::size_t>(lanes_of(LaneKind::ensemble, set))),
       jets_(simulation, LaneKind::ensemble, set), single_(simulation, LaneKind::single, set),
       outlook_(simulation, static_cast<int>(lanes_)), seats_(lanes_, nobody),
       seated_(simulation.model().modes.size(), std::vector<std::size_t>(lanes_, nobody)),
-      crowd_(simulation.model().modes.size()), states_(simulation.compiled().states() * lanes_),
-      parameters_(simulation.compiled().parameters() * lanes_) {}
+      crowd_(simulation.model().modes.size()), states_(simulation.system().states() * lanes_),
+      parameters_(simulation.system().parameters() * lanes_) {}
 
 void Ensemble::run(std::span<Trajectory> trajectories) {
     std::vector<Trajectory*> all;
@@ -27,7 +27,7 @@ void Ensemble::run(std::span<Trajectory> trajectories) {
 }
 
 void Ensemble::require_own(const Trajectory& trajectory) const {
-    if (&trajectory.simulation() != simulation_)
+    if (!(trajectory.simulation() == simulation_))
         throw std::invalid_argument("a trajectory of one simulation cannot run in an ensemble of another");
 }
 
@@ -130,7 +130,7 @@ void Ensemble::take_seats(std::size_t mode) {
             if (slots_[i]->mode() == mode && std::find(seats_.begin(), seats_.end(), i) == seats_.end())
                 *free = i;
         }
-        const std::size_t count = simulation_->compiled().parameters();
+        const std::size_t count = simulation_.system().parameters();
         // Empty lanes repeat an occupied one: their results are not used, but must not trap or slow down.
         const std::size_t stand_in = *std::find_if(seats_.begin(), seats_.end(), [](auto i) { return i != nobody; });
         for (std::size_t lane = 0; lane < lanes_; ++lane) {
@@ -145,7 +145,7 @@ void Ensemble::take_seats(std::size_t mode) {
 
 void Ensemble::load_states() {
     const std::size_t stand_in = *std::find_if(seats_.begin(), seats_.end(), [](auto i) { return i != nobody; });
-    const std::size_t count = simulation_->compiled().states();
+    const std::size_t count = simulation_.system().states();
     for (std::size_t lane = 0; lane < lanes_; ++lane) {
         const auto from = slots_[seats_[lane] == nobody ? stand_in : seats_[lane]]->state();
         for (std::size_t i = 0; i < count; ++i)

@@ -3,14 +3,14 @@
 namespace graze {
 
 JetSet::JetSet(const Simulation& simulation, LaneKind kind, InstructionSet set)
-    : simulation_(&simulation), kind_(kind), set_(set), width_(kind == LaneKind::single     ? 1
-                                                               : kind == LaneKind::ensemble ? lanes_of(kind, set)
-                                                                                            : 1 + lanes_of(kind, set)),
+    : simulation_(simulation), kind_(kind), set_(set), width_(kind == LaneKind::single     ? 1
+                                                              : kind == LaneKind::ensemble ? lanes_of(kind, set)
+                                                                                           : 1 + lanes_of(kind, set)),
       jets_(simulation.model().modes.size()), next_jets_(jets_.size()) {}
 
 Jet& JetSet::make(Jets& jets, std::size_t mode) {
     auto& jet = jets[mode];
-    jet = make_jet(simulation_->compiled().mode(mode).tape, simulation_->order(), kind_, set_);
+    jet = make_jet(simulation_.system().mode(mode).tape, simulation_.order(), kind_, set_);
     if (!parameters_.empty())
         jet->set_parameters(parameters_);
     return *jet;

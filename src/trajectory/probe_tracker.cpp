@@ -9,7 +9,7 @@ namespace graze {
 
 ProbeTracker::ProbeTracker(const Simulation& simulation, std::span<const double> phase_values,
                            std::span<const double> periods)
-    : simulation_(&simulation), phase_values_(phase_values.begin(), phase_values.end()),
+    : simulation_(simulation), phase_values_(phase_values.begin(), phase_values.end()),
       periods_(periods.begin(), periods.end()), roots_(simulation.order()), tracked_(simulation.probes().size()),
       work_(static_cast<std::size_t>(simulation.order()) + 1) {
     found_.reserve(16);
@@ -21,14 +21,14 @@ void ProbeTracker::start(std::span<const double> state) {
     arc_start_ = true;
     for (std::size_t p = 0; p < tracked_.size(); ++p) {
         tracked_[p] = {};
-        const Probe& probe = simulation_->probes()[p];
+        const Probe& probe = simulation_.probes()[p];
         if (probe.kind == Probe::Kind::phase)
             locate(p, state[probe.state]);
     }
 }
 
 void ProbeTracker::locate(std::size_t index, double value) {
-    const double period = periods_[simulation_->probes()[index].state];
+    const double period = periods_[simulation_.probes()[index].state];
     const double target = phase_values_[index];
     const double slack = roundoff * period;
     Tracked& tracked = tracked_[index];
@@ -46,7 +46,7 @@ void ProbeTracker::locate(std::size_t index, double value) {
 
 /// Beginning on the section is not a passage of it, whichever way the phase goes.
 void ProbeTracker::leave_section(std::size_t index, const Step& step) {
-    const Probe& probe = simulation_->probes()[index];
+    const Probe& probe = simulation_.probes()[index];
     const double period = periods_[probe.state];
     const auto size = static_cast<std::size_t>(step.order) + 1;
     const std::span<const double> c{step.states[probe.state].first, size};
@@ -66,7 +66,7 @@ void ProbeTracker::leave_section(std::size_t index, const Step& step) {
 
 void ProbeTracker::shift(std::size_t state, double shift) {
     for (std::size_t p = 0; p < tracked_.size(); ++p)
-        if (const Probe& probe = simulation_->probes()[p]; probe.kind == Probe::Kind::phase && probe.state == state) {
+        if (const Probe& probe = simulation_.probes()[p]; probe.kind == Probe::Kind::phase && probe.state == state) {
             tracked_[p].lower += shift;
             tracked_[p].upper += shift;
         }
@@ -79,7 +79,7 @@ void ProbeTracker::relocate(std::size_t state, double before, double after) {
     if (std::abs(after - before - turns * period) <= 16 * roundoff * period)
         return shift(state, turns * period);
     for (std::size_t p = 0; p < tracked_.size(); ++p)
-        if (const Probe& probe = simulation_->probes()[p]; probe.kind == Probe::Kind::phase && probe.state == state)
+        if (const Probe& probe = simulation_.probes()[p]; probe.kind == Probe::Kind::phase && probe.state == state)
             locate(p, after);
 }
 
@@ -94,14 +94,14 @@ std::span<const ProbeTracker::Found> ProbeTracker::search(const Step& step) {
     found_.clear();
     changes_.clear();
     tracked_at_start_ = tracked_;
-    const auto& probes = simulation_->probes();
+    const auto& probes = simulation_.probes();
     const auto size = static_cast<std::size_t>(step.order) + 1;
     for (std::size_t p = 0; p < probes.size(); ++p) {
         if (probes[p].kind == Probe::Kind::phase) {
             search_phase(p, step);
             continue;
         }
-        const double* c = step.observed[simulation_->series_of_probe(p)].first;
+        const double* c = step.observed[simulation_.series_of_probe(p)].first;
         if (probes[p].kind == Probe::Kind::crossing) {
             search_series(p, {c, size}, step.length, false);
         } else {
@@ -116,7 +116,7 @@ std::span<const ProbeTracker::Found> ProbeTracker::search(const Step& step) {
 }
 
 void ProbeTracker::change(std::size_t index, int direction) {
-    const Probe& probe = simulation_->probes()[index];
+    const Probe& probe = simulation_.probes()[index];
     Tracked& tracked = tracked_[index];
     if (probe.kind != Probe::Kind::phase) {
         tracked.side = direction;
@@ -132,8 +132,8 @@ void ProbeTracker::change(std::size_t index, int direction) {
 void ProbeTracker::note(std::size_t probe, double at, int direction, bool at_contact) {
     changes_.push_back({probe, at, direction});
     change(probe, direction);
-    const Direction wanted = simulation_->probes()[probe].direction;
-    if (simulation_->probes()[probe].kind == Probe::Kind::phase || wanted == Direction::both ||
+    const Direction wanted = simulation_.probes()[probe].direction;
+    if (simulation_.probes()[probe].kind == Probe::Kind::phase || wanted == Direction::both ||
         (wanted == Direction::rising) == (direction > 0))
         found_.push_back({probe, at, direction, at_contact});
 }
@@ -168,7 +168,7 @@ void ProbeTracker::search_series(std::size_t probe, std::span<const double> c, d
 }
 
 void ProbeTracker::search_phase(std::size_t index, const Step& step) {
-    const Probe& probe = simulation_->probes()[index];
+    const Probe& probe = simulation_.probes()[index];
     if (tracked_[index].on_section) {
         leave_section(index, step);
         tracked_at_start_[index] = tracked_[index];
@@ -177,7 +177,7 @@ void ProbeTracker::search_phase(std::size_t index, const Step& step) {
     }
     const Tracked& tracked = tracked_[index];
     const double* c = step.states[probe.state].first;
-    const std::size_t degree = simulation_->compiled().mode(step.mode).tape.degrees[probe.state];
+    const std::size_t degree = simulation_.system().mode(step.mode).tape.degrees[probe.state];
     const std::size_t size = std::min(static_cast<std::size_t>(step.order), degree) + 1;
     double reach = 0;
     for (std::size_t k = size; k-- > 1;)

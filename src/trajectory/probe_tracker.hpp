@@ -56,7 +56,7 @@ private:
     void leave_section(std::size_t probe, const Step& step);
     void locate(std::size_t probe, double value);
 
-    const Simulation* simulation_;
+    Simulation simulation_;
     std::vector<double> phase_values_, periods_;
     RootFinder roots_;
     std::vector<Tracked> tracked_, tracked_at_start_; ///< now, and at the start of the step just searched

@@ -20,7 +20,7 @@ bool Trajectory::make_step(double& length) {
         contacts_now_ = 0;
     const std::size_t watched = compiled_mode_->watched.size();
     // Roots are sought in series without gaps.
-    if (!simulation_->probes().empty() && series_.data() == lane_series_.data())
+    if (!simulation_.probes().empty() && series_.data() == lane_series_.data())
         for (std::size_t i = 0; i < series_.size(); ++i)
             series(i);
     Step step;
@@ -30,10 +30,10 @@ bool Trajectory::make_step(double& length) {
     step.order = order_;
     step.states = series_.first(states_);
     step.events = series_.subspan(states_, watched);
-    step.observed = series_.subspan(states_ + watched, simulation_->compiled().observed());
+    step.observed = series_.subspan(states_ + watched, simulation_.system().observed());
     report_touches(length);
     bool stopped = false;
-    if (!simulation_->probes().empty()) {
+    if (!simulation_.probes().empty()) {
         for (const ProbeTracker::Found& found : probes_->search(step)) {
             if (stopped && found.at > length)
                 break;
@@ -47,13 +47,13 @@ bool Trajectory::make_step(double& length) {
             probes_->cut(length);
     }
     observer_->step(step);
-    if (simulation_->options().minima)
+    if (simulation_.options().minima)
         report_minima(length);
     return stopped;
 }
 
 void Trajectory::report_passage(std::size_t index, double at, int direction, bool at_contact) {
-    const Probe& probe = simulation_->probes()[index];
+    const Probe& probe = simulation_.probes()[index];
     for (std::size_t i = 0; i < states_; ++i)
         before_[i] = evaluate_state(i, at);
     reduce_cyclic_states(before_);
@@ -70,7 +70,7 @@ void Trajectory::report_touches(double length) {
             continue;
         if (touch.grazing && tangents_)
             tangents_->invalidate();
-        if (simulation_->model().events[mode.watched[touch.watched]].kind == EventKind::section)
+        if (simulation_.model().events[mode.watched[touch.watched]].kind == EventKind::section)
             continue;
         Contact contact;
         contact.kind = ContactKind::touch;

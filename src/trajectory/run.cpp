@@ -5,7 +5,7 @@
 namespace graze {
 
 void run(Trajectory& trajectory, JetSet& jets) {
-    if (&trajectory.simulation() != &jets.simulation())
+    if (!(trajectory.simulation() == jets.simulation()))
         throw std::invalid_argument("a trajectory of one simulation cannot run on the jets of another");
     if (jets.width() != 1)
         throw std::invalid_argument("one trajectory cannot run on jets of several lanes");

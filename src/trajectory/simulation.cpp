@@ -25,38 +25,28 @@ void SimulationOptions::validate() const {
         throw InputError(fmt::format("the touch distance {} is negative", touch), "give 0 or a positive distance");
 }
 
-namespace {
-
-SimulationOptions validated(SimulationOptions options) {
+Simulation::Simulation(const System& system, std::vector<Probe> probes, const std::vector<Expression>& observed,
+                       SimulationOptions options) {
     options.validate();
-    return options;
-}
-
-std::vector<Expression> all_observed(const std::vector<Probe>& probes, const std::vector<Expression>& observed) {
     std::vector<Expression> all;
     for (const Probe& probe : probes)
         if (probe.kind != Probe::Kind::phase)
             all.push_back(probe.expression);
     all.insert(all.end(), observed.begin(), observed.end());
-    return all;
-}
-
-} // namespace
-
-Simulation::Simulation(const Model& model, std::vector<Probe> probes, const std::vector<Expression>& observed,
-                       SimulationOptions options)
-    : options_(validated(options)), probes_(std::move(probes)),
-      order_(options.order != 0 ? options.order : order_for_tolerance(options.tolerance)),
-      compiled_(model, all_observed(probes_, observed)) {
+    Parts parts{all.empty() ? system : system.observing(all), options, std::move(probes), {}, 0, options.order, {}};
+    if (parts.order == 0)
+        parts.order = order_for_tolerance(options.tolerance);
     std::vector<Expression> values;
-    for (const Probe& probe : probes_) {
-        series_.push_back(first_observed_);
+    const Expression none = Graph::create()->number(0);
+    for (const Probe& probe : parts.probes) {
+        parts.series.push_back(parts.first_observed);
         if (probe.kind != Probe::Kind::phase)
-            ++first_observed_;
-        values.push_back(probe.kind == Probe::Kind::phase ? probe.value : model.graph->number(0));
+            ++parts.first_observed;
+        values.push_back(probe.kind == Probe::Kind::phase ? probe.value : none);
     }
-    const Model& own = compiled_.model();
-    phase_values_ = Function(own.parameter_symbols(), own.expand(values));
+    if (!values.empty())
+        parts.phase_values = system.function_of_parameters(values);
+    parts_ = std::make_shared<const Parts>(std::move(parts));
 }
 
 } // namespace graze

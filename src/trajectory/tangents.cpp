@@ -16,7 +16,7 @@ constexpr double allowance = 100;
 
 Tangents::Tangents(const Simulation& simulation, std::span<const double> parameters, std::span<const double> seeds,
                    std::size_t directions)
-    : states_(simulation.compiled().states()), parameter_count_(parameters.size()), directions_(directions),
+    : states_(simulation.system().states()), parameter_count_(parameters.size()), directions_(directions),
       tolerance_(allowance * simulation.options().tolerance), jets_(simulation, LaneKind::tangent),
       lanes_(static_cast<std::size_t>(jets_.width()) - 1), parameters_(parameters.begin(), parameters.end()),
       parameter_seeds_(parameter_count_ * directions), matrix_(states_ * directions), next_(states_ * directions),

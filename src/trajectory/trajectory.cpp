@@ -21,12 +21,12 @@ constexpr double longest_leap = 2;
 } // namespace
 
 Trajectory::Trajectory(const Simulation& simulation, std::span<const double> parameters, Observer& observer)
-    : simulation_(&simulation), observer_(&observer), parameters_(parameters.begin(), parameters.end()),
+    : simulation_(simulation), observer_(&observer), parameters_(parameters.begin(), parameters.end()),
       step_size_(simulation.order(), simulation.options().tolerance),
-      step_check_(simulation.compiled(), simulation.order(), simulation.options().tolerance),
-      roots_(simulation.order()), states_(simulation.compiled().states()), order_(simulation.order()),
+      step_check_(simulation.system(), simulation.order(), simulation.options().tolerance), roots_(simulation.order()),
+      states_(simulation.system().states()), order_(simulation.order()),
       longest_allowed_(simulation.options().largest_step) {
-    const CompiledModel& compiled = simulation.compiled();
+    const System& compiled = simulation.system();
     if (parameters_.size() != compiled.parameters())
         throw InputError(
             fmt::format("{} parameters were given where {} are needed", parameters_.size(), compiled.parameters()),
@@ -64,7 +64,7 @@ Trajectory::~Trajectory() = default;
 Trajectory::Trajectory(Trajectory&&) noexcept = default;
 
 void Trajectory::start(std::span<const double> state, std::size_t mode, double time, double end_time) {
-    const Model& model = simulation_->model();
+    const Model& model = simulation_.model();
     if (state.size() != states_ || mode >= model.modes.size())
         throw InputError("the initial state does not fit the model",
                          fmt::format("give {} numbers and one of its modes", states_));
@@ -78,7 +78,7 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     }
     for (std::size_t j = 0; j < parameters_.size(); ++j)
         if (!std::isfinite(parameters_[j]))
-            throw InputError(fmt::format("parameter '{}' is {}", model.parameter_symbols()[j].name(), parameters_[j]),
+            throw InputError(fmt::format("parameter '{}' is {}", model.independent_parameters()[j], parameters_[j]),
                              "give a finite number");
     if (!std::isfinite(time) || !(end_time >= time))
         throw InputError(fmt::format("a trajectory cannot run from time {} to {}", time, end_time),
@@ -86,7 +86,7 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     std::copy(state.begin(), state.end(), state_.begin());
     wrap_cyclic_states(true);
     mode_ = mode;
-    compiled_mode_ = &simulation_->compiled().mode(mode);
+    compiled_mode_ = &simulation_.system().mode(mode);
     outcome_ = {};
     steps_ = 0;
     time_ = start_time_ = time;
@@ -113,7 +113,7 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
 }
 
 void Trajectory::limit_step(double longest) {
-    const double largest = simulation_->options().largest_step;
+    const double largest = simulation_.options().largest_step;
     longest_allowed_ = longest > 0 && largest > 0 ? std::min(longest, largest) : std::max(longest, largest);
 }
 
@@ -136,7 +136,27 @@ void Trajectory::carry_tangents(std::span<const double> seeds, std::size_t direc
         if (!std::isfinite(seeds[k]))
             throw InputError(fmt::format("a direction of derivatives has the component {}", seeds[k]),
                              "give finite numbers");
-    tangents_ = std::make_unique<Tangents>(*simulation_, parameters_, seeds, directions);
+    tangents_ = std::make_unique<Tangents>(simulation_, parameters_, seeds, directions);
+}
+
+void Trajectory::carry_derivatives(std::span<const std::string> names) {
+    const Model& model = simulation_.model();
+    const std::size_t inputs = states_ + parameters_.size();
+    std::vector<double> seeds(names.size() * inputs, 0.0);
+    for (std::size_t d = 0; d < names.size(); ++d) {
+        const auto state = model.find_state(names[d]);
+        seeds[d * inputs + (state ? *state : states_ + model.independent_parameter(names[d]))] = 1;
+    }
+    carry_tangents(seeds, names.size());
+}
+
+double Trajectory::derivative(std::size_t state, std::size_t direction) const {
+    const std::size_t directions = tangents_ ? tangents_->directions() : 0;
+    if (state >= states_ || direction >= directions)
+        throw InputError(fmt::format("there is no derivative of state {} in direction {}", state, direction),
+                         fmt::format("{} states and {} directions are counted from 0; carry_derivatives says which",
+                                     states_, directions));
+    return tangents()[state * directions + direction];
 }
 
 std::span<const double> Trajectory::tangents() const {
@@ -265,7 +285,7 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
     }
     if (remaining <= 0)
         return finish(Ending::end_time, time_);
-    if (steps_ >= simulation_->options().step_limit)
+    if (steps_ >= simulation_.options().step_limit)
         return finish(Ending::step_limit, time_,
                       fmt::format("{} steps were not enough; ask for a shorter time or raise the limit", steps_));
     bool last = step >= remaining;
@@ -362,7 +382,7 @@ void Trajectory::finish(Ending ending, double time, std::string detail) {
 }
 
 std::string Trajectory::where() const {
-    return fmt::format("in mode '{}' at time {:.15g}", simulation_->model().modes[mode_].name, time_);
+    return fmt::format("in mode '{}' at time {:.15g}", simulation_.model().modes[mode_].name, time_);
 }
 
 void Trajectory::finish_singular() {
@@ -379,7 +399,7 @@ void Trajectory::finish_unresolved() {
 }
 
 void Trajectory::finish_undefined() {
-    const Model& model = simulation_->model();
+    const Model& model = simulation_.model();
     std::vector<double> rates(states_);
     std::copy(state_.begin(), state_.end(), inputs_.begin());
     compiled_mode_->rates.evaluate(inputs_, rates, work_);

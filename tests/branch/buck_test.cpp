@@ -71,7 +71,7 @@ mode = "on"
 TEST(BuckConverter, grazes_nothing_where_its_switch_is_made) {
     const Model model = model_from(converter);
     BranchSettings settings;
-    settings.parameter = parameter_place(model, "E");
+    settings.parameter = model.independent_parameter("E");
     settings.least = 15;
     settings.greatest = 40;
     const Branch one = follow_branch(model, settled(model, "ramp").orbit, settings);

@@ -78,7 +78,7 @@ TEST(ClosedForms, bouncing_ball_folds_flips_and_grazes) {
     const Ball ball;
     const Model model = ball.model(0.002);
     BranchSettings settings;
-    settings.parameter = parameter_place(model, "a");
+    settings.parameter = model.independent_parameter("a");
     settings.greatest = 0.01;
     const Orbit orbit = ball.orbit(model, 0.002);
 
@@ -117,7 +117,7 @@ TEST(ClosedForms, bouncing_ball_doubles_its_period) {
     const Ball ball;
     Model model = ball.model(0.002);
     BranchSettings settings;
-    settings.parameter = parameter_place(model, "a");
+    settings.parameter = model.independent_parameter("a");
     settings.greatest = 0.004;
     const Branch single = follow_branch(model, ball.orbit(model, 0.002), settings);
     ASSERT_EQ(names(single), "PD BD");
@@ -220,7 +220,7 @@ TEST(ClosedForms, impact_oscillator_folds_flips_and_grazes) {
     const OrbitSolution start = settled(model, "phase0", 400);
     ASSERT_EQ(start.orbit.segments(), 1U);
     BranchSettings settings;
-    settings.parameter = parameter_place(model, "sigma");
+    settings.parameter = model.independent_parameter("sigma");
     settings.least = -1;
     settings.greatest = 1;
     const auto check = [&](const Branch& branch) {
@@ -270,7 +270,7 @@ TEST(ClosedForms, impact_oscillator_gains_and_loses_its_impact_at_the_same_gap) 
     model.set_parameter("amplitude", 0.1);
     model.set_initial("x", 0);
     BranchSettings settings;
-    settings.parameter = parameter_place(model, "amplitude");
+    settings.parameter = model.independent_parameter("amplitude");
     settings.least = 0;
     settings.greatest = 10;
     const Branch free = follow_branch(model, settled(model, "phase0").orbit, settings);

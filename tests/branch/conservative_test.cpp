@@ -54,7 +54,7 @@ TEST(Conservative, pendulum_swings_up_to_the_top_in_any_units) {
                           {pendulum_period(0.5) * time},
                           {}};
         BranchSettings settings;
-        settings.parameter = parameter_place(model, "damping");
+        settings.parameter = model.independent_parameter("damping");
         settings.steps = 400;
         settings.monitors = {
             {"reach", "", Monitor::Kind::maximum, model.symbol("phi"), "", false, {}, {}, {}, 3.0 * angle}};
@@ -104,10 +104,10 @@ TEST(Conservative, damping_stays_zero_while_amplitude_is_held_and_the_push_passe
         // Energy h = x^2/2 + x^4/4 at x = 1 gives the period; Newton's method finds it from near.
         const Orbit start{parse_signature(model, "turn"), model.parameter_values(), {{length, 0}}, {4.77 * time}, {}};
         BranchSettings settings;
-        settings.parameter = parameter_place(model, "push");
+        settings.parameter = model.independent_parameter("push");
         settings.least = -0.4;
         settings.greatest = 0.4;
-        settings.free = {parameter_place(model, "damping")};
+        settings.free = {model.independent_parameter("damping")};
         settings.monitors = {{"reach", "", Monitor::Kind::start, model.symbol("x"), "", true, length, {}, {}, {}}};
         double at_zero = 0;
         for (const int direction : {1, -1}) {
@@ -150,7 +150,7 @@ value = 0
 )toml");
     Orbit start{parse_signature(model, "phase0"), model.parameter_values(), {{0.3 / (1 - 9), 0, 0}}, {2 * pi / 3}, {}};
     BranchSettings settings;
-    settings.parameter = parameter_place(model, "force");
+    settings.parameter = model.independent_parameter("force");
     settings.least = -0.5;
     settings.greatest = 0.5;
     settings.direction = -1;

@@ -49,7 +49,7 @@ value = 0
 /// The branch of doubled orbits from the first flip as the stop is moved away.
 Branch doubled(const Model& model, SpecialPoint& flip) {
     BranchSettings settings;
-    settings.parameter = parameter_place(model, "sigma");
+    settings.parameter = model.independent_parameter("sigma");
     settings.least = -1;
     settings.greatest = 1;
     settings.stop_at = {PointType::flip};
@@ -96,7 +96,7 @@ TEST(Drifting, the_microactuator_goes_on_from_the_flip_with_one_impact) {
     Model model = load_model("impact-microactuator");
     model.set_parameter("V", 0.2);
     BranchSettings settings;
-    settings.parameter = parameter_place(model, "V");
+    settings.parameter = model.independent_parameter("V");
     settings.stop_at = {PointType::grazing};
     const Branch none = follow_branch(model, settled(model, "phase0").orbit, settings);
     ASSERT_EQ(none.outcome, BranchOutcome::stopped) << names(none);

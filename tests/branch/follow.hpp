@@ -21,16 +21,6 @@ inline Model model_from(const std::string& text) {
     return parse_model(text, "test.toml");
 }
 
-/// The place of a parameter among the independent ones.
-inline std::size_t parameter_place(const Model& model, const std::string& name) {
-    const auto symbols = model.parameter_symbols();
-    for (std::size_t i = 0; i < symbols.size(); ++i)
-        if (symbols[i].name() == name)
-            return i;
-    ADD_FAILURE() << "no parameter " << name;
-    return 0;
-}
-
 inline OrbitSolution settled(const Model& model, const std::string& section, std::size_t cycles = 2000) {
     AttractorOptions settle;
     settle.section = section;
@@ -103,13 +93,9 @@ inline double simulated(const Model& model, const SpecialPoint& point, double ti
     trajectory.start(orbit.starts[point.segment], orbit.signature[point.segment].mode, 0, time);
     JetSet jets(simulation, LaneKind::single);
     run(trajectory, jets);
-    std::vector<Expression> inputs = model.state_symbols();
-    const auto parameters = model.parameter_symbols();
-    inputs.insert(inputs.end(), parameters.begin(), parameters.end());
     std::vector<double> values(trajectory.state().begin(), trajectory.state().end());
     values.insert(values.end(), orbit.parameters.begin(), orbit.parameters.end());
-    const Expression function = model.expand(model.events[point.event].function);
-    return Function(inputs, std::span(&function, 1))(values)[0];
+    return simulation.system().event(point.event)(values)[0];
 }
 
 /// A touch inside an arc: the least value on the orbit is zero, and the simulator sees the same.

@@ -59,8 +59,8 @@ TEST(HeldMonitors, an_extremum_passes_the_end_of_the_orbit) {
                                                       {Monitor::Kind::mean, "x^2", 0.045},
                                                       {Monitor::Kind::maximum, "-x", 0.3}}) {
             BranchSettings settings;
-            settings.parameter = parameter_place(model, "omega");
-            settings.free = {parameter_place(model, "F")};
+            settings.parameter = model.independent_parameter("omega");
+            settings.free = {model.independent_parameter("F")};
             settings.direction = -1;
             settings.least = 0.4;
             settings.monitors = {held(model, kind, expression, value)};
@@ -83,15 +83,15 @@ TEST(HeldMonitors, a_touch_can_be_held) {
     model.set_parameter("omega", 1.7);
     model.set_parameter("amplitude", 0.2);
     BranchSettings settings;
-    settings.parameter = parameter_place(model, "amplitude");
+    settings.parameter = model.independent_parameter("amplitude");
     settings.greatest = 3;
     const Branch up = follow_branch(model, settled(model, "phase0").orbit, settings);
     ASSERT_EQ(names(up), "GR");
     const Orbit& grazing = up.special[0].solution.orbit;
     for (const int direction : {1, -1}) {
         settings = {};
-        settings.parameter = parameter_place(model, "omega");
-        settings.free = {parameter_place(model, "amplitude")};
+        settings.parameter = model.independent_parameter("omega");
+        settings.free = {model.independent_parameter("amplitude")};
         settings.direction = direction;
         settings.least = 0.4;
         settings.greatest = 3;

@@ -99,7 +99,7 @@ TEST(MonitorsOfBranches, are_reported_and_bound_them) {
     const Model model = model_from(linear);
     const OrbitSolution solution = settled(model, "phase0");
     BranchSettings settings;
-    settings.parameter = parameter_place(model, "F");
+    settings.parameter = model.independent_parameter("F");
     settings.monitors = {monitor("amplitude", Monitor::Kind::maximum, model, "x")};
     const double unit = amplitude(0.1, 1.7, 1);
     settings.monitors[0].crossings = {0.5, 0.75};
@@ -118,8 +118,8 @@ TEST(MonitorsOfBranches, are_reported_and_bound_them) {
 void expect_resonance_curve(const Model& model, const Monitor& held, double value) {
     const OrbitSolution solution = settled(model, "phase0");
     BranchSettings settings;
-    settings.parameter = parameter_place(model, "omega");
-    settings.free = {parameter_place(model, "F")};
+    settings.parameter = model.independent_parameter("omega");
+    settings.free = {model.independent_parameter("F")};
     settings.direction = -1;
     settings.least = 0.4;
     settings.monitors = {held};

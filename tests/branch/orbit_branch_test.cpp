@@ -24,7 +24,7 @@ struct OneImpact {
         model.set_parameter("sigma", 0.02);
         model.set_parameter("e", 0.7);
         orbit = settled(model, "phase0", 400).orbit;
-        settings.parameter = parameter_place(model, "sigma");
+        settings.parameter = model.independent_parameter("sigma");
         settings.least = -1;
         settings.greatest = 1;
     }
@@ -282,7 +282,7 @@ TEST(OrbitBranch, a_crossing_beside_a_contact_that_vanishes_is_kept) {
     for (const double lost : {-3e-4, 1e-4, 3e-4, 6e-4}) {
         const Model model = pitchfork_beside_impacts(lost);
         BranchSettings settings;
-        settings.parameter = parameter_place(model, "p");
+        settings.parameter = model.independent_parameter("p");
         // The orbit without impacts touches the stop there; with one impact it goes on from that.
         const Orbit clear = settled(model, "phase0").orbit;
         Orbit trivial = clear;

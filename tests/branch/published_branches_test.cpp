@@ -23,7 +23,7 @@ struct Microactuator {
     explicit Microactuator(double omega) {
         model.set_parameter("V", 0.1);
         model.set_parameter("omega", omega);
-        settings.parameter = parameter_place(model, "V");
+        settings.parameter = model.independent_parameter("V");
         settings.least = 0;
         settings.greatest = 3;
         settings.steps = 1000;
@@ -137,7 +137,7 @@ TEST(PublishedBranches, testbed_grazes) {
         model.set_parameter("f", frequency);
         model.set_parameter("V0", 3);
         BranchSettings settings;
-        settings.parameter = parameter_place(model, "V0");
+        settings.parameter = model.independent_parameter("V0");
         const Orbit orbit = settled(model, "phase0", 600).orbit;
         ASSERT_TRUE(orbit.symmetry);
         const Branch branch = follow_branch(model, orbit, settings);
@@ -158,7 +158,7 @@ TEST(PublishedBranches, testbed_orbit_of_three_periods) {
     const OrbitSolution solution = settled(model, "phase0", 600);
     ASSERT_TRUE(solution.orbit.symmetry);
     BranchSettings settings;
-    settings.parameter = parameter_place(model, "V0");
+    settings.parameter = model.independent_parameter("V0");
     settings.direction = -1;
     const Branch down = follow_branch(model, solution.orbit, settings);
     const auto folds = of_type(down, PointType::fold);
@@ -196,7 +196,7 @@ TEST(PublishedBranches, mems_switch_grazes) {
     model.set_parameter("V", 0.15);
     model.set_initial("q", 0);
     BranchSettings settings;
-    settings.parameter = parameter_place(model, "V");
+    settings.parameter = model.independent_parameter("V");
     const Branch branch = follow_branch(model, settled(model, "phase0").orbit, settings);
     ASSERT_EQ(names(branch), "GR");
     const SpecialPoint& grazing = branch.special[0];
@@ -223,7 +223,7 @@ TEST(PublishedBranches, microbeam_touches_its_stop) {
     Model model = load_model("microbeam");
     model.set_parameter("V", 0.01);
     BranchSettings settings;
-    settings.parameter = parameter_place(model, "V");
+    settings.parameter = model.independent_parameter("V");
     settings.least = 0.005;
     settings.greatest = 0.06;
     const Branch branch = follow_branch(model, settled(model, "phase0").orbit, settings);
@@ -249,7 +249,7 @@ TEST(PublishedBranches, microbeam_deep_in_its_stop_and_without_one) {
     Model model = load_model("microbeam");
     model.set_parameter("V", 0.034);
     BranchSettings settings;
-    settings.parameter = parameter_place(model, "V");
+    settings.parameter = model.independent_parameter("V");
     settings.direction = -1;
     settings.least = 0.01;
     settings.stop_at = {PointType::fold};

@@ -44,7 +44,7 @@ TEST(ReturningBranches, come_back_where_the_more_regular_orbits_change_again) {
          {Case{0.14901456065267, 0.6931211339514, 1, 1}, {0.281, 1.311, 1e-6, 1e3}, {0.2127, 1.35, 1e3, 1e-9}}) {
         const Model model = duffing(one.damping, one.omega, one.time, one.length);
         BranchSettings settings;
-        settings.parameter = parameter_place(model, "F");
+        settings.parameter = model.independent_parameter("F");
         settings.least = 0.01;
         settings.greatest = 40;
         settings.stop_at = {PointType::asymmetry};

@@ -62,7 +62,7 @@ TEST(Units, do_not_matter) {
         ASSERT_EQ(found->outcome, OrbitOutcome::converged) << found->detail;
         ASSERT_TRUE(found->orbit.symmetry) << time << ' ' << length;
         BranchSettings settings;
-        settings.parameter = parameter_place(model, "omega");
+        settings.parameter = model.independent_parameter("omega");
         settings.least = 0.3 / time;
         settings.greatest = 6 / time;
         settings.orbit.tolerance = 1e-13;

@@ -49,7 +49,7 @@ TEST(UserModels, dry_friction_holds_where_den_hartog_says) {
     const Sliding known{0.8, 0.3};
     const Model model = sliding_model(known, 0.3);
     BranchSettings settings;
-    settings.parameter = parameter_place(model, "friction_static");
+    settings.parameter = model.independent_parameter("friction_static");
     settings.greatest = 3;
     const Branch branch = follow_branch(model, sliding_orbit(known, model), settings);
     ASSERT_EQ(names(branch), "GU BD");
@@ -73,7 +73,7 @@ TEST(UserModels, dry_friction_slides_at_the_amplitude_of_den_hartog) {
         const Sliding begin{0.8, 0.3};
         const Model model = sliding_model(begin, 0.3);
         BranchSettings settings;
-        settings.parameter = parameter_place(model, parameter);
+        settings.parameter = model.independent_parameter(parameter);
         settings.direction = -1;
         settings.least = parameter[0] == 'o' ? 0.55 : 0.01;
         const Branch branch = follow_branch(model, sliding_orbit(begin, model), settings);
@@ -133,7 +133,7 @@ TEST(UserModels, bilinear_oscillator_is_linear_where_both_sides_are_alike) {
     const Model model = bilinear(1.4);
     const Orbit orbit = settled(model, "start").orbit;
     BranchSettings settings;
-    settings.parameter = parameter_place(model, "stiffness");
+    settings.parameter = model.independent_parameter("stiffness");
     settings.direction = -1;
     settings.least = 1;
     const Branch branch = follow_branch(model, orbit, settings);
@@ -159,7 +159,7 @@ TEST(UserModels, bilinear_oscillator_leaves_the_stiff_side_by_a_touch) {
     const Orbit orbit = settled(model, "start").orbit;
     ASSERT_EQ(orbit.segments(), 1U);
     BranchSettings settings;
-    settings.parameter = parameter_place(model, "load");
+    settings.parameter = model.independent_parameter("load");
     settings.direction = -1;
     settings.least = -10;
     const Branch branch = follow_branch(model, orbit, settings);

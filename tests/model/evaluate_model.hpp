@@ -13,12 +13,8 @@ namespace graze::testing {
 /// Expressions of a model as a function of its states, at the model's present parameters.
 class ModelFunction {
 public:
-    ModelFunction(const Model& model, std::span<const Expression> expressions) : parameters_(model.parameter_values()) {
-        std::vector<Expression> inputs = model.state_symbols();
-        const std::vector<Expression> parameters = model.parameter_symbols();
-        inputs.insert(inputs.end(), parameters.begin(), parameters.end());
-        function_ = Function(inputs, model.expand(expressions));
-    }
+    ModelFunction(const Model& model, std::span<const Expression> expressions)
+        : parameters_(model.parameter_values()), function_(model.function_of(expressions)) {}
 
     std::vector<double> operator()(std::span<const double> state) const {
         std::vector<double> inputs(state.begin(), state.end());
@@ -41,7 +37,7 @@ inline double evaluate(const Model& model, const Expression& expression, std::sp
 }
 
 /// Rate of an expression along the motion in a mode.
-inline Expression rate_of(const Model& model, const Expression& expression, std::size_t mode) {
+inline Expression rate_of(Model model, const Expression& expression, std::size_t mode) {
     const Expression expanded = model.expand(expression);
     Expression sum = model.graph->number(0);
     for (std::size_t i = 0; i < model.states.size(); ++i) {

@@ -26,10 +26,7 @@ std::vector<std::string> branches_alone(const Study& study) {
 /// By how much two states differ, relative to their size; whole periods do not count, nor does what drifts.
 double distance(const Model& model, const std::vector<double>& one, const std::vector<double>& other,
                 const std::vector<double>& sizes) {
-    std::vector<Expression> periods;
-    for (const State& state : model.states)
-        periods.push_back(state.period ? model.expand(*state.period) : model.number(0));
-    const std::vector<double> period = Function(model.parameter_symbols(), periods)(model.parameter_values());
+    const std::vector<double> period = model.periods();
     double result = 0;
     for (std::size_t i = 0; i < one.size(); ++i) {
         if (model.states[i].drifting)
@@ -46,13 +43,10 @@ double distance(const Model& model, const std::vector<double>& one, const std::v
 std::vector<double> after_end(const Model& model, const Segment& segment, const std::vector<double>& state) {
     if (segment.end == SegmentEnd::section)
         return state;
-    std::vector<Expression> inputs = model.state_symbols();
-    for (const Expression& symbol : model.parameter_symbols())
-        inputs.push_back(symbol);
     std::vector<double> values = state;
     for (const double value : model.parameter_values())
         values.push_back(value);
-    return Function(inputs, model.expand(model.jumps[model.transitions[segment.index].jump].map))(values);
+    return System(model).jump(model.transitions[segment.index].jump).map(values);
 }
 
 void expect_closed(const Model& model, const OrbitRecord& record, const std::string& name) {

@@ -49,7 +49,7 @@ vary = { omega = [3, 2.5], x = { from = 0, to = 1, points = 5 }, e = { from = 0.
     EXPECT_THAT(run.axes[1].values, ElementsAre(0, 0.25, 0.5, 0.75, 1));
     EXPECT_TRUE(run.axes[1].is_state);
     EXPECT_NEAR(run.axes[2].values[1], 0.1, 1e-16);
-    const Plan plan = plan_of(run, nullptr);
+    const Plan plan = plan_of(run, System(run.model), nullptr);
     EXPECT_EQ(plan.points(), 2u * 5 * 3 * 3);
     for (std::size_t point = 0; point < plan.points(); ++point) {
         const auto at = coordinates_of(run, point);
@@ -68,7 +68,7 @@ TEST(Study, sweeps_go_up_down_or_both_ways) {
         const StudyRun run = only_run("[runs.a]\nkind = \"sweep\"\nvary = { omega = [1, 2, 3] }\ndirection = \"" +
                                       std::string(direction) + '"');
         std::vector<double> result;
-        for (std::size_t p = 0; p < plan_of(run, nullptr).points(); ++p)
+        for (std::size_t p = 0; p < points_of(run); ++p)
             result.push_back(coordinates_of(run, p)[0]);
         return result;
     };

@@ -177,7 +177,7 @@ TEST(Tangents, TimeShiftsAlongAutonomousFlows) {
                                                                                {"impact-oscillator-two-stops", 20},
                                                                                {"microbeam", 1}}) {
         const Model model = load_model(name);
-        const CompiledModel compiled(model);
+        const System compiled(model);
         const std::size_t n = model.states.size();
         std::vector<double> state = model.initial_state(), inputs, work(compiled.workspace());
         const auto field = [&](std::span<const double> at, std::size_t mode) {

@@ -47,9 +47,8 @@ void measure_multipliers(const std::vector<Monitor>& monitors, const std::vector
 /// as accurate as the orbit itself.
 class OrbitMonitors {
 public:
-    /// @param model must outlive this
     /// @throws InputError for a segment that the signature does not have
-    OrbitMonitors(const Model& model, const Signature& signature, std::vector<Monitor> monitors,
+    OrbitMonitors(const System& system, const Signature& signature, std::vector<Monitor> monitors,
                   double tolerance = 1e-13);
     ~OrbitMonitors();
     OrbitMonitors(OrbitMonitors&&) noexcept;

@@ -59,9 +59,8 @@ std::string_view name_of(BranchOutcome outcome);
 /// iterator that one can stop and resume after any step.
 class OrbitBranch {
 public:
-    /// @param model must outlive this
     /// @throws InputError when candidate or settings do not fit the model
-    OrbitBranch(const Model& model, const Orbit& candidate, const BranchSettings& settings);
+    OrbitBranch(const System& system, const Orbit& candidate, const BranchSettings& settings);
     ~OrbitBranch();
     OrbitBranch(OrbitBranch&&) noexcept;
 
@@ -94,7 +93,7 @@ struct Branch {
 /// Follows a whole branch. @param visit called after each point with it and what was found just before; returning false
 ///        ends the branch
 using BranchVisitor = std::function<bool(const BranchPoint&, const std::vector<SpecialPoint>&)>;
-Branch follow_branch(const Model& model, const Orbit& candidate, const BranchSettings& settings,
+Branch follow_branch(const System& system, const Orbit& candidate, const BranchSettings& settings,
                      const BranchVisitor& visit = {});
 
 } // namespace graze

@@ -27,6 +27,6 @@ struct BranchStart {
 /// - from a contact that has lost its speed, the orbit with one contact fewer, likewise.
 /// @param settings of the branch on which the point was found: its parameter varies
 /// @throws InputError for points from which nothing leads on, saying why: as when the contact accumulates
-std::vector<BranchStart> branches_at(const Model& model, const SpecialPoint& point, const BranchSettings& settings);
+std::vector<BranchStart> branches_at(const System& system, const SpecialPoint& point, const BranchSettings& settings);
 
 } // namespace graze

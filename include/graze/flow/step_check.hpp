@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/flow/compiled_model.hpp"
+#include "graze/flow/system.hpp"
 #include "graze/tape/series.hpp"
 
 #include <algorithm>
@@ -31,8 +31,7 @@ public:
                0.25 * h * std::max(std::abs(start_rate), std::abs(end_rate));
     }
 
-    /// @param model must outlive the check
-    StepCheck(const CompiledModel& model, int order, double tolerance);
+    StepCheck(const System& system, int order, double tolerance);
     /// @param parameters as many as the model has
     void set_parameters(std::span<const double> parameters);
 
@@ -53,7 +52,7 @@ private:
     void evaluate(std::size_t mode, double s);
     void find_errors(double s);
 
-    const CompiledModel* model_;
+    System system_;
     std::size_t states_, order_, mode_ = 0;
     bool errors_known_ = false;
     double tolerance_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/symbolic/expression.hpp"
+#include "graze/symbolic/function.hpp"
 #include "graze/symbolic/parser.hpp"
 
 #include <cstddef>
@@ -96,12 +97,8 @@ struct Quantity {
     Expression value{}; ///< in terms of states, parameters and definitions
 };
 
-/// A hybrid dynamical system, ready to be compiled. Expressions are in terms of the symbols of states,
-/// parameters and definitions; `expand` leaves only states and independent parameters.
-/// Jump 0 is always the identity.
-struct Model {
-    Model();
-
+/// What a model consists of. All expressions belong to its graph.
+struct ModelItems {
     std::shared_ptr<Graph> graph;
     std::string name, text, source;
     std::string time_unit;
@@ -116,18 +113,46 @@ struct Model {
     std::vector<Symmetry> symmetries;
     std::vector<Quantity> quantities;
     std::size_t initial_mode = 0;
+};
+
+/// A hybrid dynamical system, ready to be compiled. Expressions are in terms of the symbols of states,
+/// parameters and definitions; `expand` leaves only states and independent parameters.
+/// Jump 0 is always the identity.
+/// A copy has a graph of its own, so that threads may each work on one. What is compiled (System) no longer depends on
+/// the model.
+struct Model : ModelItems {
+    Model();
+    Model(const Model& other);
+    Model(Model&&) noexcept = default;
+    Model& operator=(const Model& other);
+    Model& operator=(Model&&) noexcept = default;
+    ~Model() = default;
 
     Expression number(double value) const { return graph->number(value); }
     Expression symbol(std::string_view item) const { return graph->symbol(item); }
     std::vector<Expression> state_symbols() const;
     /// Symbols of the independent parameters, in the order of `parameters`.
     std::vector<Expression> parameter_symbols() const;
+    /// What functions of a state are functions of: states, then independent parameters.
+    std::vector<Expression> inputs() const;
     /// Values of the independent parameters, in that order.
     std::vector<double> parameter_values() const;
-    /// Replaces definitions and dependent parameters by what they stand for.
+    /// Replaces definitions and dependent parameters by what they stand for. Appends to the graph, into which
+    /// expressions of other graphs are taken over by the names of their symbols.
     /// @throws InputError when they refer to one another in a circle
-    Expression expand(const Expression& expression) const;
-    std::vector<Expression> expand(std::span<const Expression> expressions) const;
+    Expression expand(const Expression& expression);
+    std::vector<Expression> expand(std::span<const Expression> expressions);
+    /// @throws InputError, with the nearest name, when expressions have other symbols than these
+    void require_known(std::span<const Expression> inputs, std::span<const Expression> expressions) const;
+    /// From now on the graph cannot grow. Copies can.
+    void freeze();
+
+    /// Names of the independent parameters, in the order of `parameters`.
+    std::vector<std::string> independent_parameters() const;
+    /// The place of a parameter among them.
+    std::optional<std::size_t> find_independent_parameter(std::string_view item) const;
+    /// The same. @throws InputError for a dependent parameter, and for an unknown name (with the nearest)
+    std::size_t independent_parameter(std::string_view item) const;
 
     /// Index of the named item.
     std::optional<std::size_t> find_parameter(std::string_view item) const; ///< among `parameters`
@@ -149,6 +174,14 @@ struct Model {
     /// Values of the initial state at the present parameters, cyclic states within their period.
     /// @throws InputError when a value is not finite or a period not positive
     std::vector<double> initial_state() const;
+
+    /// Expressions in the model's symbols, of any graph, as functions of states and independent parameters.
+    /// @throws InputError for a symbol that the model does not have
+    Function function_of(std::span<const Expression> expressions) const;
+    /// Values of expressions in parameters at the present ones; not finite where an operation is outside its domain.
+    std::vector<double> values_of(std::span<const Expression> expressions) const;
+    /// Periods of the states at the present parameters, 0 for those that are not cyclic.
+    std::vector<double> periods() const;
 
     /// Checks everything that a compiled model relies on: sizes, indices, names, symbols, circular definitions,
     /// finite parameters, periods positive. @throws InputError naming the first thing wrong

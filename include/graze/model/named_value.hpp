@@ -11,7 +11,7 @@ namespace graze {
 /// Something of a state that a user asks for: a state, quantity, parameter or definition by its name, or an expression.
 struct NamedValue {
     std::string name, unit, text;
-    Expression value; ///< in states and independent parameters
+    Expression value; ///< in states and independent parameters, of a graph of its own
 };
 
 /// @param place of the text, for messages

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "graze/model/model.hpp"
+#include "graze/flow/system.hpp"
 #include "graze/orbit/signature.hpp"
-#include "graze/symbolic/function.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -28,16 +27,13 @@ struct Orbit {
     double period() const;
 };
 
-/// The map of a symmetry, of states followed by parameters.
-Function symmetry_map(const Model& model, std::size_t symmetry);
-
 /// The whole of an orbit that is given by its half: segments of the second half are images of those of the first.
 /// Others are returned as they are.
-Orbit whole_orbit(const Model& model, const Orbit& orbit);
+Orbit whole_orbit(const System& system, const Orbit& orbit);
 
 /// The image of a segment under a symmetry: in the image of its mode, the transition whose event function is the image
 /// of its own, which is judged by values at states of the orbit. @throws InputError when there is none
-Segment image_of(const Model& model, std::size_t symmetry, const Segment& segment, const Orbit& orbit);
+Segment image_of(const System& system, std::size_t symmetry, const Segment& segment, const Orbit& orbit);
 
 /// @throws InputError unless numbers fit the model and are finite, and the signature is possible
 void validate_orbit(const Model& model, const Orbit& orbit);

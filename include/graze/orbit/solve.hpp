@@ -55,18 +55,19 @@ std::size_t unstable_directions(const OrbitSolution& solution);
 /// A periodic orbit near a candidate, by Newton's method on multiple shooting with exact derivatives, damped where it
 /// would overshoot.
 /// @throws InputError when the candidate does not fit the model or the options are out of range
-OrbitSolution solve_orbit(const Model& model, const Orbit& candidate, const OrbitOptions& options = {});
+OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const OrbitOptions& options = {});
 
 /// The orbit that simulation settles on at the model's parameters and initial state: its signature, starts and
 /// durations, polished. Given by its half if it is its own image under the model's (first) symmetry.
 /// @throws InputError when the motion does not settle on a periodic orbit, or contacts accumulate within it: says what
 ///         it does instead
-OrbitSolution find_orbit(const Model& model, const AttractorOptions& settle, const OrbitOptions& options = {},
+OrbitSolution find_orbit(const System& system, const AttractorOptions& settle, const OrbitOptions& options = {},
                          const SimulationOptions& simulation = {});
 /// The same, unless it is interrupted. @param interrupted asked after each return to the section
 /// @return none when interrupted
-std::optional<OrbitSolution> find_orbit(const Model& model, const AttractorOptions& settle, const OrbitOptions& options,
-                                        const SimulationOptions& simulation, const std::function<bool()>& interrupted);
+std::optional<OrbitSolution> find_orbit(const System& system, const AttractorOptions& settle,
+                                        const OrbitOptions& options, const SimulationOptions& simulation,
+                                        const std::function<bool()>& interrupted);
 
 struct SignatureSearchOptions {
     std::size_t steps = 1'000'000; ///< of the motion that is followed
@@ -81,13 +82,13 @@ struct SignatureSearchOptions {
 /// count if the signature names them. Given by its half if it is its own image under a symmetry of the model.
 /// @return not converged when no piece has led to an orbit: then its orbit is the first guess; none when interrupted
 /// @throws InputError when the motion has no such piece, or all that was found is not admissible
-std::optional<OrbitSolution> orbit_with_signature(const Model& model, const Signature& signature,
+std::optional<OrbitSolution> orbit_with_signature(const System& system, const Signature& signature,
                                                   const OrbitOptions& options = {},
                                                   const SimulationOptions& simulation = {},
                                                   const SignatureSearchOptions& search = {});
 
 /// The half of an orbit that is its own image under a symmetry of the model, or none if it is not.
-std::optional<Orbit> half_orbit(const Model& model, const Orbit& orbit, double tolerance = 1e-6);
+std::optional<Orbit> half_orbit(const System& system, const Orbit& orbit, double tolerance = 1e-6);
 
 /// Follows the model's motion from a state for a time and lists the segments that it has, without transitions that
 /// change nothing; the last one, cut off by the end, is left out. What a signature is made of.

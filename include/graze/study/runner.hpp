@@ -41,9 +41,13 @@ struct RunReport {
     bool complete() const { return outcome == RunOutcome::complete; }
 };
 
+/// How many points a run has.
+std::size_t points_of(const StudyRun& run);
 /// Points of a run: chains along its first axis, one for each combination of the others.
+/// @param run must outlive the plan
+/// @param system of the run's model
 /// @param start where the run begins, instead of at the model's initial state; may be null
-Plan plan_of(const StudyRun& run, const PointRecord* start);
+Plan plan_of(const StudyRun& run, const System& system, const PointRecord* start);
 /// Coordinates and direction of a point of that plan: what its axes have there.
 std::vector<double> coordinates_of(const StudyRun& run, std::size_t point);
 std::size_t direction_of(const StudyRun& run, std::size_t point);

@@ -36,13 +36,13 @@ public:
 /// Looks for the attractor that an initial state leads to.
 /// @param values what is sampled, in the model's symbols (states and parameters)
 /// @throws InputError for options out of range and unknown sections
-std::unique_ptr<SearchFactory> attractor_searches(const Model& model, const AttractorOptions& options,
+std::unique_ptr<SearchFactory> attractor_searches(const System& system, const AttractorOptions& options,
                                                   const std::vector<Sampling>& samplings,
                                                   const std::vector<Expression>& values,
                                                   const SimulationOptions& simulation);
 
 /// Follows a motion for the time or count asked for, without looking for what it settles on.
-std::unique_ptr<SearchFactory> transient_searches(const Model& model, const TransientOptions& options,
+std::unique_ptr<SearchFactory> transient_searches(const System& system, const TransientOptions& options,
                                                   const std::vector<Sampling>& samplings,
                                                   const std::vector<Expression>& values,
                                                   const SimulationOptions& simulation);

@@ -52,10 +52,17 @@ struct Node {
 };
 
 /// Owner of expressions: an append-only, hash-consed graph in which equal subexpressions exist once.
-/// Not safe to append to from several threads at once; reading is.
+/// Not safe to append to from several threads at once; reading is, and copying.
 class Graph : public std::enable_shared_from_this<Graph> {
 public:
     static std::shared_ptr<Graph> create();
+    /// Another graph with the same nodes at the same indices, which is not frozen.
+    std::shared_ptr<Graph> copy() const;
+    /// From now on nothing can be appended, so that threads may share it: std::logic_error is thrown instead.
+    void freeze() { frozen_ = true; }
+    bool is_frozen() const { return frozen_; }
+    /// The same expression in this graph, by the names of its symbols. @throws std::invalid_argument for an empty one
+    Expression adopt(const Expression& foreign);
 
     /// @throws std::invalid_argument when the value is not finite. The zeros of both signs are one number.
     Expression number(double value);
@@ -77,6 +84,8 @@ public:
 private:
     friend class Simplifier;
     Graph() = default;
+    Graph(const Graph& other) = default;
+    void require_growing() const;
     NodeIndex intern(Node node);
     NodeIndex own(const Expression& expression) const;
 
@@ -91,6 +100,7 @@ private:
     std::vector<std::string> names_;
     std::unordered_map<std::string, NodeIndex> name_indices_;
     std::unordered_map<Node, NodeIndex, Hash, Equal> indices_;
+    bool frozen_ = false;
 };
 
 /// A node of a graph that it keeps alive; cheap to copy. Two expressions of one graph are the same expression

@@ -16,7 +16,6 @@ namespace graze {
 /// One ensemble belongs to one thread; several may share a Simulation.
 class Ensemble {
 public:
-    /// @param simulation must outlive the ensemble
     explicit Ensemble(const Simulation& simulation, InstructionSet set = best_instruction_set());
 
     /// Runs all to their ends. Those already finished are left alone.
@@ -41,7 +40,7 @@ private:
     void take_seats(std::size_t mode);
     void load_states();
 
-    const Simulation* simulation_;
+    Simulation simulation_;
     std::size_t lanes_;
     JetSet jets_, single_;
     Outlook outlook_;

@@ -33,14 +33,14 @@ public:
     /// The same for the jets of one mode alone.
     void set_parameters(std::size_t mode, std::span<const double> parameters);
     int width() const { return width_; }
-    const Simulation& simulation() const { return *simulation_; }
+    const Simulation& simulation() const { return simulation_; }
 
 private:
     using Jets = std::vector<std::unique_ptr<Jet>>;
     Jet& made(Jets& jets, std::size_t mode) { return jets[mode] ? *jets[mode] : make(jets, mode); }
     Jet& make(Jets& jets, std::size_t mode);
 
-    const Simulation* simulation_;
+    Simulation simulation_;
     LaneKind kind_;
     InstructionSet set_;
     int width_;

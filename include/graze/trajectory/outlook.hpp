@@ -34,7 +34,7 @@ public:
     double size(std::size_t watched, std::size_t lane) const { return sizes_[watched * width_ + lane]; }
 
 private:
-    const Simulation* simulation_;
+    Simulation simulation_;
     std::size_t width_;
     double log_tolerance_;
     EndAllowance allowance_;

@@ -1,10 +1,11 @@
 #pragma once
 
-#include "graze/flow/compiled_model.hpp"
+#include "graze/flow/system.hpp"
 #include "graze/tape/jet.hpp"
 #include "graze/trajectory/probe.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -22,32 +23,39 @@ struct SimulationOptions {
     void validate() const;
 };
 
-/// A model compiled together with probes: all that is needed to run trajectories. Immutable and shareable.
+/// A system with probes and options: all that is needed to run trajectories. Immutable; threads may share it, and
+/// copies are handles of the same.
 class Simulation {
 public:
     /// @param observed further expressions whose series observers want to see
-    Simulation(const Model& model, std::vector<Probe> probes = {}, const std::vector<Expression>& observed = {},
-               SimulationOptions options = {});
+    /// Expressions may belong to any graph. @throws InputError for a symbol that the model does not have
+    explicit Simulation(const System& system, std::vector<Probe> probes = {},
+                        const std::vector<Expression>& observed = {}, SimulationOptions options = {});
 
-    const Model& model() const { return compiled_.model(); }
-    const CompiledModel& compiled() const { return compiled_; }
-    const std::vector<Probe>& probes() const { return probes_; }
-    const SimulationOptions& options() const { return options_; }
-    int order() const { return order_; }
+    const Model& model() const { return parts_->system.model(); }
+    const System& system() const { return parts_->system; }
+    const std::vector<Probe>& probes() const { return parts_->probes; }
+    const SimulationOptions& options() const { return parts_->options; }
+    int order() const { return parts_->order; }
     /// Index among the observed series of a probe's expression; series of `observed` come after those.
-    std::size_t series_of_probe(std::size_t probe) const { return series_[probe]; }
-    std::size_t series_of_observed(std::size_t index) const { return first_observed_ + index; }
+    std::size_t series_of_probe(std::size_t probe) const { return parts_->series[probe]; }
+    std::size_t series_of_observed(std::size_t index) const { return parts_->first_observed + index; }
     /// Value of each phase probe's section (0 for others), from the parameters alone.
-    const Function& phase_values() const { return phase_values_; }
+    const Function& phase_values() const { return parts_->phase_values; }
+    /// The same simulation, another handle of it.
+    bool operator==(const Simulation&) const = default;
 
 private:
-    SimulationOptions options_;
-    std::vector<Probe> probes_;
-    std::vector<std::size_t> series_;
-    std::size_t first_observed_ = 0;
-    int order_;
-    CompiledModel compiled_;
-    Function phase_values_;
+    struct Parts {
+        System system;
+        SimulationOptions options;
+        std::vector<Probe> probes;
+        std::vector<std::size_t> series;
+        std::size_t first_observed = 0;
+        int order = 0;
+        Function phase_values;
+    };
+    std::shared_ptr<const Parts> parts_;
 };
 
 } // namespace graze

@@ -10,6 +10,7 @@
 #include "graze/trajectory/simulation.hpp"
 
 #include <cstddef>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
@@ -29,7 +30,7 @@ class Tangents;
 /// Every event function is a polynomial over a step, whose roots are isolated: see docs/method.md.
 class Trajectory {
 public:
-    /// @param parameters of the compiled model, in its order; @param simulation, observer must outlive the trajectory
+    /// @param parameters of the compiled model, in its order; @param observer must outlive the trajectory
     /// @throws InputError unless there are as many parameters as the model has
     Trajectory(const Simulation& simulation, std::span<const double> parameters, Observer& observer);
     ~Trajectory();
@@ -42,9 +43,18 @@ public:
     void limit_step(double longest);
     /// Carries on a finished trajectory from where it is to a later time.
     void extend(double end_time);
-    /// Also carries derivatives with respect to the given directions: seeds are (states + parameters) numbers
-    /// each, one direction after another. Call after `start`.
+    /// Also carries derivatives with respect to initial states and independent parameters, given by their names. Call
+    /// after `start`. @throws InputError for an unknown name
+    void carry_derivatives(std::span<const std::string> inputs);
+    void carry_derivatives(std::initializer_list<std::string> inputs) {
+        carry_derivatives(std::span(inputs.begin(), inputs.size()));
+    }
+    /// The same with respect to any directions: seeds are (states + parameters) numbers each, one direction after
+    /// another. @throws InputError unless they are as many, and finite
     void carry_tangents(std::span<const double> seeds, std::size_t directions);
+    /// Derivative of a state at the present time in one of the directions carried.
+    /// @throws InputError when there is no such state or direction
+    double derivative(std::size_t state, std::size_t direction) const;
 
     bool finished() const { return outcome_.ending != Ending::running; }
     const Outcome& outcome() const { return outcome_; }
@@ -53,7 +63,7 @@ public:
     std::size_t mode() const { return mode_; }
     std::span<const double> parameters() const { return parameters_; }
     std::size_t steps() const { return steps_; }
-    const Simulation& simulation() const { return *simulation_; }
+    const Simulation& simulation() const { return simulation_; }
     /// Derivatives of the state at the present time, [state * directions + direction]; empty when not carried.
     std::span<const double> tangents() const;
     /// False after a contact at zero speed, where derivatives do not exist.
@@ -182,8 +192,8 @@ private:
         return evaluate_polynomial(series_[index], static_cast<std::size_t>(order_) + 1, s);
     }
 
-    const Simulation* simulation_;
-    const CompiledModel::CompiledMode* compiled_mode_ = nullptr; ///< of mode_
+    Simulation simulation_;
+    const System::CompiledMode* compiled_mode_ = nullptr; ///< of mode_
     Observer* observer_;
     std::vector<double> parameters_;
     StepSize step_size_;

@@ -1,0 +1,111 @@
+#pragma once
+
+#include "graze/model/model.hpp"
+#include "graze/symbolic/function.hpp"
+#include "graze/tape/tape.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace graze {
+
+/// A model that is frozen and compiled: a tape for each mode, functions for jumps, conditions and derivatives. What
+/// computes shares one, from any number of threads; copies are handles of the same. Parameters are its inputs, not part
+/// of it.
+///
+/// Functions take the states followed by the independent parameters as inputs.
+class System {
+public:
+    /// Compiles a copy of the model: what happens to the model later has no effect. Threads may compile one model at
+    /// once. Implicit, so that whatever takes a system can be given a model.
+    /// @throws InputError when the model is not valid (Model::validate)
+    System(const Model& model); // NOLINT(google-explicit-constructor)
+
+    struct CompiledMode {
+        Tape tape;                ///< outputs: the watched events in their order, then the observed expressions
+        Function rates;           ///< the vector field alone
+        Function events;          ///< the watched event functions alone
+        Function evidence;        ///< rates, watched event functions, observed expressions: by which series are judged
+        Function event_gradients; ///< and their derivatives with respect to the states, row by row
+        std::vector<std::size_t> watched;
+        std::vector<std::size_t> transitions; ///< of each watched event
+        bool polynomial = false;              ///< all series end by themselves: whatever their length, steps are exact
+        bool has_roots = false;               ///< sqrt or powers that are not whole, which have two branches at zero
+        Function roots;                       ///< of those in the rates: what stands under one, and the exponent
+    };
+    struct CompiledJump {
+        bool identity = false;
+        Function map;
+        Function jacobian; ///< row by row: states x (states + parameters)
+    };
+    struct CompiledAlternative {
+        Function conditions; ///< one output per condition
+        std::vector<bool> strict;
+        std::optional<std::size_t> mode;
+    };
+    struct CompiledTransition {
+        std::size_t jump;
+        std::vector<CompiledAlternative> next;
+    };
+
+    /// The same system whose tapes also give series of further expressions along the flow, in every mode.
+    /// @param expressions in the model's symbols, of any graph
+    /// @throws InputError for a symbol that the model does not have
+    System observing(std::span<const Expression> expressions) const;
+
+    /// The smooth motion of the modes alone, in which no event happens.
+    System without_events() const;
+
+    /// The model that was compiled. It cannot grow: for new expressions, copy it.
+    const Model& model() const { return parts_->model; }
+    std::size_t states() const { return parts_->states; }
+    std::size_t parameters() const { return parts_->parameters; }
+    std::size_t observed() const { return observed_; }
+    const CompiledMode& mode(std::size_t index) const { return (*modes_)[index]; }
+    const CompiledJump& jump(std::size_t index) const { return parts_->jumps[index]; }
+    const CompiledTransition& transition(std::size_t index) const { return parts_->transitions[index]; }
+    /// A symmetry's map of states.
+    const CompiledJump& symmetry(std::size_t index) const { return parts_->symmetries[index]; }
+    /// An event's function: value, then derivatives with respect to states and parameters.
+    const Function& event(std::size_t index) const { return parts_->events[index]; }
+    /// A section's function likewise; of a phase section, the state less the value. Of the image of the state under a
+    /// symmetry, if one is given.
+    const Function& section(std::size_t index, std::optional<std::size_t> symmetry = std::nullopt) const {
+        return parts_->sections[index][symmetry ? 1 + *symmetry : 0];
+    }
+    /// Periods of the cyclic states (0 for others), from the parameters alone.
+    const Function& periods() const { return parts_->periods; }
+    /// Their derivatives, row by row: states x parameters.
+    const Function& period_gradients() const { return parts_->period_gradients; }
+    /// Initial state, from the parameters alone; not yet within the periods.
+    const Function& initial() const { return parts_->initial; }
+    /// Compiles one more function of states and parameters. @param expressions in the model's symbols, of any graph
+    /// @throws InputError for a symbol that the model does not have
+    Function function_of(std::span<const Expression> expressions) const;
+    /// The same of the parameters alone.
+    Function function_of_parameters(std::span<const Expression> expressions) const;
+    /// The same of one expression: value, then derivatives with respect to states and parameters.
+    Function with_gradient(const Expression& expression) const;
+    /// Largest workspace of the system's own functions.
+    std::size_t workspace() const { return workspace_; }
+
+private:
+    friend class SystemCompiler;
+    struct Parts {
+        Model model;
+        std::size_t states = 0, parameters = 0;
+        std::vector<CompiledJump> jumps, symmetries;
+        std::vector<CompiledTransition> transitions;
+        std::vector<Function> events;
+        std::vector<std::vector<Function>> sections; ///< of each: as it is, then under each symmetry
+        Function periods, period_gradients, initial;
+    };
+    std::shared_ptr<const Parts> parts_;
+    std::shared_ptr<const std::vector<CompiledMode>> modes_;
+    std::size_t observed_ = 0, workspace_ = 0;
+};
+
+} // namespace graze
