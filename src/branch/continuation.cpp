@@ -1,11 +1,13 @@
 #include "graze/branch/continuation.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace graze {
 
@@ -64,6 +66,8 @@ Continuation::Continuation(ContinuationProblem& problem, const ContinuationOptio
 }
 
 void Continuation::set_next_step(double length) {
+    if (!(length > 0))
+        throw InputError(fmt::format("the next step cannot have the length {}", length), "give a positive one");
     next_step_ = std::clamp(length, options_.smallest_step, options_.largest_step);
 }
 
@@ -140,6 +144,8 @@ bool Continuation::begin(ContinuationPoint point) {
 }
 
 bool Continuation::start(std::span<const double> u, std::size_t unknown, int direction) {
+    require_point(u);
+    require_index(unknown, u.size(), "unknown");
     ContinuationPoint point;
     point.u.assign(u.begin(), u.end());
     std::vector<double> row(u.size(), 0.0);
@@ -191,6 +197,9 @@ bool Continuation::start_across(std::span<const double> u, std::size_t unknown, 
 }
 
 bool Continuation::start_at(std::span<const double> u, std::span<const double> row) {
+    require_point(u);
+    require_size(row.size(), u.size(), "numbers of a row");
+    require_finite(row, "a number of a row");
     ContinuationPoint point;
     point.u.assign(u.begin(), u.end());
     outcome_ = ContinuationOutcome::undefined;
@@ -201,6 +210,10 @@ bool Continuation::start_at(std::span<const double> u, std::span<const double> r
 }
 
 bool Continuation::start_along(std::span<const double> u, std::span<const double> direction, double distance) {
+    require_point(u);
+    require_size(direction.size(), u.size(), "numbers of a direction");
+    require_finite(direction, "a number of a direction");
+    require_finite(distance, "the distance");
     const double length = std::sqrt(product(direction, direction));
     outcome_ = ContinuationOutcome::singular;
     if (!(length > 0) || !std::isfinite(length))
@@ -221,7 +234,15 @@ bool Continuation::start_along(std::span<const double> u, std::span<const double
     return find_tangent(point, row) && begin(std::move(point));
 }
 
+void Continuation::require_point(std::span<const double> u) {
+    started_ = true;
+    require_size(u.size(), problem_->unknowns(), "unknowns");
+    require_finite(u, "an unknown");
+}
+
 bool Continuation::step() {
+    if (!started_)
+        throw std::logic_error("a continuation has no point to step from before it is started");
     if (outcome_ != ContinuationOutcome::going)
         return false;
     double length = std::clamp(next_step_, options_.smallest_step, options_.largest_step);
@@ -288,6 +309,9 @@ bool Continuation::closes() {
 }
 
 bool Continuation::between(double fraction, ContinuationPoint& result) {
+    if (steps_ == 0)
+        throw std::logic_error("there are no two points to look between before the first step");
+    require_finite(fraction, "the fraction");
     const std::size_t count = point_.u.size();
     const double length = point_.arclength - previous_.arclength;
     std::vector<double> chord(count), row;

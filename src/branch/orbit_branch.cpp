@@ -4,12 +4,14 @@
 #include "branch/point_rules.hpp"
 #include "graze/branch/switching.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 namespace graze {
 
@@ -329,12 +331,18 @@ OrbitBranch::~OrbitBranch() = default;
 OrbitBranch::OrbitBranch(OrbitBranch&&) noexcept = default;
 
 bool OrbitBranch::start() {
+    begun_ = true;
     return follower_->start();
 }
 bool OrbitBranch::start_along(const std::vector<double>& direction, double distance) {
+    begun_ = true;
+    require_finite(direction, "a number of the direction");
+    require_finite(distance, "the distance");
     return follower_->start_along(direction, distance);
 }
 bool OrbitBranch::step() {
+    if (!begun_)
+        throw std::logic_error("a branch has no point to step from before it is started");
     return follower_->step();
 }
 const BranchPoint& OrbitBranch::point() const {

@@ -1,5 +1,6 @@
 #include "graze/symbolic/function.hpp"
 
+#include "graze/symbolic/require.hpp"
 #include "symbolic/evaluate.hpp"
 #include "symbolic/operation_error.hpp"
 #include "symbolic/subgraph.hpp"
@@ -47,6 +48,9 @@ Function::Function(std::span<const Expression> inputs, std::span<const Expressio
 }
 
 void Function::evaluate(std::span<const double> inputs, std::span<double> results, std::span<double> work) const {
+    require_room(inputs.size(), inputs_, "inputs of a function");
+    require_room(results.size(), outputs_.size(), "results of a function");
+    require_room(work.size(), slots_, "numbers for a function to work in");
     std::copy_n(inputs.begin(), inputs_, work.begin());
     for (const auto& [slot, value] : numbers_)
         work[slot] = value;
@@ -58,6 +62,10 @@ void Function::evaluate(std::span<const double> inputs, std::span<double> result
 
 void Function::error_bounds(std::span<const double> inputs, std::span<const double> errors, std::span<double> bounds,
                             std::span<double> work) const {
+    require_room(inputs.size(), inputs_, "inputs of a function");
+    require_room(errors.size(), inputs_, "errors of inputs");
+    require_room(bounds.size(), outputs_.size(), "error bounds of a function");
+    require_room(work.size(), 2 * slots_, "numbers for a function to work in");
     const std::span<double> values = work.first(slots_), uncertain = work.subspan(slots_, slots_);
     std::copy_n(inputs.begin(), inputs_, values.begin());
     std::copy_n(errors.begin(), inputs_, uncertain.begin());
@@ -76,9 +84,7 @@ void Function::error_bounds(std::span<const double> inputs, std::span<const doub
 }
 
 std::vector<double> Function::operator()(std::span<const double> inputs) const {
-    if (inputs.size() != inputs_)
-        throw std::invalid_argument("a function of " + std::to_string(inputs_) + " inputs was given " +
-                                    std::to_string(inputs.size()));
+    require_size(inputs.size(), inputs_, "inputs of a function");
     std::vector<double> results(outputs_.size());
     std::vector<double> work(slots_);
     evaluate(inputs, results, work);

@@ -9,6 +9,8 @@ void run(Trajectory& trajectory, JetSet& jets) {
         throw std::invalid_argument("a trajectory of one simulation cannot run on the jets of another");
     if (jets.width() != 1)
         throw std::invalid_argument("one trajectory cannot run on jets of several lanes");
+    if (!trajectory.is_started())
+        throw std::logic_error("a trajectory has to be started before it can run");
     jets.set_parameters(trajectory.parameters());
     Outlook outlook(trajectory.simulation(), 1);
     while (!trajectory.finished()) {

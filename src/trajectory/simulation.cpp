@@ -2,6 +2,7 @@
 
 #include "graze/flow/step_size.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
 
 #include <fmt/format.h>
 
@@ -29,9 +30,18 @@ Simulation::Simulation(const System& system, std::vector<Probe> probes, const st
                        SimulationOptions options) {
     options.validate();
     std::vector<Expression> all;
-    for (const Probe& probe : probes)
-        if (probe.kind != Probe::Kind::phase)
+    for (const Probe& probe : probes) {
+        const bool phase = probe.kind == Probe::Kind::phase;
+        if ((phase ? probe.value : probe.expression).empty())
+            throw InputError(fmt::format("probe '{}' has no {}", probe.name, phase ? "value" : "expression"),
+                             "say what is to be located");
+        if (!phase)
             all.push_back(probe.expression);
+        else if (require_index(probe.state, system.states(), "state"); !system.model().states[probe.state].period)
+            throw InputError(fmt::format("probe '{}' waits for a phase, and state '{}' has no period", probe.name,
+                                         system.model().states[probe.state].name),
+                             "choose a cyclic state, or locate a crossing");
+    }
     all.insert(all.end(), observed.begin(), observed.end());
     Parts parts{all.empty() ? system : system.observing(all), options, std::move(probes), {}, 0, options.order, {}};
     if (parts.order == 0)

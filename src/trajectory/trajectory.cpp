@@ -1,6 +1,7 @@
 #include "graze/trajectory/trajectory.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
 #include "trajectory/probe_tracker.hpp"
 #include "trajectory/series.hpp"
 #include "trajectory/tangents.hpp"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string_view>
 
 namespace graze {
@@ -27,10 +29,7 @@ Trajectory::Trajectory(const Simulation& simulation, std::span<const double> par
       states_(simulation.system().states()), order_(simulation.order()),
       longest_allowed_(simulation.options().largest_step) {
     const System& compiled = simulation.system();
-    if (parameters_.size() != compiled.parameters())
-        throw InputError(
-            fmt::format("{} parameters were given where {} are needed", parameters_.size(), compiled.parameters()),
-            "give one value for each independent parameter of the model");
+    require_size(parameters_.size(), compiled.parameters(), "independent parameters");
     compiled_mode_ = &compiled.mode(mode_);
     std::size_t most_watched = 0;
     for (std::size_t m = 0; m < compiled.model().modes.size(); ++m)
@@ -65,9 +64,8 @@ Trajectory::Trajectory(Trajectory&&) noexcept = default;
 
 void Trajectory::start(std::span<const double> state, std::size_t mode, double time, double end_time) {
     const Model& model = simulation_.model();
-    if (state.size() != states_ || mode >= model.modes.size())
-        throw InputError("the initial state does not fit the model",
-                         fmt::format("give {} numbers and one of its modes", states_));
+    require_size(state.size(), states_, "states");
+    require_index(mode, model.modes.size(), "mode");
     for (std::size_t i = 0; i < states_; ++i) {
         if (!std::isfinite(state[i]))
             throw InputError(fmt::format("the initial value of state '{}' is {}", model.states[i].name, state[i]),
@@ -87,6 +85,7 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     wrap_cyclic_states(true);
     mode_ = mode;
     compiled_mode_ = &simulation_.system().mode(mode);
+    started_ = true;
     outcome_ = {};
     steps_ = 0;
     time_ = start_time_ = time;
@@ -112,12 +111,20 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     probes_->start(state_);
 }
 
+void Trajectory::require_started() const {
+    if (!started_)
+        throw std::logic_error("a trajectory has no state before it is started: call start first");
+}
+
 void Trajectory::limit_step(double longest) {
+    if (!(longest >= 0))
+        throw InputError(fmt::format("the longest step {} is no length of time", longest), "give 0 for no bound");
     const double largest = simulation_.options().largest_step;
     longest_allowed_ = longest > 0 && largest > 0 ? std::min(longest, largest) : std::max(longest, largest);
 }
 
 void Trajectory::extend(double end_time) {
+    require_started();
     if (outcome_.ending != Ending::end_time && outcome_.ending != Ending::stopped)
         return;
     if (!(end_time >= time_))
@@ -129,13 +136,13 @@ void Trajectory::extend(double end_time) {
 }
 
 void Trajectory::carry_tangents(std::span<const double> seeds, std::size_t directions) {
-    if (seeds.size() != directions * (states_ + parameters_.size()))
+    require_started();
+    const std::size_t inputs = states_ + parameters_.size();
+    // Divided, for the product could overflow.
+    if (directions == 0 || seeds.size() % directions != 0 || seeds.size() / directions != inputs)
         throw InputError("the directions of derivatives do not fit the model",
-                         fmt::format("give {} numbers for each", states_ + parameters_.size()));
-    for (std::size_t k = 0; k < seeds.size(); ++k)
-        if (!std::isfinite(seeds[k]))
-            throw InputError(fmt::format("a direction of derivatives has the component {}", seeds[k]),
-                             "give finite numbers");
+                         fmt::format("give at least one, and {} numbers for each", inputs));
+    require_finite(seeds, "a component of a direction of derivatives");
     tangents_ = std::make_unique<Tangents>(simulation_, parameters_, seeds, directions);
 }
 
@@ -190,6 +197,8 @@ std::span<const double> Trajectory::series(std::size_t index) {
 }
 
 double Trajectory::propose(const Jet& jet, double step, std::size_t lane) {
+    require_started();
+    require_index(lane, static_cast<std::size_t>(jet.width()), "lane");
     find_series(jet, lane);
     // Event functions and whatever else is observed must be as accurate as the states.
     step = limited_by_floors(step);
@@ -255,6 +264,7 @@ double Trajectory::shortest_step() const {
 }
 
 void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
+    require_started();
     if (finished())
         return;
     if (std::isnan(proposed_)) {

@@ -1,5 +1,7 @@
 #include "graze/symbolic/function.hpp"
 
+#include "graze/symbolic/input_error.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -111,7 +113,7 @@ TEST_F(FunctionTest, RefusesMisuse) {
     EXPECT_THROW(Function(std::vector{x + 1}, std::vector{x}), std::invalid_argument);
     EXPECT_THROW(Function(std::vector{Graph::create()->symbol("x")}, std::vector{x}), std::invalid_argument);
     EXPECT_THROW(Function(std::vector{x}, std::vector{Expression()}), std::invalid_argument);
-    EXPECT_THROW(Function(std::vector{x}, std::vector{x})(std::vector<double>{}), std::invalid_argument);
+    EXPECT_THROW(Function(std::vector{x}, std::vector{x})(std::vector<double>{}), InputError);
 }
 
 TEST_F(FunctionTest, ConstantValue) {

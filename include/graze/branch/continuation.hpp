@@ -112,6 +112,7 @@ public:
     bool between(double fraction, ContinuationPoint& result);
 
 private:
+    void require_point(std::span<const double> u);
     double product(std::span<const double> a, std::span<const double> b) const;
     bool correct(std::vector<double>& u, std::span<const double> row, double allowed, std::size_t& iterations);
     bool find_tangent(ContinuationPoint& point, std::span<const double> row);
@@ -128,6 +129,7 @@ private:
     ContinuationOutcome outcome_ = ContinuationOutcome::going;
     double next_step_;
     std::size_t steps_ = 0;
+    bool started_ = false;
     std::vector<double> row_, step_, trial_;
 };
 

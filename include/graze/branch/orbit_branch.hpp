@@ -81,6 +81,7 @@ public:
 private:
     class Follower;
     std::unique_ptr<Follower> follower_;
+    bool begun_ = false;
 };
 
 struct Branch {

@@ -2,6 +2,7 @@
 
 #include "graze/model/model.hpp"
 #include "graze/symbolic/function.hpp"
+#include "graze/symbolic/require.hpp"
 #include "graze/tape/tape.hpp"
 
 #include <cstddef>
@@ -59,22 +60,26 @@ public:
     /// The smooth motion of the modes alone, in which no event happens.
     System without_events() const;
 
+    // @throws InputError, here and below, for an index that is out of range
+
     /// The model that was compiled. It cannot grow: for new expressions, copy it.
     const Model& model() const { return parts_->model; }
     std::size_t states() const { return parts_->states; }
     std::size_t parameters() const { return parts_->parameters; }
     std::size_t observed() const { return observed_; }
-    const CompiledMode& mode(std::size_t index) const { return (*modes_)[index]; }
-    const CompiledJump& jump(std::size_t index) const { return parts_->jumps[index]; }
-    const CompiledTransition& transition(std::size_t index) const { return parts_->transitions[index]; }
+    const CompiledMode& mode(std::size_t index) const { return at((*modes_), index, "mode"); }
+    const CompiledJump& jump(std::size_t index) const { return at(parts_->jumps, index, "jump"); }
+    const CompiledTransition& transition(std::size_t index) const {
+        return at(parts_->transitions, index, "transition");
+    }
     /// A symmetry's map of states.
-    const CompiledJump& symmetry(std::size_t index) const { return parts_->symmetries[index]; }
+    const CompiledJump& symmetry(std::size_t index) const { return at(parts_->symmetries, index, "symmetry"); }
     /// An event's function: value, then derivatives with respect to states and parameters.
-    const Function& event(std::size_t index) const { return parts_->events[index]; }
+    const Function& event(std::size_t index) const { return at(parts_->events, index, "event"); }
     /// A section's function likewise; of a phase section, the state less the value. Of the image of the state under a
     /// symmetry, if one is given.
     const Function& section(std::size_t index, std::optional<std::size_t> symmetry = std::nullopt) const {
-        return parts_->sections[index][symmetry ? 1 + *symmetry : 0];
+        return at(at(parts_->sections, index, "section"), symmetry ? 1 + *symmetry : 0, "symmetry beside section");
     }
     /// Periods of the cyclic states (0 for others), from the parameters alone.
     const Function& periods() const { return parts_->periods; }
@@ -94,6 +99,11 @@ public:
 
 private:
     friend class SystemCompiler;
+    template <class Item>
+    static const Item& at(const std::vector<Item>& items, std::size_t index, const char* what) {
+        require_index(index, items.size(), what);
+        return items[index];
+    }
     struct Parts {
         Model model;
         std::size_t states = 0, parameters = 0;

@@ -24,6 +24,7 @@ public:
     std::size_t workspace() const { return slots_; }
 
     /// Evaluates without allocating. The result follows IEEE rules: not finite outside an operation's domain.
+    /// @throws InputError, here and below, when there are fewer numbers than these
     /// @param inputs  as many as inputs()
     /// @param results as many as outputs(); may be the same memory as the inputs
     /// @param work    at least workspace(); its contents afterwards are unspecified

@@ -38,7 +38,11 @@ public:
     const SimulationOptions& options() const { return parts_->options; }
     int order() const { return parts_->order; }
     /// Index among the observed series of a probe's expression; series of `observed` come after those.
-    std::size_t series_of_probe(std::size_t probe) const { return parts_->series[probe]; }
+    /// @throws InputError when there is no such probe
+    std::size_t series_of_probe(std::size_t probe) const {
+        require_index(probe, parts_->series.size(), "probe");
+        return parts_->series[probe];
+    }
     std::size_t series_of_observed(std::size_t index) const { return parts_->first_observed + index; }
     /// Value of each phase probe's section (0 for others), from the parameters alone.
     const Function& phase_values() const { return parts_->phase_values; }

@@ -36,7 +36,8 @@ public:
     ~Trajectory();
     Trajectory(Trajectory&&) noexcept;
 
-    /// Begins at a state; may be called again to begin anew.
+    /// Begins at a state; may be called again to begin anew. Before it is called nothing can be run or asked for
+    /// (std::logic_error).
     /// @throws InputError for states or times that are not finite, and for periods that are not positive
     void start(std::span<const double> state, std::size_t mode, double time, double end_time);
     /// Makes no step longer than this, nor than the options allow; 0: no bound.
@@ -56,6 +57,7 @@ public:
     /// @throws InputError when there is no such state or direction
     double derivative(std::size_t state, std::size_t direction) const;
 
+    bool is_started() const { return started_; }
     bool finished() const { return outcome_.ending != Ending::running; }
     const Outcome& outcome() const { return outcome_; }
     double time() const { return time_; }
@@ -118,6 +120,7 @@ private:
         double size = 0;       ///< of the event's function at the contact
     };
     static constexpr std::size_t no_event = static_cast<std::size_t>(-1);
+    void require_started() const;
 
     // One step (trajectory.cpp)
     void find_series(const Jet& jet, std::size_t lane);
@@ -195,6 +198,7 @@ private:
     Simulation simulation_;
     const System::CompiledMode* compiled_mode_ = nullptr; ///< of mode_
     Observer* observer_;
+    bool started_ = false;
     std::vector<double> parameters_;
     StepSize step_size_;
     StepCheck step_check_;
