@@ -1,11 +1,13 @@
 #include "graze/branch/continuation.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace graze {
 
@@ -37,6 +39,8 @@ DenseProblem::DenseProblem(std::size_t unknowns, Map residuals, Map jacobian, st
 }
 
 bool DenseProblem::evaluate(std::span<const double> u) {
+    require_size(u.size(), unknowns_, "unknowns");
+    evaluated_ = true;
     if (!residuals_(u, values_) || !all_finite(values_))
         return false;
     const bool differentiated = jacobian_ ? jacobian_(u, matrix_) : differences(u);
@@ -63,6 +67,10 @@ bool DenseProblem::differences(std::span<const double> u) {
 
 bool DenseProblem::solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
                          double* determinant) {
+    if (!evaluated_)
+        throw std::logic_error("a problem has to be evaluated before it can be solved");
+    require_size(row.size(), unknowns_, "numbers of a row");
+    require_size(step.size(), unknowns_, "numbers of a step");
     const auto n = static_cast<Eigen::Index>(unknowns_);
     const Eigen::Map<const Eigen::VectorXd> scales(scales_.data(), n);
     Eigen::MatrixXd matrix(n, n);

@@ -4,12 +4,12 @@
 #include "branch/orbit_problem.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/transform.hpp"
-#include "orbit/arc_flow.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/close_at_section.hpp"
 #include "orbit/drift.hpp"
 #include "orbit/eigen_index.hpp"
 #include "orbit/newton.hpp"
+#include "orbit/orbit_flow.hpp"
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -49,7 +49,7 @@ public:
         const System& system = simulation.system();
         function_ = system.event(event_);
         rate_ = system.with_gradient(rate_of(system, mode_, event_));
-        ArcFlow flow(simulation, {});
+        ModeFlow flow = flow_of(simulation);
         flow.set_parameters(orbit_->parameters);
         state_ = orbit_->starts[point.segment];
         const double time = std::min(point.time, orbit_->durations[point.segment]);

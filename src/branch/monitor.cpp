@@ -2,7 +2,8 @@
 
 #include "graze/flow/roots.hpp"
 #include "graze/symbolic/input_error.hpp"
-#include "orbit/arc_flow.hpp"
+#include "graze/symbolic/require.hpp"
+#include "orbit/orbit_flow.hpp"
 
 #include <fmt/format.h>
 
@@ -55,9 +56,16 @@ std::size_t segment_named(const Model& model, const Signature& signature, const 
 class OrbitMonitors::Evaluator {
 public:
     Evaluator(const System& system, const Signature& signature, std::vector<Monitor> monitors, double tolerance)
-        : monitors_(std::move(monitors)), system_(system), simulation_(system, {}, observed(), options(tolerance)),
-          flow_(simulation_, {}), roots_(simulation_.order()) {
+        : monitors_(std::move(monitors)), signature_(signature), system_(system),
+          simulation_(system, {}, observed(), options(tolerance)), flow_(flow_of(simulation_)),
+          roots_(simulation_.order()) {
         const Model& model = system.model();
+        if (signature_.empty())
+            throw InputError("the signature is empty", "list at least one event or section");
+        for (const Segment& segment : signature_) {
+            require_index(segment.mode, model.modes.size(), "mode");
+            end_name(model, segment); // throws when there is no such end
+        }
         for (const Monitor& monitor : monitors_) {
             const bool at_point = monitor.kind == Monitor::Kind::value || monitor.kind == Monitor::Kind::start;
             segments_.push_back(monitor.segment.empty() ? std::optional<std::size_t>()
@@ -69,9 +77,15 @@ public:
     }
 
     const std::vector<Monitor>& monitors() const { return monitors_; }
-    std::optional<std::size_t> segment(std::size_t monitor) const { return segments_[monitor]; }
+    std::optional<std::size_t> segment(std::size_t monitor) const {
+        require_index(monitor, segments_.size(), "monitor");
+        return segments_[monitor];
+    }
 
     std::vector<double> values(const Orbit& orbit) {
+        validate_orbit(system_.model(), orbit);
+        if (orbit.signature != signature_)
+            throw InputError("the orbit does not have the signature of the monitors", "make them anew for it");
         totals_.assign(monitors_.size(), {});
         values_.assign(monitors_.size(), std::numeric_limits<double>::quiet_NaN());
         flow_.set_parameters(orbit.parameters);
@@ -202,9 +216,10 @@ private:
 
     std::vector<Monitor> monitors_;
     std::vector<std::size_t> series_; ///< among the observed, of those along arcs
+    Signature signature_;
     System system_;
     Simulation simulation_;
-    ArcFlow flow_;
+    ModeFlow flow_;
     RootFinder roots_;
     std::vector<std::optional<std::size_t>> segments_;
     std::vector<Function> functions_;
@@ -215,6 +230,10 @@ private:
 
 void measure_multipliers(const std::vector<Monitor>& monitors, const std::vector<std::complex<double>>& multipliers,
                          std::vector<double>& values) {
+    require_size(values.size(), monitors.size(), "values of monitors");
+    for (const Monitor& monitor : monitors)
+        if (monitor.kind == Monitor::Kind::multiplier && monitor.place < 1)
+            throw InputError(fmt::format("monitor '{}' is no multiplier", monitor.name), "count them from 1");
     for (std::size_t m = 0; m < monitors.size(); ++m)
         if (monitors[m].kind == Monitor::Kind::multiplier && monitors[m].place <= multipliers.size())
             values[m] = std::abs(multipliers[monitors[m].place - 1]);

@@ -46,7 +46,7 @@ MonitorFunction::MonitorFunction(const Shooting& shooting, const Monitor& monito
     : kind_(monitor.kind), segment_(segment),
       simulation_(shooting.simulation().system(), {}, expressions_of(shooting, monitor, !segment),
                   shooting.simulation().options()),
-      flow_(simulation_, shooting.free()), roots_(simulation_.order()) {
+      flow_(flow_of(simulation_, shooting.free())), roots_(simulation_.order()) {
     for (const Expression& expression : expressions_of(shooting, monitor, !segment))
         watched_.push_back({simulation_.system().with_gradient(expression), watched_.size()});
 }
@@ -176,8 +176,8 @@ bool MonitorFunction::extremum(const Shooting& shooting, const Eigen::VectorXd& 
     const double* start = unknowns.data() + shooting.start_of(place->piece);
     std::vector<double> state(start, start + n);
     Eigen::MatrixXd flow;
-    if (flow_.run(shooting.signature()[shooting.piece(place->piece).segment].mode, state, place->time, flow) !=
-        ArcFlow::Ending::done)
+    if (run(flow_, shooting.signature()[shooting.piece(place->piece).segment].mode, state, place->time, flow) !=
+        ModeFlow::Ending::done)
         return false;
     const Eigen::VectorXd by_all = gradient_at(shooting, watched, state, value_);
     value_ = place->value;
@@ -206,7 +206,7 @@ bool MonitorFunction::mean(const Shooting& shooting, const Eigen::VectorXd& unkn
         for (const auto& [begin, length] : steps)
             for (const auto& [node, weight] : gauss) {
                 const double next = begin + node * length;
-                if (flow_.run(mode, state, next - now, part) != ArcFlow::Ending::done)
+                if (run(flow_, mode, state, next - now, part) != ModeFlow::Ending::done)
                     return false;
                 now = next;
                 flow = Eigen::MatrixXd(part.leftCols(n) * flow);

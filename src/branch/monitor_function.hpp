@@ -52,7 +52,7 @@ private:
     Monitor::Kind kind_;
     std::optional<std::size_t> segment_;
     Simulation simulation_;
-    ArcFlow flow_;
+    ModeFlow flow_;
     RootFinder roots_;
     std::vector<Watched> watched_;
     double value_ = 0;

@@ -35,6 +35,8 @@ void BranchSettings::validate(const Model& model) const {
         throw InputError("the branch's parameter is not one of the model's", "choose an independent parameter");
     if (direction != 1 && direction != -1)
         throw InputError(fmt::format("the direction {} is neither 1 nor -1", direction), "give 1 for up, -1 for down");
+    if ((least && std::isnan(*least)) || (greatest && std::isnan(*greatest)))
+        throw InputError("a bound of the branch is not a number", "give a number, or none");
     if (least && greatest && !(*least < *greatest))
         throw InputError("the branch's bounds leave no room", "give the smaller one first");
     const auto held = static_cast<std::size_t>(
@@ -43,6 +45,12 @@ void BranchSettings::validate(const Model& model) const {
         throw InputError(fmt::format("{} monitors are fixed and {} further parameters are free", held, free.size()),
                          "free one parameter for each monitor that is fixed");
     for (const Monitor& monitor : monitors) {
+        if (monitor.held)
+            require_finite(*monitor.held, "the value at which a monitor is held");
+        require_finite(monitor.crossings, "a value of a monitor that is to be reported");
+        if (monitor.least && monitor.greatest && !(*monitor.least < *monitor.greatest))
+            throw InputError(fmt::format("the bounds of monitor '{}' leave no room", monitor.name),
+                             "give the smaller one first");
         if (monitor.kind != Monitor::Kind::multiplier)
             continue;
         if (monitor.fixed)
@@ -346,6 +354,8 @@ bool OrbitBranch::step() {
     return follower_->step();
 }
 const BranchPoint& OrbitBranch::point() const {
+    if (!begun_)
+        throw std::logic_error("a branch has no point before it is started");
     return follower_->point;
 }
 const std::vector<SpecialPoint>& OrbitBranch::found() const {

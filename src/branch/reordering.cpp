@@ -27,9 +27,9 @@ std::optional<Orbit> followed(const Simulation& simulation, const Orbit& orbit, 
                                                   orbit.durations.begin());
     std::vector<double> state = orbit.starts[longest];
     const std::size_t mode = orbit.signature[longest].mode;
-    ArcFlow flow(simulation, {});
+    ModeFlow flow = flow_of(simulation);
     flow.set_parameters(orbit.parameters);
-    if (flow.run(mode, state, 0.5 * orbit.durations[longest]) != ArcFlow::Ending::done) {
+    if (flow.run(mode, state, 0.5 * orbit.durations[longest]) != ModeFlow::Ending::done) {
         why = "the orbit cannot be followed";
         return std::nullopt;
     }

@@ -4,6 +4,7 @@
 #include "branch/orbit_problem.hpp"
 #include "branch/reordering.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
 #include "orbit/drift.hpp"
 #include "orbit/newton.hpp"
 
@@ -55,6 +56,25 @@ std::vector<BranchStart> branches_at(const System& system, const SpecialPoint& p
     settings.validate(model);
     const Orbit& orbit = point.solution.orbit;
     switch (point.type) {
+    case PointType::grazing:
+    case PointType::vanishing:
+    case PointType::two_events:
+    case PointType::guard:
+        require_index(point.segment, orbit.segments(), "segment");
+        require_index(point.event, model.events.size(), "event");
+        require_finite(point.time, "the time of the point");
+        [[fallthrough]];
+    case PointType::flip:
+    case PointType::asymmetry:
+    case PointType::branch_point:
+        validate_orbit(model, orbit);
+        break;
+    default:
+        throw InputError(fmt::format("no other branch leaves from a point of type {} ({})", short_name(point.type),
+                                     name_of(point.type)),
+                         "choose one of type PD, BP, SB, GR, DZ, EE or GU, or vary another parameter from it");
+    }
+    switch (point.type) {
     case PointType::flip:
         return both_ways(system, twice(orbit), settings, {}, "doubled", false);
     case PointType::asymmetry:
@@ -64,14 +84,8 @@ std::vector<BranchStart> branches_at(const System& system, const SpecialPoint& p
     case PointType::grazing:
         return {point.at_end ? with_one_contact_fewer(system, point, settings)
                              : with_one_more_contact(system, point, settings)};
-    case PointType::vanishing:
-    case PointType::two_events:
-    case PointType::guard:
-        return {with_events_reordered(system, point, settings)};
     default:
-        throw InputError(fmt::format("no other branch leaves from a point of type {} ({})", short_name(point.type),
-                                     name_of(point.type)),
-                         "choose one of type PD, BP, SB, GR, DZ, EE or GU, or vary another parameter from it");
+        return {with_events_reordered(system, point, settings)};
     }
 }
 

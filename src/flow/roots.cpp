@@ -1,6 +1,9 @@
 #include "graze/flow/roots.hpp"
 
+#include "graze/symbolic/input_error.hpp"
 #include "root_isolation.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,6 +35,10 @@ void restore_start(std::span<const double> c, double length, Root& root) {
 } // namespace
 
 RootFinder::RootFinder(int highest_degree) : highest_degree_(std::max(highest_degree, 0)) {
+    constexpr int most = 1000;
+    if (highest_degree < 0 || highest_degree > most)
+        throw InputError(fmt::format("roots of polynomials of degree {} cannot be found", highest_degree),
+                         fmt::format("give a degree from 0 to {}", most));
     const std::size_t size = static_cast<std::size_t>(highest_degree_) + 1;
     reciprocals_.reserve(size * (size + 1) / 2);
     for (std::size_t n = 0; n < size; ++n) {

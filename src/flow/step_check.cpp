@@ -1,6 +1,8 @@
 #include "graze/flow/step_check.hpp"
 
 #include "graze/flow/roots.hpp"
+#include "graze/flow/step_size.hpp"
+#include "graze/symbolic/require.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +44,8 @@ void keep_most(double& most, double ratio) {
 StepCheck::StepCheck(const System& system, int order, double tolerance)
     : system_(system), states_(system.states()), order_(static_cast<std::size_t>(order)), tolerance_(tolerance),
       inputs_(states_ + system.parameters()), input_errors_(inputs_.size()), slopes_(states_), seen_(states_) {
+    require_order(order);
+    require_tolerance(tolerance);
     std::size_t outputs = 0, workspace = 0;
     for (std::size_t m = 0; m < system.model().modes.size(); ++m) {
         outputs = std::max(outputs, system.mode(m).evidence.outputs());
@@ -53,6 +57,7 @@ StepCheck::StepCheck(const System& system, int order, double tolerance)
 }
 
 void StepCheck::set_parameters(std::span<const double> parameters) {
+    require_size(parameters.size(), system_.parameters(), "independent parameters");
     std::copy(parameters.begin(), parameters.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
 }
 
@@ -144,6 +149,12 @@ double StepCheck::misfit_of_sums(double s) {
 
 double StepCheck::longest(std::size_t mode, std::span<const Series> series, double length, bool inside,
                           std::span<const double> floors) {
+    const std::size_t needed = system_.mode(mode).evidence.outputs();
+    // Fewer than all are those of the states.
+    if (series.size() != states_)
+        require_room(series.size(), needed, "series");
+    if (!floors.empty())
+        require_room(floors.size(), series.size(), "floors of series");
     series_ = series;
     floors_ = floors;
     std::fill(seen_.begin(), seen_.end(), 0.0);

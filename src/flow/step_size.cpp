@@ -1,6 +1,10 @@
 #include "graze/flow/step_size.hpp"
 
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
 #include "tape/kernel_table.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -16,14 +20,30 @@ constexpr int highest_order_chosen = 20;
 
 } // namespace
 
+void require_tolerance(double tolerance) {
+    if (!(tolerance > 0))
+        throw InputError(fmt::format("the tolerance {} is not positive", tolerance),
+                         fmt::format("choose one from {} to {}", smallest_tolerance, largest_tolerance));
+}
+
+void require_order(int order) {
+    if (order < 4 || order > highest_order)
+        throw InputError(fmt::format("the order {} is out of range", order),
+                         fmt::format("choose 4 to {}, or 0 where the tolerance may decide", highest_order));
+}
+
 int order_for_tolerance(double tolerance) {
+    require_tolerance(tolerance);
     const double bounded = std::clamp(tolerance, smallest_tolerance, largest_tolerance);
     return std::clamp(static_cast<int>(std::ceil(1 - 0.55 * std::log(bounded))), 4, highest_order_chosen);
 }
 
 StepSize::StepSize(int order, double tolerance)
     : order_(static_cast<std::size_t>(order)),
-      log_tolerance_(std::log2(std::clamp(tolerance, smallest_tolerance, largest_tolerance))) {}
+      log_tolerance_(std::log2(std::clamp(tolerance, smallest_tolerance, largest_tolerance))) {
+    require_order(order);
+    require_tolerance(tolerance);
+}
 
 double StepSize::operator()(std::span<const Series> states, double previous) const {
     if (previous > 0)
@@ -71,6 +91,7 @@ double StepSize::step_for(std::span<const Series> states, double reference) cons
 }
 
 double StepSize::with_floors(std::span<const Series> states, double previous, std::span<const double> floors) const {
+    require_room(floors.size(), states.size(), "floors of series");
     const double tolerance = std::exp2(log_tolerance_);
     double step = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < states.size(); ++i) {

@@ -1,6 +1,7 @@
 #include "graze/flow/tangent_reach.hpp"
 
 #include "graze/flow/step_check.hpp"
+#include "graze/symbolic/require.hpp"
 
 #include <algorithm>
 #include <array>
@@ -54,6 +55,7 @@ double misfit_at(const Jet& jet, Jet& next, std::size_t states, std::size_t coun
 
 double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, double tolerance, double step) {
     const auto order = static_cast<std::size_t>(jet.order()), width = static_cast<std::size_t>(jet.width());
+    require_index(count, std::min(width, most_lanes + 1), "number of derivatives");
     const double root = 1.0 / static_cast<double>(order - 1);
     double reach = step;
     // Sizes shrink with the step: a few rounds.
@@ -84,6 +86,8 @@ double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, doub
 
 double follow_tangents(const Jet& jet, Jet& next, std::size_t states, std::size_t count, double tolerance, double step,
                        std::span<double> times, std::span<double> sums, std::span<double> slopes) {
+    require_index(count, static_cast<std::size_t>(jet.width()), "number of derivatives");
+    require_room(times.size(), static_cast<std::size_t>(jet.width()), "times");
     // What is left out falls with a high power of the step. What does not is the round-off of rates that cancel, or
     // belongs to derivatives that have only begun to differ from zero: no shorter step would be better.
     constexpr int most_halvings = 8;

@@ -243,6 +243,7 @@ std::vector<ModelWarning> located_warnings(const Model& model) {
 }
 
 std::vector<std::string> model_warnings(const Model& model) {
+    model.validate();
     std::vector<std::string> texts;
     for (ModelWarning& warning : located_warnings(model))
         texts.push_back(std::move(warning.text));
@@ -250,6 +251,7 @@ std::vector<std::string> model_warnings(const Model& model) {
 }
 
 std::string connectivity_graph(const Model& model) {
+    model.validate();
     std::string result = fmt::format("digraph {} {{\n"
                                      "    rankdir = LR;\n"
                                      "    node [shape = box, style = rounded, fontname = \"Helvetica\"];\n"

@@ -2,6 +2,8 @@
 
 #include "graze/symbolic/input_error.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -42,6 +44,11 @@ double sine_weight(int i, double k) {
     return is_symmetric(i) ? tanh : 1 / tanh;
 }
 
+void require_place(double x) {
+    if (!(x >= 0 && x <= 1))
+        throw InputError(fmt::format("the place {} is not on the beam", x), "give one from 0 to 1");
+}
+
 void require_mode(int i, int count) {
     if (i < 1 || i > count) {
         throw std::out_of_range("mode number " + std::to_string(i) + " is not between 1 and " + std::to_string(count));
@@ -70,6 +77,7 @@ double ClampedBeamModes::frequency(int i) const {
 // either end: their difference, of order exp(kx), would leave nothing of the shapes of higher modes.
 double ClampedBeamModes::shape(int i, double x) const {
     require_mode(i, count());
+    require_place(x);
     const double parity = is_symmetric(i) ? 1 : -1;
     if (x > 0.5) {
         return parity * shape(i, 1 - x); // so that the symmetry is exact
@@ -84,6 +92,7 @@ double ClampedBeamModes::shape(int i, double x) const {
 
 double ClampedBeamModes::slope(int i, double x) const {
     require_mode(i, count());
+    require_place(x);
     const double parity = is_symmetric(i) ? 1 : -1;
     if (x > 0.5) {
         return -parity * slope(i, 1 - x);

@@ -34,7 +34,7 @@ std::size_t require_named(const std::vector<Item>& items, std::string_view name,
     throw InputError(fmt::format("there is no {} '{}'", kind, name), name_remedy(name, names));
 }
 
-void require_finite(double value, std::string_view what) {
+void require_finite_number(double value, std::string_view what) {
     if (!std::isfinite(value))
         throw InputError(fmt::format("the value of {} must be a finite number, not {}", what, value),
                          "give a finite number");
@@ -159,13 +159,13 @@ void Model::set_parameter(std::string_view item, double value) {
     if (parameter.expression)
         throw InputError(fmt::format("the parameter '{}' follows from others and cannot be set", item),
                          "set the parameters that it depends on");
-    require_finite(value, fmt::format("parameter '{}'", item));
+    require_finite_number(value, fmt::format("parameter '{}'", item));
     parameter.value = value;
 }
 
 void Model::set_initial(std::string_view item, double value) {
     State& state = states[require_named(states, item, "state")];
-    require_finite(value, fmt::format("state '{}'", item));
+    require_finite_number(value, fmt::format("state '{}'", item));
     state.initial = graph->number(value);
 }
 
@@ -186,6 +186,8 @@ std::vector<double> Model::periods() const {
 }
 
 void Model::validate() const {
+    if (!graph)
+        throw InputError("a model without a graph has no expressions", "do not use a model that was moved from");
     validate_model(*this, Places(name));
 }
 

@@ -174,8 +174,13 @@ private:
             check_index("sections." + section.name + ".state", section.state.value_or(0), model_.states.size(),
                         "state");
         for (const Symmetry& symmetry : model_.symmetries)
-            for (const std::size_t mode : symmetry.modes)
+            for (const std::size_t mode : symmetry.modes) {
                 check_index("symmetries." + symmetry.name + ".modes", mode, model_.modes.size(), "mode");
+                if (std::count(symmetry.modes.begin(), symmetry.modes.end(), mode) > 1)
+                    fail("symmetries." + symmetry.name + ".modes",
+                         fmt::format("the symmetry takes two modes to '{}'", model_.modes[mode].name),
+                         "give each mode an image of its own");
+            }
     }
 
     void check_expressions() const {

@@ -286,6 +286,7 @@ private:
 } // namespace
 
 std::string write_model(const Model& model) {
+    model.validate();
     return ModelWriter(model).write();
 }
 

@@ -1,6 +1,7 @@
 #include "graze/orbit/solve.hpp"
 #include "graze/sweep/point_search.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
 #include "graze/trajectory/trajectory.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/close_at_section.hpp"
@@ -68,6 +69,7 @@ void cut_out(const FollowedMotion& motion, double duration, Orbit& orbit) {
 
 FollowedMotion follow_motion(const Simulation& simulation, std::span<const double> parameters,
                              std::span<const double> state, std::size_t mode, double time) {
+    require_finite(time, "the time for which a motion is followed");
     FollowedMotion motion;
     motion.starts.emplace_back(state.begin(), state.end());
     SegmentRecorder recorder(simulation.system(), motion);

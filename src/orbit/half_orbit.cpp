@@ -1,6 +1,9 @@
 #include "orbit/half_orbit.hpp"
 
 #include "graze/orbit/solve.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,10 +44,10 @@ bool cut_in_half(const Simulation& simulation, Orbit& orbit, const Symmetry& sym
     for (std::size_t k = 0; k + 1 < count; ++k)
         left -= orbit.durations[k];
     orbit.durations.back() = left;
-    ArcFlow flow(simulation, {});
+    ModeFlow flow = flow_of(simulation);
     flow.set_parameters(orbit.parameters);
     std::vector<double> state = orbit.starts.back();
-    if (!(left > 0) || flow.run(mode, state, left) != ArcFlow::Ending::done)
+    if (!(left > 0) || flow.run(mode, state, left) != ModeFlow::Ending::done)
         return false;
     orbit.starts.push_back(std::move(state));
     return true;
@@ -100,6 +103,9 @@ std::optional<Orbit> half_of(const Shooting& shooting, const Orbit& orbit, doubl
 }
 
 std::optional<Orbit> half_orbit(const System& system, const Orbit& orbit, double tolerance) {
+    validate_orbit(system.model(), orbit);
+    if (!(tolerance > 0) || !std::isfinite(tolerance))
+        throw InputError(fmt::format("the tolerance {} is not positive", tolerance), "give a positive one");
     if (system.model().symmetries.empty() || orbit.symmetry)
         return std::nullopt;
     const Simulation simulation(system);

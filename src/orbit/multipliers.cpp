@@ -107,7 +107,7 @@ private:
     void split(double duration, std::vector<Eigen::MatrixXd>& flows, std::vector<std::vector<double>>& starts) {
         const auto n = index(shooting_->states());
         if (!flow_) {
-            flow_.emplace(shooting_->simulation(), std::vector<std::size_t>());
+            flow_ = flow_of(shooting_->simulation());
             flow_->set_parameters(shooting_->parameters());
         }
         for (std::size_t count = 4; count <= most_parts; count *= 4) {
@@ -118,7 +118,7 @@ private:
             for (std::size_t part = 0; part < count; ++part) {
                 begins.push_back(state);
                 Eigen::MatrixXd flow;
-                if (flow_->run(mode_, state, duration / static_cast<double>(count), flow) != ArcFlow::Ending::done)
+                if (run(*flow_, mode_, state, duration / static_cast<double>(count), flow) != ModeFlow::Ending::done)
                     return;
                 good = good && !contracts(flow);
                 finer.emplace_back(flow.leftCols(n));
@@ -132,7 +132,7 @@ private:
 
     const Shooting* shooting_;
     const std::vector<std::size_t>* active_;
-    std::optional<ArcFlow> flow_; ///< once it is needed
+    std::optional<ModeFlow> flow_; ///< once it is needed
     std::size_t mode_ = 0;
     std::vector<double> work_, inputs_;
     std::vector<Eigen::MatrixXd> factors_;

@@ -1,6 +1,7 @@
 #include "graze/orbit/orbit.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
 #include "orbit/close_at_section.hpp"
 
 #include <fmt/format.h>
@@ -72,6 +73,9 @@ std::size_t image_of_transition(const System& system, std::size_t symmetry, std:
 } // namespace
 
 Segment image_of(const System& system, std::size_t symmetry, const Segment& segment, const Orbit& orbit) {
+    require_index(symmetry, system.model().symmetries.size(), "symmetry");
+    require_index(segment.mode, system.model().modes.size(), "mode");
+    end_name(system.model(), segment); // throws when there is no such end
     Segment image = segment;
     image.mode = system.model().symmetries[symmetry].modes[segment.mode];
     if (segment.end == SegmentEnd::event)
@@ -80,6 +84,7 @@ Segment image_of(const System& system, std::size_t symmetry, const Segment& segm
 }
 
 Orbit whole_orbit(const System& system, const Orbit& orbit) {
+    validate_orbit(system.model(), orbit);
     if (!orbit.symmetry)
         return orbit;
     const Segment& last = orbit.signature.back();

@@ -22,7 +22,7 @@ constexpr std::size_t most_splits = 64;
 Shooting::Shooting(const Simulation& simulation, const Orbit& orbit, std::vector<std::size_t> free,
                    std::vector<double> ranges)
     : simulation_(simulation), signature_(orbit.signature), symmetry_(orbit.symmetry), free_(std::move(free)),
-      n_(simulation.system().states()), flow_(simulation, free_), system_(n_, free_.size()),
+      n_(simulation.system().states()), flow_(flow_of(simulation, free_)), system_(n_, free_.size()),
       parameters_(orbit.parameters), periods_(n_), reference_(orbit.starts.front()), state_scales_(n_),
       ranges_(std::move(ranges)) {
     ranges_.resize(free_.size(), 0.0);
@@ -77,7 +77,7 @@ bool Shooting::follow(std::size_t mode, std::span<double> state, double duration
     derivatives = Eigen::MatrixXd::Identity(index(n_), index(n_));
     Eigen::MatrixXd part;
     for (int i = 0; i < parts; ++i) {
-        if (flow_.run(mode, state, duration / parts, part) != ArcFlow::Ending::done)
+        if (run(flow_, mode, state, duration / parts, part) != ModeFlow::Ending::done)
             return false;
         coupling_ = coupling_.cwiseMax(part.leftCols(index(n_)).cwiseAbs());
         derivatives = part.leftCols(index(n_)) * derivatives;
@@ -183,7 +183,7 @@ void Shooting::set_scales(const Eigen::VectorXd& unknowns) {
         constexpr int parts = 8;
         for (int part = 0; part < parts; ++part) {
             if (flow_.run(signature_[pieces_[k].segment].mode, state, unknowns[index(duration_of(k))] / parts) !=
-                ArcFlow::Ending::done)
+                ModeFlow::Ending::done)
                 break;
             state_scales_.note(state);
         }
@@ -259,16 +259,16 @@ bool Shooting::evaluate_piece(std::size_t k, const Eigen::VectorXd& unknowns) {
     const double* start = unknowns.data() + start_of(k);
     piece.end.assign(start, start + n_);
     const double duration = unknowns[index(duration_of(k))];
-    switch (flow_.run(mode, piece.end, duration, piece.flow)) {
-    case ArcFlow::Ending::done:
+    switch (run(flow_, mode, piece.end, duration, piece.flow)) {
+    case ModeFlow::Ending::done:
         break;
-    case ArcFlow::Ending::singular:
+    case ModeFlow::Ending::singular:
         problem_ = fmt::format("the solution ceases to exist within segment {}", piece.segment + 1);
         return false;
-    case ArcFlow::Ending::undefined:
+    case ModeFlow::Ending::undefined:
         problem_ = fmt::format("segment {} leaves the domain of its vector field", piece.segment + 1);
         return false;
-    case ArcFlow::Ending::too_long:
+    case ModeFlow::Ending::too_long:
         problem_ = fmt::format("segment {} takes too many steps", piece.segment + 1);
         took_too_long_ = true;
         return false;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "graze/orbit/orbit.hpp"
-#include "orbit/arc_flow.hpp"
 #include "orbit/cyclic_system.hpp"
+#include "orbit/orbit_flow.hpp"
 #include "orbit/state_scales.hpp"
 
 #include <Eigen/Core>
@@ -96,7 +96,7 @@ public:
     double usual_rate(std::size_t segment) const;
     /// States that are neither drifting nor unchanged by everything.
     const std::vector<std::size_t>& active() const { return active_; }
-    ArcFlow& flow() { return flow_; }
+    ModeFlow& flow() { return flow_; }
     const Simulation& simulation() const { return simulation_; }
     const Signature& signature() const { return signature_; }
     std::optional<std::size_t> symmetry() const { return symmetry_; }
@@ -123,7 +123,7 @@ private:
     std::optional<std::size_t> symmetry_;
     std::vector<std::size_t> free_;
     std::size_t n_;
-    ArcFlow flow_;
+    ModeFlow flow_;
     CyclicSystem system_;
     std::vector<EndFunction> ends_;
     std::vector<Piece> pieces_;

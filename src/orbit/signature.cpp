@@ -1,6 +1,7 @@
 #include "graze/orbit/signature.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
 
 #include <fmt/format.h>
 
@@ -193,6 +194,10 @@ bool can_lead_to(const Transition& transition, std::size_t mode) {
 }
 
 const std::string& end_name(const Model& model, const Segment& segment) {
+    if (segment.end == SegmentEnd::event)
+        require_index(segment.index, model.transitions.size(), "transition");
+    else
+        require_index(segment.index, model.sections.size(), "section");
     return segment.end == SegmentEnd::event ? model.transitions[segment.index].label
                                             : model.sections[segment.index].name;
 }
@@ -236,6 +241,7 @@ std::string to_string(const Model& model, const Signature& signature) {
     // A name that could mean several segments is qualified by its mode.
     std::vector<std::string> names;
     for (const Segment& segment : signature) {
+        require_index(segment.mode, model.modes.size(), "mode");
         const std::string& name = end_name(model, segment);
         const std::size_t meanings = segment.end == SegmentEnd::event ? candidates(model, name).size() : 1;
         names.push_back(
@@ -259,7 +265,11 @@ void validate_signature(const Model& model, const Signature& signature, const Pl
                         std::optional<std::size_t> symmetry) {
     if (signature.empty())
         throw InputError(place, "the signature is empty", "list at least one event or section");
+    if (symmetry)
+        require_index(*symmetry, model.symmetries.size(), "symmetry");
     for (const Segment& segment : signature) {
+        if (segment.end != SegmentEnd::event && segment.end != SegmentEnd::section)
+            throw InputError(place, "a segment has no end", "let an event or a section end it");
         const bool known = segment.end == SegmentEnd::event ? segment.index < model.transitions.size()
                                                             : segment.index < model.sections.size();
         if (!known || segment.mode >= model.modes.size() ||

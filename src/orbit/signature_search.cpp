@@ -163,6 +163,7 @@ std::optional<OrbitSolution> orbit_with_signature(const System& system, const Si
     const Model& model = system.model();
     constexpr double forever = 1e300;
     options.validate();
+    validate_signature(model, signature);
     const Simulation simulated(system, probes_of(model, signature), {}, simulation);
     SignatureSearch follower(system, signature, options, simulated, search);
     Trajectory trajectory(simulated, model.parameter_values(), follower);

@@ -8,8 +8,10 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <set>
+#include <system_error>
 
 namespace graze {
 
@@ -158,6 +160,12 @@ void write_table(hid_t parent, const char* name, ResultFile::Rows rows, bool is_
 } // namespace
 
 void export_hdf5(const ResultFile& file, const std::vector<std::string>& runs, const std::string& path) {
+    std::error_code none; // files that are not there are not the same
+    if (std::filesystem::equivalent(path, file.path(), none))
+        throw InputError(fmt::format("'{}' is the result file itself", path), "name another file for the export");
+    for (const std::string& name : runs)
+        if (!file.find_run(name))
+            throw InputError(fmt::format("the result file has no run '{}'", name), "see graze points");
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // failures are told by exceptions
     const Handle output(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, path);
     for (const std::string& name : runs) {

@@ -1,3 +1,4 @@
+#include "graze/symbolic/require.hpp"
 #include "results/point_rows.hpp"
 #include "results/result_file_state.hpp"
 
@@ -245,6 +246,8 @@ void ResultFile::add_orbit(const std::string& name, const OrbitRecord& record) {
         throw InputError(fmt::format("run '{}' is of kind {}", name, run.kind), "orbits belong to orbit and continue");
     if (!model)
         model = stored_model(run);
+    validate_orbit(*model, record.point.solution.orbit);
+    require_room(run.values.size(), record.point.monitors.size(), "monitors of a point");
     state_->begin();
     try {
         write_row(writer.point, *model, run, record);

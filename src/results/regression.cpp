@@ -1,4 +1,5 @@
 #include "graze/results/regression.hpp"
+#include "graze/symbolic/require.hpp"
 
 #include <cmath>
 #include <numeric>
@@ -6,9 +7,12 @@
 namespace graze {
 
 Regression regression(std::span<const double> x, std::span<const double> y) {
+    require_size(y.size(), x.size(), "values of y beside those of x");
+    require_finite(x, "a value of x");
+    require_finite(y, "a value of y");
     Regression result;
     const auto count = static_cast<double>(x.size());
-    if (x.size() < 2 || x.size() != y.size())
+    if (x.size() < 2)
         return result;
     const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / count;
     const double mean_y = std::accumulate(y.begin(), y.end(), 0.0) / count;

@@ -1,6 +1,7 @@
 #include "graze/results/result_file.hpp"
 
 #include "graze/symbolic/file_name.hpp"
+#include "graze/symbolic/require.hpp"
 #include "results/point_rows.hpp"
 #include "results/result_file_state.hpp"
 
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <stdexcept>
 
 namespace graze {
 
@@ -239,6 +241,13 @@ void ResultFile::add_point(const std::string& name, const PointRecord& point) {
     if (point.coordinates.size() != run.coordinates.size() || result.state.size() != run.states.size() ||
         (result.samples.size() > 0 && result.samples.width != run.values.size()))
         throw InputError(fmt::format("a point does not fit run '{}'", name), "give a value for each of its columns");
+    const SampleSet& given = result.samples;
+    require_size(given.samplings.size(), given.size(), "samplings of samples");
+    require_size(given.values.size(), given.size() * given.width, "values of samples");
+    for (const std::size_t sampling : given.samplings)
+        require_index(sampling, run.samplings.size(), "sampling");
+    require_index(result.mode, run.modes.size(), "mode");
+    require_index(point.direction, run.directions.size(), "direction");
     state_->begin();
     try {
         write_point(writer.point, run, point);
@@ -352,40 +361,49 @@ std::optional<PointRecord> ResultFile::nearest_point(const std::string& name, co
 
 struct ResultFile::Rows::State {
     Statement statement;
+    bool on_row = false;
+    /// The number of a column of the present row.
+    int at(std::size_t column) const {
+        if (!on_row)
+            throw std::logic_error("there is no row to be read: call next until it says that there is none");
+        require_index(column, static_cast<std::size_t>(statement.columns()), "column");
+        return static_cast<int>(column);
+    }
 };
 ResultFile::Rows::Rows(std::unique_ptr<State> state) : state_(std::move(state)) {}
 ResultFile::Rows::~Rows() = default;
 ResultFile::Rows::Rows(Rows&&) noexcept = default;
 bool ResultFile::Rows::next() {
-    return state_->statement.step();
+    return state_->on_row = state_->statement.step();
 }
 std::size_t ResultFile::Rows::columns() const {
     return static_cast<std::size_t>(state_->statement.columns());
 }
 std::string ResultFile::Rows::column_name(std::size_t column) const {
+    require_index(column, columns(), "column");
     return state_->statement.name(static_cast<int>(column));
 }
 bool ResultFile::Rows::is_null(std::size_t column) const {
-    return state_->statement.is_null(static_cast<int>(column));
+    return state_->statement.is_null(state_->at(column));
 }
 bool ResultFile::Rows::is_text(std::size_t column) const {
-    return state_->statement.type(static_cast<int>(column)) == SQLITE_TEXT;
+    return state_->statement.type(state_->at(column)) == SQLITE_TEXT;
 }
 bool ResultFile::Rows::is_integer(std::size_t column) const {
-    return state_->statement.type(static_cast<int>(column)) == SQLITE_INTEGER;
+    return state_->statement.type(state_->at(column)) == SQLITE_INTEGER;
 }
 double ResultFile::Rows::number(std::size_t column) const {
-    return state_->statement.number(static_cast<int>(column));
+    return state_->statement.number(state_->at(column));
 }
 std::int64_t ResultFile::Rows::integer(std::size_t column) const {
-    return state_->statement.integer(static_cast<int>(column));
+    return state_->statement.integer(state_->at(column));
 }
 std::string ResultFile::Rows::text(std::size_t column) const {
-    return state_->statement.text(static_cast<int>(column));
+    return state_->statement.text(state_->at(column));
 }
 
 ResultFile::Rows ResultFile::query(const std::string& sql, const std::vector<double>& values) const {
-    auto state = std::make_unique<Rows::State>(Rows::State{state_->database.prepare_query(sql)});
+    auto state = std::make_unique<Rows::State>(Rows::State{state_->database.prepare_query(sql), false});
     for (std::size_t i = 0; i < values.size(); ++i)
         state->statement.bind(static_cast<int>(i) + 1, values[i]);
     return Rows(std::move(state));

@@ -1,4 +1,8 @@
 #include "graze/results/spectrum.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <complex>
@@ -8,6 +12,11 @@
 namespace graze {
 
 Spectrum spectrum(std::span<const double> samples, double frequency) {
+    require_finite(samples, "a sample");
+    if (!(frequency > 0))
+        throw InputError(fmt::format("the frequency {} of samples is not positive", frequency),
+                         "give samples in a unit of time");
+    require_finite(frequency, "the frequency of samples");
     Spectrum result;
     const std::size_t count = samples.size();
     if (count < 2)

@@ -1,4 +1,5 @@
 #include "graze/study/runner.hpp"
+#include "graze/symbolic/require.hpp"
 #include "graze/symbolic/text_file.hpp"
 #include "graze/symbolic/transform.hpp"
 
@@ -51,6 +52,7 @@ std::size_t combinations(const StudyRun& run) {
 } // namespace
 
 std::size_t direction_of(const StudyRun& run, std::size_t point) {
+    require_index(point, points_of(run), "point");
     if (run.kind != RunKind::sweep)
         return 0;
     const bool second = point % chain_length_of(run) >= sweep_length(run);
@@ -58,6 +60,7 @@ std::size_t direction_of(const StudyRun& run, std::size_t point) {
 }
 
 std::vector<double> coordinates_of(const StudyRun& run, std::size_t point) {
+    require_index(point, points_of(run), "point");
     const std::size_t length = chain_length_of(run), chain = point / length, index = point % length;
     std::vector<double> coordinates(run.axes.size());
     std::size_t rest = chain % combinations(run);

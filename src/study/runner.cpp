@@ -1,6 +1,7 @@
 #include "graze/study/runner.hpp"
 
 #include "graze/model/model_file.hpp"
+#include "graze/symbolic/require.hpp"
 #include "study/branch_run.hpp"
 #include "study/start_point.hpp"
 
@@ -43,7 +44,17 @@ void add_parameters(const StudyRun& run, RunRecord& record) {
             add(p);
 }
 
+/// Of runs that were not read from a file.
+void require_fitting(const StudyRun& run) {
+    require_size(run.value_names.size(), run.values.size(), "names of values");
+    require_size(run.value_units.size(), run.values.size(), "units of values");
+    for (const Variation& axis : run.axes)
+        require_index(axis.index, axis.is_state ? run.model.states.size() : run.model.independent_parameters().size(),
+                      axis.is_state ? "state" : "independent parameter");
+}
+
 RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, std::size_t points) {
+    require_fitting(run);
     RunRecord record;
     record.name = run.name;
     record.kind = name_of(run.kind);
@@ -112,6 +123,9 @@ std::vector<ChainProgress> progress_of(const ResultFile& file, const StudyRun& r
 }
 
 std::set<std::string> wanted_runs(const Study& study, const std::vector<std::string>& only) {
+    for (const std::string& name : only)
+        if (std::none_of(study.runs.begin(), study.runs.end(), [&](const StudyRun& run) { return run.name == name; }))
+            throw InputError(fmt::format("the study has no run '{}'", name), "name one of its runs");
     std::set<std::string> wanted(only.begin(), only.end());
     for (auto run = study.runs.rbegin(); run != study.runs.rend(); ++run)
         if (only.empty() || wanted.contains(run->name)) {

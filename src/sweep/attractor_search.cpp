@@ -1,5 +1,6 @@
 #include "sweep/attractor_search.hpp"
 
+#include "graze/symbolic/require.hpp"
 #include "sweep/approach.hpp"
 #include "sweep/quasi_periodic.hpp"
 #include "sweep/transient_search.hpp"
@@ -28,14 +29,17 @@ constexpr double longest_step = 8;     ///< in periods of the section's clock: a
 
 } // namespace
 
-AttractorSearch::AttractorSearch(const AttractorSetting& setting)
-    : setting_(&setting),
-      watcher_(setting.map, 2 * extension * setting.options.largest_period + 1, setting.options.bounds),
-      recorder_(setting.layout, 0), finder_(setting.map, setting.layout, setting.image, setting.image_modes),
-      exponent_(setting.map), equilibria_(setting.field), growth_(setting.field, setting.map) {}
+AttractorSearch::AttractorSearch(std::shared_ptr<const AttractorSetting> setting)
+    : setting_(std::move(setting)),
+      watcher_(setting_->map, 2 * extension * setting_->options.largest_period + 1, setting_->options.bounds),
+      recorder_(setting_->layout, 0), finder_(setting_->map, setting_->layout, setting_->image, setting_->image_modes),
+      exponent_(setting_->map), equilibria_(setting_->field), growth_(setting_->field, setting_->map) {}
 
 void AttractorSearch::begin(std::span<const double> parameters, std::span<const double> state, std::size_t mode) {
     const System& compiled = setting_->simulation.system();
+    require_size(parameters.size(), compiled.parameters(), "independent parameters");
+    require_size(state.size(), compiled.states(), "states");
+    require_index(mode, compiled.model().modes.size(), "mode");
     parameters_.assign(parameters.begin(), parameters.end());
     periods_.resize(compiled.states());
     std::vector<double> work(compiled.workspace());
@@ -342,13 +346,13 @@ class AttractorSearches : public SearchFactory {
 public:
     AttractorSearches(const System& system, const AttractorOptions& options, const std::vector<Sampling>& samplings,
                       const std::vector<Expression>& values, const SimulationOptions& simulation_options)
-        : setting_(system, options, samplings, values, simulation_options) {}
+        : setting_(std::make_shared<const AttractorSetting>(system, options, samplings, values, simulation_options)) {}
 
-    const Simulation& simulation() const override { return setting_.simulation; }
+    const Simulation& simulation() const override { return setting_->simulation; }
     std::unique_ptr<PointSearch> make() const override { return std::make_unique<AttractorSearch>(setting_); }
 
 private:
-    AttractorSetting setting_;
+    std::shared_ptr<const AttractorSetting> setting_;
 };
 
 } // namespace

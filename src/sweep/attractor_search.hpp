@@ -21,7 +21,7 @@ namespace graze {
 /// Follows a motion until it is known what it settles on.
 class AttractorSearch : public PointSearch {
 public:
-    explicit AttractorSearch(const AttractorSetting& setting);
+    explicit AttractorSearch(std::shared_ptr<const AttractorSetting> setting);
 
     void begin(std::span<const double> parameters, std::span<const double> state, std::size_t mode) override;
     Trajectory& trajectory() override;
@@ -59,7 +59,7 @@ private:
     bool finish(Label label);
     void start_exponent();
 
-    const AttractorSetting* setting_;
+    std::shared_ptr<const AttractorSetting> setting_;
     ReturnWatcher watcher_;
     SampleRecorder recorder_;
     OrbitFinder finder_;

@@ -1,6 +1,10 @@
 #include "graze/sweep/plan.hpp"
 
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
 #include "graze/trajectory/ensemble.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -129,6 +133,14 @@ void work(Execution& execution, std::size_t slots) {
 
 bool execute(const Plan& plan, const SearchFactory& searches, std::span<const ChainProgress> progress,
              const ExecutionOptions& options, const Sink& sink) {
+    if (!plan.start || !sink)
+        throw InputError("a plan needs a start, and somebody who takes its results", "give both functions");
+    if (!progress.empty())
+        require_size(progress.size(), plan.chains, "chains of progress");
+    for (const ChainProgress& chain : progress)
+        require_room(plan.chain_length, chain.done, "points of a chain done");
+    if (options.jobs < 1)
+        throw InputError(fmt::format("{} jobs cannot do anything", options.jobs), "give at least one");
     Execution execution{plan, searches, progress, options, sink};
     std::size_t chains = 0;
     for (std::size_t c = 0; c < plan.chains; ++c)

@@ -1,4 +1,5 @@
 #include "sweep/sample_recorder.hpp"
+#include "graze/symbolic/require.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,8 @@ SampleRecorder::Layout::Layout(const System& system, const std::vector<Sampling>
     values_ = system.function_of(values);
     for (std::size_t s = 0; s < samplings.size(); ++s) {
         const Sampling& sampling = samplings[s];
+        for (const std::size_t event : sampling.events)
+            require_index(event, model.events.size(), "event");
         image_of_sampling_.push_back(sampling.symmetry ? images_.size() : none);
         if (sampling.symmetry)
             images_.push_back(system.symmetry(*sampling.symmetry).map);

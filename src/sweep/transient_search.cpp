@@ -1,9 +1,12 @@
 #include "sweep/transient_search.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
 
 #include <fmt/format.h>
 
 #include <limits>
+
+#include <utility>
 
 namespace graze {
 
@@ -32,6 +35,15 @@ void TransientOptions::validate(const Model& model) const {
         refuse("nothing says what a period is", "name a section whose passages are counted");
     if (!section.empty())
         section_probe(model, section);
+    for (const std::size_t event : counted)
+        require_index(event, model.events.size(), "event that is counted");
+    for (const auto& [state, range] : bounds) {
+        require_index(state, model.states.size(), "state");
+        if (!(range.first < range.second))
+            refuse("bounds of a state are not in order", "give the least value, then the greatest");
+    }
+    if (!(greatest_speed >= 0))
+        refuse("the greatest speed is negative", "give 0 for any, or a positive one");
     if (!(time > 0) && periods == 0 && contacts == 0 && !(greatest_speed > 0))
         refuse("nothing ends the simulation", "give a time, a number of periods or of contacts");
 }
@@ -46,10 +58,15 @@ TransientSetting::TransientSetting(const System& system, const TransientOptions&
         counted.at(event) = true;
 }
 
-TransientSearch::TransientSearch(const TransientSetting& setting) : setting_(&setting), recorder_(setting.layout, 0) {}
+TransientSearch::TransientSearch(std::shared_ptr<const TransientSetting> setting)
+    : setting_(std::move(setting)), recorder_(setting_->layout, 0) {}
 
 void TransientSearch::begin(std::span<const double> parameters, std::span<const double> state, std::size_t mode) {
     const TransientOptions& options = setting_->options;
+    const System& system = setting_->simulation.system();
+    require_size(parameters.size(), system.parameters(), "independent parameters");
+    require_size(state.size(), system.states(), "states");
+    require_index(mode, system.model().modes.size(), "mode");
     recorder_.begin(parameters);
     trajectory_.emplace(setting_->simulation, parameters, static_cast<Observer&>(*this));
     result_ = {};
@@ -142,13 +159,13 @@ class TransientSearches : public SearchFactory {
 public:
     TransientSearches(const System& system, const TransientOptions& options, const std::vector<Sampling>& samplings,
                       const std::vector<Expression>& values, const SimulationOptions& simulation_options)
-        : setting_(system, options, samplings, values, simulation_options) {}
+        : setting_(std::make_shared<const TransientSetting>(system, options, samplings, values, simulation_options)) {}
 
-    const Simulation& simulation() const override { return setting_.simulation; }
+    const Simulation& simulation() const override { return setting_->simulation; }
     std::unique_ptr<PointSearch> make() const override { return std::make_unique<TransientSearch>(setting_); }
 
 private:
-    TransientSetting setting_;
+    std::shared_ptr<const TransientSetting> setting_;
 };
 
 } // namespace

@@ -26,7 +26,7 @@ struct TransientSetting {
 /// Follows a motion for the time or count asked for.
 class TransientSearch : public PointSearch, private Observer {
 public:
-    explicit TransientSearch(const TransientSetting& setting);
+    explicit TransientSearch(std::shared_ptr<const TransientSetting> setting);
 
     void begin(std::span<const double> parameters, std::span<const double> state, std::size_t mode) override;
     Trajectory& trajectory() override { return *trajectory_; }
@@ -40,7 +40,7 @@ private:
     bool stop() override;
     double end_of(double time) const;
 
-    const TransientSetting* setting_;
+    std::shared_ptr<const TransientSetting> setting_;
     SampleRecorder recorder_;
     std::optional<Trajectory> trajectory_;
     std::size_t periods_ = 0, contacts_ = 0, all_periods_ = 0;

@@ -44,8 +44,23 @@ int arity(Operation operation) {
     case Operation::power:
         return 2;
     default:
-        return 1;
+        break;
     }
+    if (operation > Operation::tanh)
+        throw std::invalid_argument("there is no such operation");
+    return 1;
+}
+
+void Expression::refuse_node() {
+    throw std::invalid_argument("the graph does not have such a node");
+}
+
+void Expression::refuse_empty() {
+    throw std::invalid_argument("an expression is empty: it names nothing");
+}
+
+void Expression::refuse_name() {
+    throw std::invalid_argument("only symbols have names");
 }
 
 std::size_t Graph::Hash::operator()(const Node& node) const {

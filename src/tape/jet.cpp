@@ -1,5 +1,6 @@
 #include "graze/tape/jet.hpp"
 
+#include "graze/symbolic/require.hpp"
 #include "tape/step_finder.hpp"
 #include "tape/tape_analysis.hpp"
 
@@ -57,7 +58,7 @@ bool same_operands(const KernelStep& one, const KernelStep& other) {
 
 class TapeJet final : public Jet {
 public:
-    TapeJet(const Tape& tape, int order, const KernelTable& table);
+    TapeJet(const Tape& tape, int order, LaneKind kind, const KernelTable& table);
 
     int order() const override { return order_; }
     int width() const override { return static_cast<int>(layout_.number); }
@@ -65,11 +66,18 @@ public:
     void compute(std::span<const double> states) override;
     void begin(std::span<const double> states) override;
     const double* state(std::size_t index) const override {
+        require_index(index, states_, "state");
         return memory_.data() + layout_.registers + index * layout_.series;
     }
-    const double* output(std::size_t index) const override { return outputs_[index]; }
+    const double* output(std::size_t index) const override {
+        require_index(index, outputs_.size(), "output");
+        return outputs_[index];
+    }
     std::span<const Series> series() const override { return series_; }
     void find_steps(double log_tolerance, std::span<const double> references, std::span<double> steps) const override {
+        require_single_values("steps");
+        require_lanes(references);
+        require_lanes(steps);
         table_.steps(to_follow_, order_, log_tolerance, references.data(), steps.data());
         guard_steps(steps);
     }
@@ -77,22 +85,34 @@ public:
                            std::span<const double> values, std::span<const double> slopes,
                            std::span<double> worst) const override;
     void guard_steps(std::span<double> steps) const override {
+        require_lanes(steps);
         if (guards_.argument_count + guards_.quotient_count > 0)
             table_.guard(guards_, order_, steps.data());
     }
     void evaluate_states(std::span<const double> times, std::span<double> values,
                          std::span<double> slopes) const override {
+        require_lanes(times);
+        require_states(values);
+        require_states(slopes);
         table_.sums_and_slopes(series_.data(), degrees_.data(), states_, times.data(), values.data(), slopes.data());
     }
     void evaluate_states(std::span<const double> times, std::span<double> values) const override {
+        require_lanes(times);
+        require_states(values);
         for (std::size_t i = 0; i < states_; ++i)
             table_.sum(state(i), degrees_[i], times.data(), values.data() + i * layout_.number);
     }
     void evaluate_output(std::size_t index, std::span<const double> times, std::span<double> values) const override {
+        require_lanes(times);
+        require_lanes(values);
         table_.sum(output(index), order_, times.data(), values.data());
     }
     void bound_outputs(std::span<const double> lengths, std::span<double> least,
                        std::span<double> sizes) const override {
+        require_single_values("bounds");
+        require_lanes(lengths);
+        require_room(outputs_.size() * layout_.number, least.size(), "bounds of outputs");
+        require_size(sizes.size(), least.size(), "sizes of outputs");
         for (std::size_t i = 0, at = 0; at < least.size(); ++i, at += layout_.number)
             table_.bound(outputs_[i], order_, lengths.data(), &least[at], &sizes[at]);
     }
@@ -115,6 +135,16 @@ private:
         double* to;
     };
 
+    void require_lanes(std::span<const double> values) const {
+        require_room(values.size(), layout_.number, "numbers, one for each lane,");
+    }
+    void require_states(std::span<const double> values) const {
+        require_room(values.size(), states_ * layout_.number, "numbers, states for each lane,");
+    }
+    void require_single_values(const char* what) const {
+        if (tangent_)
+            throw std::invalid_argument(std::string("a tangent jet has no ") + what + ": its lanes are derivatives");
+    }
     void add_segment(const std::vector<KernelStep>& steps, std::vector<Segment>& segments);
     void find_chains(const std::vector<Segment>& segments);
     void find_constants(const Tape& tape, const KernelTable& table);
@@ -124,6 +154,7 @@ private:
     void sort_series(const Tape& tape);
 
     const KernelTable& table_;
+    bool tangent_;
     int order_;
     std::size_t states_;
     std::size_t parameters_;
@@ -150,9 +181,9 @@ private:
     std::vector<int> degrees_;                               ///< of states, at least 1
 };
 
-TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
-    : table_(table), order_(order), states_(tape.states), parameters_(tape.parameters),
-      layout_(tape, order, table.width), memory_(layout_.size) {
+TapeJet::TapeJet(const Tape& tape, int order, LaneKind kind, const KernelTable& table)
+    : table_(table), tangent_(kind == LaneKind::tangent), order_(order), states_(tape.states),
+      parameters_(tape.parameters), layout_(tape, order, table.width), memory_(layout_.size) {
     const auto register_at = [&](std::uint32_t index) {
         return memory_.data() + layout_.registers + index * layout_.series;
     };
@@ -184,10 +215,10 @@ TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
     // Twice as far as to where the terms of an exponential or a sine are largest, and not so far that its last ones
     // grow.
     const double change = order < 6 ? 0.7 * order : 4;
-    for (const auto& [index, kind, exponent] : guards.arguments) {
-        const bool power = kind == GuardKind::power;
+    for (const auto& [index, guard, exponent] : guards.arguments) {
+        const bool power = guard == GuardKind::power;
         arguments_.push_back({{register_at(index), layout_.number},
-                              kind,
+                              guard,
                               power ? 0 : change,
                               power ? change / exponent : 0,
                               power ? std::exp(-nothing / exponent) : 0});
@@ -289,16 +320,14 @@ void TapeJet::compute_constants() {
 }
 
 void TapeJet::set_parameters(std::span<const double> parameters) {
-    if (parameters.size() != parameters_ * layout_.number)
-        throw std::invalid_argument("wrong number of parameters for a jet");
+    require_size(parameters.size(), parameters_ * layout_.number, "parameters of a jet");
     begun_ = false;
     std::ranges::copy(parameters, memory_.data());
     compute_constants();
 }
 
 void TapeJet::set_states(std::span<const double> states) {
-    if (states.size() != states_ * layout_.number)
-        throw std::invalid_argument("wrong number of states for a jet");
+    require_size(states.size(), states_ * layout_.number, "states of a jet");
     double* to = memory_.data() + layout_.registers;
     if (layout_.number == 1) {
         for (const double value : states) {
@@ -352,6 +381,10 @@ void TapeJet::find_disagreement(const Jet& end, const EndAllowance& allowance, s
     const auto& other = static_cast<const TapeJet&>(end); // there is no other kind
     if (&other.table_ != &table_ || other.layout_.size != layout_.size || other.order_ != order_)
         throw std::invalid_argument("ends of steps can be compared only with a jet of the same tape");
+    require_lanes(lengths);
+    require_states(values);
+    require_states(slopes);
+    require_lanes(worst);
     table_.disagreement(comparison_, {memory_.data(), other.memory_.data(), values.data(), slopes.data(), allowance},
                         lengths.data(), worst.data());
 }
@@ -396,17 +429,30 @@ std::string_view name_of(InstructionSet set) {
     }
 }
 
+namespace {
+
+void require_known(LaneKind kind, InstructionSet set) {
+    if (kind != LaneKind::single && kind != LaneKind::ensemble && kind != LaneKind::tangent)
+        throw std::invalid_argument("there is no such kind of lanes");
+    if (set != InstructionSet::baseline && set != InstructionSet::avx2 && set != InstructionSet::avx512)
+        throw std::invalid_argument("there is no such instruction set");
+}
+
+} // namespace
+
 int lanes_of(LaneKind kind, InstructionSet set) {
+    require_known(kind, set);
     const int width = table_of(kind, set).width;
     return kind == LaneKind::tangent ? width - 1 : width;
 }
 
 std::unique_ptr<Jet> make_jet(const Tape& tape, int order, LaneKind kind, InstructionSet set) {
+    require_known(kind, set);
     if (order < 1 || order > highest_order)
         throw std::invalid_argument("the order of a jet must be between 1 and " + std::to_string(highest_order));
     if (!is_supported(set))
         throw std::invalid_argument("this processor does not have the instruction set " + std::string(name_of(set)));
-    return std::make_unique<TapeJet>(tape, order, table_of(kind, set));
+    return std::make_unique<TapeJet>(tape, order, kind, table_of(kind, set));
 }
 
 } // namespace graze

@@ -29,9 +29,15 @@ void Ensemble::run(std::span<Trajectory> trajectories) {
 void Ensemble::require_own(const Trajectory& trajectory) const {
     if (!(trajectory.simulation() == simulation_))
         throw std::invalid_argument("a trajectory of one simulation cannot run in an ensemble of another");
+    if (!trajectory.is_started())
+        throw std::logic_error("a trajectory has to be started before it can run");
+    if (std::count(slots_.begin(), slots_.end(), &trajectory) > 1)
+        throw std::invalid_argument("a trajectory cannot run in two slots at once");
 }
 
 void Ensemble::run(std::span<Trajectory* const> slots, const Again& again) {
+    if (!again)
+        throw std::invalid_argument("an ensemble has to be told what comes after a trajectory: give a function");
     slots_.assign(slots.begin(), slots.end());
     for (const Trajectory* trajectory : slots_)
         if (trajectory)

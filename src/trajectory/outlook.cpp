@@ -4,15 +4,18 @@
 #include "graze/flow/step_size.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace graze {
 
 Outlook::Outlook(const Simulation& simulation, int width)
-    : simulation_(simulation), width_(static_cast<std::size_t>(width)),
+    : simulation_(simulation), width_(static_cast<std::size_t>(std::max(width, 1))),
       log_tolerance_(StepSize(simulation.order(), simulation.options().tolerance).log_tolerance()),
       allowance_{StepCheck::allowance * simulation.options().tolerance,
                  StepCheck::value_allowance * simulation.options().tolerance, StepCheck::smallest_size},
       lengths_(width_), states_(simulation.system().states() * width_), slopes_(states_.size()), disagreement_(width_) {
+    if (width < 1)
+        throw std::invalid_argument("an outlook needs at least one lane");
     std::size_t most_watched = 0;
     for (std::size_t mode = 0; mode < simulation.model().modes.size(); ++mode)
         most_watched = std::max(most_watched, simulation.system().mode(mode).watched.size());

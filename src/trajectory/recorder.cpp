@@ -1,10 +1,24 @@
 #include "graze/trajectory/recorder.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace graze {
+
+Relay::Relay(std::vector<Observer*> observers) : observers_(std::move(observers)) {
+    if (std::find(observers_.begin(), observers_.end(), nullptr) != observers_.end())
+        throw InputError("one of the observers is none", "leave it out");
+}
+
+ArcMinima::ArcMinima(Receiver receiver) : receiver_(std::move(receiver)) {
+    if (!receiver_)
+        throw InputError("nobody receives the minima", "give a function");
+}
 
 void Relay::step(const Step& step) {
     for (Observer* observer : observers_)
@@ -52,7 +66,14 @@ void Recorder::clear() {
 
 Sampler::Sampler(double start, double spacing, std::size_t count, std::vector<double> periods, Receiver receiver)
     : start_(start), spacing_(spacing), count_(count), periods_(std::move(periods)), state_(periods_.size()),
-      receiver_(std::move(receiver)) {}
+      receiver_(std::move(receiver)) {
+    require_finite(start, "the time of the first sample");
+    require_finite(periods_, "the period of a state");
+    if (!(spacing > 0) || !std::isfinite(spacing))
+        throw InputError(fmt::format("the spacing {} of samples is no length of time", spacing), "give a positive one");
+    if (!receiver_)
+        throw InputError("nobody receives the samples", "give a function");
+}
 
 void Sampler::step(const Step& step) {
     for (; taken_ < count_; ++taken_) {

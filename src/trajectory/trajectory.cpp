@@ -86,6 +86,7 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     mode_ = mode;
     compiled_mode_ = &simulation_.system().mode(mode);
     started_ = true;
+    series_ = {};
     outcome_ = {};
     steps_ = 0;
     time_ = start_time_ = time;
@@ -199,6 +200,8 @@ std::span<const double> Trajectory::series(std::size_t index) {
 double Trajectory::propose(const Jet& jet, double step, std::size_t lane) {
     require_started();
     require_index(lane, static_cast<std::size_t>(jet.width()), "lane");
+    if (jet.order() != order_)
+        throw std::invalid_argument("a trajectory needs the jets of its own simulation");
     find_series(jet, lane);
     // Event functions and whatever else is observed must be as accurate as the states.
     step = limited_by_floors(step);
@@ -267,6 +270,8 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
     require_started();
     if (finished())
         return;
+    if (series_.empty())
+        throw std::logic_error("a step has to be proposed before it can be made");
     if (std::isnan(proposed_)) {
         announce_contact();
         return finish_undefined();

@@ -1,5 +1,7 @@
 #include "graze/tape/jet.hpp"
 
+#include "graze/symbolic/input_error.hpp"
+
 #include "tape/problems.hpp"
 
 #include <gtest/gtest.h>
@@ -344,9 +346,9 @@ TEST(Jet, RefusesWrongUse) {
             EXPECT_THROW(make_jet(tape, 3, LaneKind::single, set), std::invalid_argument);
         }
     const auto jet = make_jet(tape, 3, LaneKind::single);
-    EXPECT_THROW(jet->set_parameters(std::vector<double>(1)), std::invalid_argument);
-    EXPECT_THROW(jet->compute(std::vector<double>(1)), std::invalid_argument);
-    EXPECT_THROW(jet->begin(std::vector<double>(1)), std::invalid_argument);
+    EXPECT_THROW(jet->set_parameters(std::vector<double>(1)), InputError);
+    EXPECT_THROW(jet->compute(std::vector<double>(1)), InputError);
+    EXPECT_THROW(jet->begin(std::vector<double>(1)), InputError);
 }
 
 TEST(Jet, BestInstructionSetIsSupported) {

@@ -683,14 +683,12 @@ TEST(Singular, FastMotionAtALateTimeIsNot) {
     EXPECT_EQ(trajectory.outcome().ending, Ending::end_time);
 }
 
-TEST(Trajectory, EndsAtOnceWhenItWasNotStarted) {
+TEST(Trajectory, CannotRunBeforeItIsStarted) {
     const Simulation simulation(load_model("impact-oscillator"));
     Observer nobody;
     Trajectory trajectory(simulation, simulation.model().parameter_values(), nobody);
     JetSet jets(simulation, LaneKind::single);
-    run(trajectory, jets);
-    EXPECT_EQ(trajectory.outcome().ending, Ending::end_time);
-    EXPECT_EQ(trajectory.time(), 0);
+    EXPECT_THROW(run(trajectory, jets), std::logic_error);
 }
 
 } // namespace

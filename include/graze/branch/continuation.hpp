@@ -47,6 +47,7 @@ private:
     bool differences(std::span<const double> u);
     std::size_t unknowns_;
     Map residuals_, jacobian_;
+    bool evaluated_ = false;
     std::vector<double> scales_, values_, matrix_;
 };
 

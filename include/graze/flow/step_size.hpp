@@ -14,12 +14,18 @@ inline constexpr double largest_tolerance = 1e-2;
 /// The order at which a step costs least per unit of time for a relative error of `tolerance`:
 /// 1 - 0.55 ln(tolerance), rounded up, from 4 to 20. (1 - ln(tolerance) / 2 is best where the work of a step grows with
 /// the square of its order, Jorba and Zou 2005, section 3.2; here it grows a little less.)
+/// @throws InputError unless the tolerance is positive; one that is out of range counts as the nearest within
 int order_for_tolerance(double tolerance);
+/// @throws InputError unless the order is one that steps can have
+void require_order(int order);
+/// @throws InputError unless the tolerance is positive
+void require_tolerance(double tolerance);
 
 /// Chooses steps from the last two coefficients of each state (Jorba and Zou 2005), each state being measured
 /// by its own size over the step, so that units and magnitudes of different states do not matter.
 class StepSize {
 public:
+    /// @throws InputError for an order or tolerance that steps cannot have
     StepSize(int order, double tolerance);
 
     /// @param states order + 1 coefficients of each

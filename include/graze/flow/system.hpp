@@ -79,7 +79,9 @@ public:
     /// A section's function likewise; of a phase section, the state less the value. Of the image of the state under a
     /// symmetry, if one is given.
     const Function& section(std::size_t index, std::optional<std::size_t> symmetry = std::nullopt) const {
-        return at(at(parts_->sections, index, "section"), symmetry ? 1 + *symmetry : 0, "symmetry beside section");
+        if (symmetry)
+            require_index(*symmetry, parts_->symmetries.size(), "symmetry");
+        return at(parts_->sections, index, "section")[symmetry ? 1 + *symmetry : 0];
     }
     /// Periods of the cyclic states (0 for others), from the parameters alone.
     const Function& periods() const { return parts_->periods; }

@@ -11,6 +11,7 @@ namespace graze {
 /// a watched section without a transition, an unused parameter, definition or jump, conditions that may all fail or
 /// never matter, a start beyond a barrier or where rates are not finite, a symmetry that does not hold, ...
 /// @param model a valid one
+/// @throws InputError when the model is not valid
 std::vector<std::string> model_warnings(const Model& model);
 
 /// The same with the part of the model that each is about, such as "events.stop"; empty where it is no single one.
@@ -20,6 +21,7 @@ struct ModelWarning {
 std::vector<ModelWarning> located_warnings(const Model& model);
 
 /// The connectivity graph (modes as nodes, transitions as arrows) in the language of Graphviz.
+/// @throws InputError when the model is not valid
 std::string connectivity_graph(const Model& model);
 
 } // namespace graze

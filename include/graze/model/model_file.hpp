@@ -14,6 +14,7 @@ Model parse_model(std::string_view text, const std::string& file);
 /// Reads a model file. @throws InputError also when the file cannot be read
 Model read_model(const std::string& path);
 /// Writes a model as a file that reads back to the same model.
+/// @throws InputError when the model is not valid
 std::string write_model(const Model& model);
 
 } // namespace graze

@@ -17,6 +17,7 @@ public:
     virtual ~PointSearch() = default;
     /// Begins a point. @throws InputError for states or parameters that the model does not admit
     virtual void begin(std::span<const double> parameters, std::span<const double> state, std::size_t mode) = 0;
+    // What follows is for after `begin`, in this order, and unchecked.
     /// The trajectory to be run to its end now; it stays at its address until the next `begin`.
     virtual Trajectory& trajectory() = 0;
     /// To be called when the trajectory has finished. @return false when `result` is known

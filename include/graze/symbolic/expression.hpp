@@ -1,5 +1,7 @@
 #pragma once
 
+#include "graze/symbolic/require.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -37,7 +39,7 @@ enum class Operation : std::uint8_t {
     tanh,
 };
 
-/// 0 for leaves, 1 for functions and negation, 2 for arithmetic.
+/// 0 for leaves, 1 for functions and negation, 2 for arithmetic. @throws std::invalid_argument for no operation at all
 int arity(Operation operation);
 
 /// Index of a node in its graph. Operands always have smaller indices than the node that uses them, so that a
@@ -75,11 +77,21 @@ public:
     Expression apply(Operation operation, const Expression& left, const Expression& right);
 
     std::size_t size() const { return nodes_.size(); }
-    const Node& node(NodeIndex index) const { return nodes_[index]; }
-    const std::string& symbol_name(const Node& node) const { return names_[node.left]; }
+    /// @throws InputError, here and below, for what the graph does not have
+    const Node& node(NodeIndex index) const {
+        require_index(index, nodes_.size(), "node");
+        return nodes_[index];
+    }
+    const std::string& symbol_name(const Node& node) const {
+        require_index(node.left, names_.size(), "name");
+        return names_[node.left];
+    }
     /// Whether the node has no value whatever the values of its symbols, as 1/0, log(-1) + x or 1e308*10.
     /// Such expressions are kept as they were written.
-    bool is_undefined(NodeIndex index) const { return undefined_[index]; }
+    bool is_undefined(NodeIndex index) const {
+        require_index(index, undefined_.size(), "node");
+        return undefined_[index];
+    }
 
 private:
     friend class Simplifier;
@@ -109,24 +121,40 @@ class Expression {
 public:
     /// Names nothing; only assignment and `empty` may be used.
     Expression() = default;
-    Expression(std::shared_ptr<Graph> graph, NodeIndex index) : graph_(std::move(graph)), index_(index) {}
+    /// @throws std::invalid_argument for a node that the graph does not have
+    Expression(std::shared_ptr<Graph> graph, NodeIndex index) : graph_(std::move(graph)), index_(index) {
+        if (!graph_ || index >= graph_->size())
+            refuse_node();
+    }
 
     bool empty() const { return graph_ == nullptr; }
     const std::shared_ptr<Graph>& graph() const { return graph_; }
     NodeIndex index() const { return index_; }
-    const Node& node() const { return graph_->node(index_); }
+    /// @throws std::invalid_argument, here and below, when the expression is empty
+    const Node& node() const {
+        if (!graph_)
+            refuse_empty();
+        return graph_->node(index_);
+    }
     Operation operation() const { return node().operation; }
     bool is_number() const { return operation() == Operation::number; }
     bool is_number(double value) const { return is_number() && node().value == value; }
     bool is_symbol() const { return operation() == Operation::symbol; }
-    /// Name of a symbol.
-    const std::string& name() const { return graph_->symbol_name(node()); }
+    /// Name of a symbol. @throws std::invalid_argument for any other expression
+    const std::string& name() const {
+        if (!is_symbol())
+            refuse_name();
+        return graph_->symbol_name(node());
+    }
 
     friend bool operator==(const Expression& one, const Expression& other) {
         return one.graph_ == other.graph_ && one.index_ == other.index_;
     }
 
 private:
+    [[noreturn]] static void refuse_node();
+    [[noreturn]] static void refuse_empty();
+    [[noreturn]] static void refuse_name();
     std::shared_ptr<Graph> graph_;
     NodeIndex index_ = 0;
 };

@@ -46,7 +46,7 @@ public:
     virtual int width() const = 0;
 
     /// @param parameters [parameter * width() + lane]; in a tangent jet lanes 1.. are directional derivatives
-    /// @throws std::invalid_argument (here and below) when the number of numbers is wrong
+    /// @throws InputError (here and below) when there are fewer numbers than there must be, or no such state or output
     virtual void set_parameters(std::span<const double> parameters) = 0;
     /// Computes coefficients 0 .. order() from states [state * width() + lane].
     virtual void compute(std::span<const double> states) = 0;
@@ -63,7 +63,7 @@ public:
 
     /// How far the series of all states and outputs may be followed in each lane: the largest step at which the last
     /// two terms of each, relative to its size, are at most a tolerance (Jorba and Zou 2005), and do not grow, as
-    /// `guard_steps` leaves it. (Not for tangent jets.)
+    /// `guard_steps` leaves it. (Not for tangent jets: std::invalid_argument.)
     /// @param log_tolerance to base 2; @param references [lane] lengths over which sizes are taken, such as the last
     /// step
     /// @param steps [lane] infinity where all last two terms are zero, NaN where something is not finite
@@ -93,7 +93,8 @@ public:
     /// Sums the series of one output, in each lane at its own time. @param values [lane]
     virtual void evaluate_output(std::size_t index, std::span<const double> times, std::span<double> values) const = 0;
     /// Bounds the first outputs from below on [0, lengths[lane]] by their partial sums at the end, of which they are
-    /// convex combinations throughout, less their round-off; -infinity if they are not finite. (Not for tangent jets.)
+    /// convex combinations throughout, less their round-off; -infinity if they are not finite. (Not for tangent jets:
+    /// std::invalid_argument.)
     /// @param least [output * width() + lane], of as many outputs as it has room for; @param sizes of the series, as
     /// many: sum |c_k| length^k
     virtual void bound_outputs(std::span<const double> lengths, std::span<double> least,

@@ -1,51 +1,19 @@
 #pragma once
 
-#include "graze/tape/jet.hpp"
+#include "graze/flow/mode_jets.hpp"
 #include "graze/trajectory/simulation.hpp"
-
-#include <cstddef>
-#include <memory>
-#include <span>
-#include <vector>
 
 namespace graze {
 
-/// Jets for the modes of a simulation, made when first needed: two of each, in turn that of a step and that of the
-/// next, of which looking at the step's end makes the beginning.
-class JetSet {
+/// Jets for the modes of a simulation, on which its trajectories run.
+class JetSet : public ModeJets {
 public:
-    JetSet(const Simulation& simulation, LaneKind kind, InstructionSet set = best_instruction_set());
-    /// The jet of a mode.
-    Jet& operator()(std::size_t mode) { return made(jets_, mode); }
-    /// The jet of a mode, computed from states, which becomes the present one: the next one has begun there if the
-    /// states are those at the end of the last step.
-    Jet& computed(std::size_t mode, std::span<const double> states) {
-        if (next_jets_[mode])
-            jets_[mode].swap(next_jets_[mode]);
-        Jet& jet = (*this)(mode);
-        jet.compute(states);
-        return jet;
-    }
-    /// That of the next step, to be begun where the step ends.
-    Jet& next(std::size_t mode) { return made(next_jets_, mode); }
-    /// Parameters [parameter * width + lane] for all modes, also those made later.
-    void set_parameters(std::span<const double> parameters);
-    /// The same for the jets of one mode alone.
-    void set_parameters(std::size_t mode, std::span<const double> parameters);
-    int width() const { return width_; }
+    JetSet(const Simulation& simulation, LaneKind kind, InstructionSet set = best_instruction_set())
+        : ModeJets(simulation.system(), simulation.order(), kind, set), simulation_(simulation) {}
     const Simulation& simulation() const { return simulation_; }
 
 private:
-    using Jets = std::vector<std::unique_ptr<Jet>>;
-    Jet& made(Jets& jets, std::size_t mode) { return jets[mode] ? *jets[mode] : make(jets, mode); }
-    Jet& make(Jets& jets, std::size_t mode);
-
     Simulation simulation_;
-    LaneKind kind_;
-    InstructionSet set_;
-    int width_;
-    std::vector<double> parameters_;
-    Jets jets_, next_jets_;
 };
 
 } // namespace graze

@@ -16,6 +16,7 @@ struct Step {
     std::span<const Series> events;   ///< of the watched events of the mode
     std::span<const Series> observed; ///< of the observed expressions
 
+    /// Unchecked, since asked at every step: a state, or series, that the step has.
     double state(std::size_t index, double s) const { return value(states[index], s); }
     double value(const Series& series, double s) const {
         return evaluate_polynomial(series, static_cast<std::size_t>(order) + 1, s);

@@ -24,6 +24,7 @@ public:
     /// @param next jet of the same mode, lanes and parameters, which is begun at the ends
     void look(const Jet& jet, Jet& next, std::size_t mode);
 
+    // What follows is asked at every step, and unchecked: lanes below the width, what `look` has looked at.
     double length(std::size_t lane) const { return lengths_[lane]; }
     double state(std::size_t index, std::size_t lane) const { return states_[index * width_ + lane]; }
     /// Whether polynomials and model agree at the end of the step.

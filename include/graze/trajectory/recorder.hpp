@@ -13,7 +13,8 @@ namespace graze {
 /// Passes everything on to several observers, in their order. Asks to stop as soon as one of them does.
 class Relay : public Observer {
 public:
-    explicit Relay(std::vector<Observer*> observers) : observers_(std::move(observers)) {}
+    /// @throws InputError for an observer that is none
+    explicit Relay(std::vector<Observer*> observers);
 
     void step(const Step& step) override;
     void contact(const Contact& contact) override;
@@ -90,7 +91,7 @@ struct ArcMinimum {
 class ArcMinima : public Observer {
 public:
     using Receiver = std::function<void(const ArcMinimum&)>;
-    explicit ArcMinima(Receiver receiver) : receiver_(std::move(receiver)) {}
+    explicit ArcMinima(Receiver receiver);
 
     void step(const Step& step) override;
     void contact(const Contact& contact) override;

@@ -43,7 +43,10 @@ public:
         require_index(probe, parts_->series.size(), "probe");
         return parts_->series[probe];
     }
-    std::size_t series_of_observed(std::size_t index) const { return parts_->first_observed + index; }
+    std::size_t series_of_observed(std::size_t index) const {
+        require_index(index, parts_->system.observed() - parts_->first_observed, "observed expression");
+        return parts_->first_observed + index;
+    }
     /// Value of each phase probe's section (0 for others), from the parameters alone.
     const Function& phase_values() const { return parts_->phase_values; }
     /// The same simulation, another handle of it.

@@ -38,7 +38,10 @@ public:
 
     /// Begins at a state; may be called again to begin anew. Before it is called nothing can be run or asked for
     /// (std::logic_error).
-    /// @throws InputError for states or times that are not finite, and for periods that are not positive
+    /// @param end_time may be infinite, if the observer stops
+    /// @throws InputError for numbers of states that do not fit, states or a time that are not finite, a mode that
+    /// there
+    ///         is not, and periods that are not positive
     void start(std::span<const double> state, std::size_t mode, double time, double end_time);
     /// Makes no step longer than this, nor than the options allow; 0: no bound.
     void limit_step(double longest);

@@ -1,10 +1,15 @@
-#include "orbit/arc_flow.hpp"
+#include "graze/flow/mode_flow.hpp"
 
 #include "graze/flow/tangent_reach.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace graze {
 
@@ -22,15 +27,24 @@ constexpr double longest_leap = 2;
 
 } // namespace
 
-ArcFlow::ArcFlow(const Simulation& simulation, std::vector<std::size_t> free)
-    : simulation_(simulation), free_(std::move(free)), states_(simulation.system().states()),
-      directions_(states_ + free_.size()), step_size_(simulation.order(), simulation.options().tolerance),
-      step_check_(simulation.system(), simulation.order(), simulation.options().tolerance),
-      tolerance_(allowance * simulation.options().tolerance), single_(simulation, LaneKind::single),
-      tangent_(simulation, LaneKind::tangent) {
+namespace {
+
+int order_of(double tolerance, int order) {
+    return order != 0 ? order : order_for_tolerance(tolerance);
+}
+
+} // namespace
+
+ModeFlow::ModeFlow(const System& system, double tolerance, int order, std::vector<std::size_t> free)
+    : system_(system), free_(std::move(free)), states_(system.states()), directions_(states_ + free_.size()),
+      step_size_(order_of(tolerance, order), tolerance), step_check_(system, order_of(tolerance, order), tolerance),
+      tolerance_(allowance * tolerance), single_(system, order_of(tolerance, order), LaneKind::single),
+      tangent_(system, single_.order(), LaneKind::tangent) {
+    for (const std::size_t parameter : free_)
+        require_index(parameter, system.parameters(), "independent parameter");
     lanes_ = static_cast<std::size_t>(tangent_.width()) - 1;
     const std::size_t width = lanes_ + 1;
-    parameters_.resize(simulation.system().parameters());
+    parameters_.resize(system.parameters());
     parameter_lanes_.resize(parameters_.size() * width);
     seeds_.resize(states_ * width);
     sums_.resize(std::max<std::size_t>(states_, 1) * width);
@@ -40,7 +54,16 @@ ArcFlow::ArcFlow(const Simulation& simulation, std::vector<std::size_t> free)
     times_.resize(width);
 }
 
-void ArcFlow::set_parameters(std::span<const double> parameters) {
+void ModeFlow::require_fitting(std::size_t mode, std::span<const double> state) const {
+    require_index(mode, system_.model().modes.size(), "mode");
+    require_size(state.size(), states_, "states");
+    if (!has_parameters_ && !parameters_.empty())
+        throw std::logic_error("the flow of a mode has no parameters before they are set");
+}
+
+void ModeFlow::set_parameters(std::span<const double> parameters) {
+    require_size(parameters.size(), parameters_.size(), "independent parameters");
+    has_parameters_ = true;
     std::copy(parameters.begin(), parameters.end(), parameters_.begin());
     single_.set_parameters(parameters_);
     step_check_.set_parameters(parameters_);
@@ -57,7 +80,7 @@ void ArcFlow::set_parameters(std::span<const double> parameters) {
 
 /// Length of the next step, with the sign of what remains: chosen from the series, and believed as far as the model
 /// agrees with them. @param watched events are looked at, whose functions must then be as accurate as the states
-double ArcFlow::step_of(std::size_t mode, const Jet& jet, double remaining, bool watched) {
+double ModeFlow::step_of(std::size_t mode, const Jet& jet, double remaining, bool watched) {
     const std::span<const Series> all = jet.series(), series = watched ? all : all.first(states_);
     double step = step_size_(series, previous_);
     // A state that starts at almost zero, such as a phase of 1e-18, is no measure of its own changes.
@@ -65,7 +88,7 @@ double ArcFlow::step_of(std::size_t mode, const Jet& jet, double remaining, bool
         step = step_size_(series, first_share * std::abs(remaining));
     if (std::isnan(step))
         return step;
-    const bool leap = !(step <= longest_leap * previous_) && !simulation_.system().mode(mode).polynomial;
+    const bool leap = !(step <= longest_leap * previous_) && !system_.mode(mode).polynomial;
     const bool bounded = step < std::numeric_limits<double>::infinity();
     guarded_.assign(static_cast<std::size_t>(jet.width()), std::numeric_limits<double>::infinity());
     guarded_[0] = std::min(step, std::abs(remaining));
@@ -78,7 +101,8 @@ double ArcFlow::step_of(std::size_t mode, const Jet& jet, double remaining, bool
     return longest < std::abs(remaining) ? std::copysign(longest, remaining) : remaining;
 }
 
-ArcFlow::Ending ArcFlow::run(std::size_t mode, std::span<double> state, double duration, const StepVisitor& visit) {
+ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double duration, const StepVisitor& visit) {
+    require_fitting(mode, state);
     if (!std::isfinite(duration))
         return Ending::undefined;
     Jet& jet = single_(mode);
@@ -107,7 +131,7 @@ ArcFlow::Ending ArcFlow::run(std::size_t mode, std::span<double> state, double d
 }
 
 /// Fills lanes with a state and its derivatives in `count` directions from `first` on.
-void ArcFlow::load(std::size_t mode, std::span<const double> state, std::size_t first, std::size_t count) {
+void ModeFlow::load(std::size_t mode, std::span<const double> state, std::size_t first, std::size_t count) {
     const std::size_t width = lanes_ + 1;
     if (directions_ > lanes_) {
         for (std::size_t f = 0; f < free_.size(); ++f)
@@ -122,7 +146,10 @@ void ArcFlow::load(std::size_t mode, std::span<const double> state, std::size_t 
     }
 }
 
-ArcFlow::Ending ArcFlow::run(std::size_t mode, std::span<double> state, double duration, Eigen::MatrixXd& derivatives) {
+ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double duration,
+                               std::span<double> derivatives) {
+    require_fitting(mode, state);
+    require_size(derivatives.size(), states_ * directions_, "derivatives");
     if (!std::isfinite(duration))
         return Ending::undefined;
     const std::size_t width = lanes_ + 1;
@@ -165,11 +192,11 @@ ArcFlow::Ending ArcFlow::run(std::size_t mode, std::span<double> state, double d
         ++steps_;
         remaining = step == remaining ? 0 : remaining - step;
     }
-    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    derivatives = Eigen::Map<const RowMajor>(matrix_.data(), static_cast<Eigen::Index>(states_),
-                                             static_cast<Eigen::Index>(directions_));
-    const bool finite = std::all_of(state.begin(), state.end(), [](double x) { return std::isfinite(x); });
-    return finite && derivatives.allFinite() ? Ending::done : Ending::undefined;
+    std::copy(matrix_.begin(), matrix_.end(), derivatives.begin());
+    const auto all_finite = [](std::span<const double> values) {
+        return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+    };
+    return all_finite(state) && all_finite(derivatives) ? Ending::done : Ending::undefined;
 }
 
 } // namespace graze

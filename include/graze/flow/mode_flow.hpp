@@ -1,11 +1,8 @@
 #pragma once
 
+#include "graze/flow/mode_jets.hpp"
 #include "graze/flow/step_check.hpp"
 #include "graze/flow/step_size.hpp"
-#include "graze/trajectory/simulation.hpp"
-#include "graze/trajectory/trajectory.hpp"
-
-#include <Eigen/Core>
 
 #include <cstddef>
 #include <functional>
@@ -16,12 +13,16 @@ namespace graze {
 
 /// The smooth flow of one mode over a given time, which may be negative, whatever events it passes: what multiple
 /// shooting asks for. With derivatives with respect to the start and chosen parameters.
-class ArcFlow {
+class ModeFlow {
 public:
-    /// @param free parameters with respect to which there are derivatives
-    ArcFlow(const Simulation& simulation, std::vector<std::size_t> free);
+    /// @param tolerance of each step, as of SimulationOptions; @param order of the series, 0: chosen by the tolerance
+    /// @param free independent parameters with respect to which there are derivatives
+    /// @throws InputError for a tolerance, order or parameter that is out of range
+    ModeFlow(const System& system, double tolerance, int order = 0, std::vector<std::size_t> free = {});
 
-    const Simulation& simulation() const { return simulation_; }
+    const System& system() const { return system_; }
+    const std::vector<std::size_t>& free() const { return free_; }
+    /// To be called before `run`. @throws InputError unless there are as many as the system has
     void set_parameters(std::span<const double> parameters);
     std::span<const double> parameters() const { return parameters_; }
 
@@ -30,9 +31,11 @@ public:
     using StepVisitor = std::function<void(const Jet& jet, double time, double length)>;
 
     /// The state after a time. @param state start, replaced by the end
+    /// @throws InputError, here and below, for a mode or numbers that do not fit the system
     Ending run(std::size_t mode, std::span<double> state, double duration, const StepVisitor& visit = {});
-    /// The same with derivatives. @param derivatives states x (states + free), those of the end at fixed time
-    Ending run(std::size_t mode, std::span<double> state, double duration, Eigen::MatrixXd& derivatives);
+    /// The same with derivatives. @param derivatives of the end at fixed time with respect to the start and the free
+    /// parameters, states x (states + free) row by row
+    Ending run(std::size_t mode, std::span<double> state, double duration, std::span<double> derivatives);
 
     std::size_t steps() const { return steps_; } ///< since it was made
 
@@ -40,13 +43,16 @@ private:
     double step_of(std::size_t mode, const Jet& jet, double remaining, bool watched);
     void load(std::size_t mode, std::span<const double> state, std::size_t first, std::size_t count);
 
-    Simulation simulation_;
+    void require_fitting(std::size_t mode, std::span<const double> state) const;
+
+    System system_;
     std::vector<std::size_t> free_;
     std::size_t states_, directions_, lanes_;
     StepSize step_size_;
     StepCheck step_check_;
     double tolerance_;
-    JetSet single_, tangent_;
+    bool has_parameters_ = false;
+    ModeJets single_, tangent_;
     std::vector<double> parameters_, parameter_lanes_, seeds_, sums_, slopes_, next_, times_, guarded_;
     std::vector<double> matrix_; ///< states x directions, row by row
     double previous_ = 0;

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "graze/flow/mode_flow.hpp"
+#include "graze/trajectory/simulation.hpp"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace graze {
+
+/// The flow of the modes of a simulation, at its tolerance.
+inline ModeFlow flow_of(const Simulation& simulation, std::vector<std::size_t> free = {}) {
+    return {simulation.system(), simulation.options().tolerance, simulation.order(), std::move(free)};
+}
+
+/// ModeFlow::run with the derivatives as a matrix.
+inline ModeFlow::Ending run(ModeFlow& flow, std::size_t mode, std::span<double> state, double duration,
+                            Eigen::MatrixXd& derivatives) {
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    RowMajor rows(static_cast<Eigen::Index>(state.size()),
+                  static_cast<Eigen::Index>(state.size() + flow.free().size()));
+    const auto ending = flow.run(mode, state, duration, std::span(rows.data(), static_cast<std::size_t>(rows.size())));
+    if (ending == ModeFlow::Ending::done)
+        derivatives = rows;
+    return ending;
+}
+
+} // namespace graze

@@ -1,0 +1,115 @@
+#include "graze/flow/mode_flow.hpp"
+
+#include "graze/model/model_file.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+namespace graze {
+namespace {
+
+/// x'' = -k x, whose flow and derivatives are known, and a wall that the flow passes as if it were not there.
+Model spring() {
+    return parse_model(R"(
+name = "spring"
+[parameters]
+c = 7
+k = 4
+[states]
+x = 1
+v = 0
+[events]
+wall = "x - 0.5"
+[modes.free]
+rates = { x = "v", v = "-k*x" }
+watch = ["wall"]
+[jumps.impact]
+v = "-v"
+[[transitions]]
+mode = "free"
+event = "wall"
+jump = "impact"
+next = "free"
+[initial]
+mode = "free"
+)",
+                       "spring.toml");
+}
+
+constexpr double tolerance = 1e-15, accuracy = 1e-13;
+
+TEST(ModeFlow, AgreesWithClosedFormsForwardsAndBackwards) {
+    ModeFlow flow(spring(), tolerance, 0, {1});
+    for (const double k : {4.0, 0.3})
+        for (const double time : {0.0, 0.7, 3.1, -2.2}) {
+            flow.set_parameters(std::vector{7.0, k});
+            const double w = std::sqrt(k), c = std::cos(w * time), s = std::sin(w * time), x = 0.8, v = -0.3;
+            std::vector<double> state{x, v}, alone = state, derivatives(2 * 3);
+            ASSERT_EQ(flow.run(0, state, time, derivatives), ModeFlow::Ending::done);
+            ASSERT_EQ(flow.run(0, alone, time), ModeFlow::Ending::done);
+            // By the frequency, then by k = w^2.
+            const double x_by_w = -x * time * s + v * (time * c / w - s / (w * w)),
+                         v_by_w = -x * (s + w * time * c) - v * time * s;
+            const std::vector<double> exact{c, s / w, x_by_w / (2 * w), -w * s, c, v_by_w / (2 * w)};
+            EXPECT_NEAR(state[0], x * c + v * s / w, accuracy);
+            EXPECT_NEAR(state[1], v * c - x * w * s, accuracy);
+            for (std::size_t i = 0; i < 2; ++i)
+                EXPECT_NEAR(alone[i], state[i], accuracy);
+            for (std::size_t i = 0; i < exact.size(); ++i)
+                EXPECT_NEAR(derivatives[i], exact[i], 10 * accuracy) << i << ' ' << k << ' ' << time;
+        }
+}
+
+TEST(ModeFlow, ShowsItsStepsAndPassesEvents) {
+    ModeFlow flow(spring(), tolerance);
+    flow.set_parameters(std::vector{7.0, 4.0});
+    std::vector<double> state{1, 0};
+    double reached = 0;
+    std::size_t steps = 0;
+    ASSERT_EQ(flow.run(0, state, 1.0,
+                       [&](const Jet& jet, double time, double length) {
+                           EXPECT_EQ(time, reached);
+                           EXPECT_NEAR(jet.output(0)[0], std::cos(2 * time) - 0.5, accuracy);
+                           reached += length;
+                           ++steps;
+                       }),
+              ModeFlow::Ending::done);
+    EXPECT_NEAR(reached, 1.0, 1e-15);
+    EXPECT_EQ(flow.steps(), steps);
+    EXPECT_NEAR(state[0], std::cos(2.0), accuracy); // beyond the wall
+}
+
+TEST(ModeFlow, TellsHowItEnds) {
+    const Model model = parse_model("name = \"a\"\n[states]\nx = 1\n[modes.m]\nrates = { x = \"x^2\" }\n"
+                                    "[initial]\nmode = \"m\"\n",
+                                    "a.toml");
+    ModeFlow flow(model, tolerance);
+    std::vector<double> state{1.0};
+    EXPECT_EQ(flow.run(0, state, 2.0), ModeFlow::Ending::singular); // 1/(1 - t)
+    state = {1.0};
+    EXPECT_EQ(flow.run(0, state, std::numeric_limits<double>::infinity()), ModeFlow::Ending::undefined);
+}
+
+TEST(ModeFlow, RefusesWhatDoesNotFit) {
+    const System system(spring());
+    EXPECT_THROW(ModeFlow(system, 0), InputError);
+    EXPECT_THROW(ModeFlow(system, tolerance, 3), InputError);
+    EXPECT_THROW(ModeFlow(system, tolerance, 0, {2}), InputError);
+    ModeFlow flow(system, tolerance);
+    std::vector<double> state{1, 0}, few{1}, derivatives(4), fewer(3);
+    EXPECT_THROW(flow.run(0, state, 1), std::logic_error);
+    EXPECT_THROW(flow.set_parameters(std::vector{1.0}), InputError);
+    flow.set_parameters(std::vector{7.0, 4.0});
+    EXPECT_THROW(flow.run(1, state, 1), InputError);
+    EXPECT_THROW(flow.run(0, few, 1), InputError);
+    EXPECT_THROW(flow.run(0, state, 1, fewer), InputError);
+    EXPECT_EQ(flow.run(0, state, 1, derivatives), ModeFlow::Ending::done);
+}
+
+} // namespace
+} // namespace graze
