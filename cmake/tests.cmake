@@ -3,7 +3,10 @@
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
-foreach(folder IN LISTS GRAZE_FOLDERS ITEMS program)
+# Wrong uses of the library are tried on all of it.
+set(before_misuse ${GRAZE_FOLDERS})
+
+foreach(folder IN LISTS GRAZE_FOLDERS ITEMS program misuse)
     file(GLOB sources CONFIGURE_DEPENDS tests/${folder}/*.cpp)
     if(NOT sources OR (folder STREQUAL program AND NOT TARGET graze_program))
         continue()

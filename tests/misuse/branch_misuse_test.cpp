@@ -1,0 +1,314 @@
+// Continuation, branches, monitors, special points.
+
+#include "misuse/right_things.hpp"
+#include "misuse/wrong_use.hpp"
+
+// What is not said of a struct is as its header says.
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+/// A circle.
+bool residual(std::span<const double> u, std::span<double> values) {
+    values[0] = u[0] * u[0] + u[1] * u[1] - 1;
+    return true;
+}
+struct Circle {
+    DenseProblem problem{2, residual};
+    Continuation continuation{problem};
+    const std::vector<double> point = {1, 0};
+    Continuation& started() {
+        EXPECT_TRUE(continuation.start(point, 1, 1));
+        return continuation;
+    }
+};
+
+void problems(WrongUses& wrong) {
+    wrong("dense_problem_no_unknowns", [] { keep(DenseProblem(0, residual)); });
+    wrong("dense_problem_unknowns_huge", [] { keep(DenseProblem(huge, residual)); });
+    wrong("dense_problem_without_residuals", [] { keep(DenseProblem(2, {})); });
+    for (const std::size_t length : {1, 3})
+        wrong("dense_problem_scales_" + std::to_string(length),
+              [length] { keep(DenseProblem(2, residual, {}, std::vector<double>(length, 1.0))); });
+    for (const auto& [kind, value] : not_positive())
+        wrong("dense_problem_scale_" + kind, [v = value] { keep(DenseProblem(2, residual, {}, {1, v})); });
+    for (const auto& [kind, length] : wrong_lengths(2)) {
+        wrong("dense_evaluate_" + kind, [n = length] { keep(Circle().problem.evaluate(std::vector<double>(n, 1.0))); });
+        const auto solve = [&, n = length](const std::string& name, std::size_t row, std::size_t step) {
+            wrong("dense_solve_" + name + "_" + kind, [row, step] {
+                Circle circle;
+                circle.problem.evaluate(circle.point);
+                std::vector<double> result(step);
+                keep(circle.problem.solve(std::vector<double>(row, 1.0), 0, false, result, nullptr));
+            });
+        };
+        solve("row", length, 2);
+        solve("step", 2, length);
+    }
+    wrong("dense_solve_before_evaluate", [] {
+        std::vector<double> step(2);
+        keep(Circle().problem.solve(std::vector<double>(2, 1.0), 0, false, step, nullptr));
+    });
+}
+
+void continuations(WrongUses& wrong) {
+    const auto option = [&](const std::string& name, const std::function<void(ContinuationOptions&)>& set) {
+        wrong("continuation_options_" + name, [set] {
+            ContinuationOptions options;
+            set(options);
+            options.validate();
+        });
+        wrong("continuation_with_" + name, [set] {
+            ContinuationOptions options;
+            set(options);
+            Circle circle;
+            keep(Continuation(circle.problem, options));
+        });
+        wrong("branch_settings_continuation_" + name, [set] {
+            BranchSettings settings = by_amplitude();
+            set(settings.continuation);
+            settings.validate(oscillator());
+        });
+    };
+    const std::vector<std::pair<std::string, double ContinuationOptions::*>> members = {
+        {"first_step", &ContinuationOptions::first_step},
+        {"smallest_step", &ContinuationOptions::smallest_step},
+        {"largest_step", &ContinuationOptions::largest_step},
+        {"accuracy", &ContinuationOptions::accuracy},
+        {"largest_angle", &ContinuationOptions::largest_angle}};
+    for (const auto& [name, member] : members)
+        for (const auto& [kind, value] : not_positive())
+            option(name + "_" + kind, [m = member, v = value](ContinuationOptions& o) { o.*m = v; });
+    option("iterations_0", [](ContinuationOptions& o) { o.iterations = 0; });
+    option("smallest_step_above_largest", [](ContinuationOptions& o) { o.smallest_step = 1; });
+
+    const auto of = [&](const std::string& name, const std::function<void(Circle&)>& use) {
+        wrong("continuation_" + name, [use] {
+            Circle circle;
+            use(circle);
+        });
+    };
+    using Numbers = std::vector<double>;
+    for (const auto& [kind, length] : wrong_lengths(2)) {
+        of("start_u_" + kind, [n = length](Circle& c) { keep(c.continuation.start(Numbers(n, 1.0), 0, 1)); });
+        of("along_u_" + kind, [n = length](Circle& c) {
+            keep(c.continuation.start_along(Numbers(n, 1.0), Numbers{0, 1}, 0.1));
+        });
+        of("along_direction_" + kind,
+           [n = length](Circle& c) { keep(c.continuation.start_along(c.point, Numbers(n, 1.0), 0.1)); });
+        of("at_u_" + kind, [n = length](Circle& c) { keep(c.continuation.start_at(Numbers(n, 1.0), Numbers{0, 1})); });
+        of("at_row_" + kind, [n = length](Circle& c) { keep(c.continuation.start_at(c.point, Numbers(n, 1.0))); });
+    }
+    for (const auto& [kind, index] : wrong_indices(2))
+        of("start_unknown_" + kind, [i = index](Circle& c) { keep(c.continuation.start(c.point, i, 1)); });
+    of("start_direction_0", [](Circle& c) { keep(c.continuation.start(c.point, 1, 0)); });
+    for (const auto& [kind, value] : not_finite()) {
+        of("start_" + kind, [v = value](Circle& c) { keep(c.continuation.start(Numbers{1, v}, 1, 1)); });
+        of("along_" + kind, [v = value](Circle& c) {
+            keep(c.continuation.start_along(Numbers{1, v}, Numbers{0, 1}, 0.1));
+        });
+        of("along_direction_" + kind, [v = value](Circle& c) {
+            keep(c.continuation.start_along(c.point, Numbers{0, v}, 0.1));
+        });
+        of("along_distance_" + kind, [v = value](Circle& c) {
+            keep(c.continuation.start_along(c.point, Numbers{0, 1}, v));
+        });
+        of("at_" + kind, [v = value](Circle& c) { keep(c.continuation.start_at(Numbers{1, v}, Numbers{0, 1})); });
+        of("at_row_" + kind, [v = value](Circle& c) { keep(c.continuation.start_at(c.point, Numbers{0, v})); });
+        of("between_" + kind, [v = value](Circle& c) {
+            c.started().step();
+            ContinuationPoint point;
+            keep(c.continuation.between(v, point));
+        });
+    }
+    of("along_direction_zero", [](Circle& c) { keep(c.continuation.start_along(c.point, Numbers{0, 0}, 0.1)); });
+    of("along_distance_negative", [](Circle& c) { keep(c.continuation.start_along(c.point, Numbers{0, 1}, -1)); });
+    of("at_row_zero", [](Circle& c) { keep(c.continuation.start_at(c.point, Numbers{0, 0})); });
+    of("step_before_start", [](Circle& c) { keep(c.continuation.step()); });
+    for (const auto& [kind, value] : not_positive()) {
+        of("next_step_" + kind, [v = value](Circle& c) { c.started().set_next_step(v); });
+        of("next_step_before_start_" + kind, [v = value](Circle& c) { c.continuation.set_next_step(v); });
+    }
+    for (const double fraction : {-1.0, 2.0})
+        of("between_" + std::to_string(fraction), [fraction](Circle& c) {
+            c.started().step();
+            ContinuationPoint point;
+            keep(c.continuation.between(fraction, point));
+        });
+    of("between_before_start", [](Circle& c) {
+        ContinuationPoint point;
+        keep(c.continuation.between(0.5, point));
+    });
+    of("between_before_step", [](Circle& c) {
+        ContinuationPoint point;
+        keep(c.started().between(0.5, point));
+    });
+    wrong("name_of_no_continuation_outcome", [] { keep(std::string(name_of(static_cast<ContinuationOutcome>(99)))); });
+}
+
+void settings(WrongUses& wrong) {
+    const auto setting = [&](const std::string& name, const std::function<void(BranchSettings&)>& set) {
+        const auto made = [set] {
+            BranchSettings settings = by_amplitude();
+            set(settings);
+            return settings;
+        };
+        wrong("branch_settings_" + name, [made] { made().validate(oscillator()); });
+        wrong("orbit_branch_" + name, [made] { keep(OrbitBranch(calm_oscillator(), calm_orbit(), made())); });
+        wrong("branches_at_" + name, [made] { keep(branches_at(calm_oscillator(), grazing_point(), made())); });
+    };
+    for (const auto& [kind, index] : wrong_indices(5)) {
+        setting("parameter_" + kind, [i = index](BranchSettings& s) { s.parameter = i; });
+        setting("free_" + kind, [i = index](BranchSettings& s) {
+            s.monitors = {{.name = "period", .fixed = true}};
+            s.free = {i};
+        });
+    }
+    for (const int direction : {0, 2, -7})
+        setting("direction_" + std::to_string(direction), [direction](BranchSettings& s) { s.direction = direction; });
+    setting("bounds_reversed", [](BranchSettings& s) {
+        s.least = 2;
+        s.greatest = 1;
+    });
+    setting("least_nan", [](BranchSettings& s) { s.least = not_a_number; });
+    setting("greatest_nan", [](BranchSettings& s) { s.greatest = not_a_number; });
+    setting("free_without_monitor", [](BranchSettings& s) { s.free = {0}; });
+    setting("fixed_monitor_without_free", [](BranchSettings& s) { s.monitors = {{.name = "period", .fixed = true}}; });
+    setting("free_is_parameter", [](BranchSettings& s) {
+        s.monitors = {{.name = "period", .fixed = true}};
+        s.free = {s.parameter};
+    });
+    setting("stop_at_nothing", [](BranchSettings& s) { s.stop_at = {static_cast<PointType>(99)}; });
+    setting("orbit_tolerance", [](BranchSettings& s) { s.orbit.tolerance = not_a_number; });
+    setting("steps_0", [](BranchSettings& s) { s.steps = 0; });
+    const auto monitor = [&](const std::string& name, const Monitor& one) {
+        setting("monitor_" + name, [one](BranchSettings& s) { s.monitors = {one}; });
+        wrong("monitors_" + name, [one] { keep(OrbitMonitors(calm_oscillator(), calm_orbit().signature, {one})); });
+    };
+    using Kind = Monitor::Kind;
+    const Expression x = Graph::create()->symbol("x"), unknown = Graph::create()->symbol("unknown");
+    for (const Kind kind : {Kind::value, Kind::start, Kind::maximum, Kind::mean, Kind::norm}) {
+        const std::string number = std::to_string(static_cast<int>(kind));
+        monitor("of_nothing_" + number, {.name = "m", .kind = kind});
+        monitor("of_unknown_" + number, {.name = "m", .kind = kind, .expression = unknown});
+    }
+    monitor("of_no_kind", {.name = "m", .kind = static_cast<Kind>(99), .expression = x});
+    monitor("duration_of_expression", {.name = "m", .kind = Kind::duration, .expression = x});
+    for (const std::string segment : {"0", "2", "-1", "99999999999999999999", "unknown", "phase0#2", "phase0#0", "#"})
+        monitor("segment_" + segment, {.name = "m", .segment = segment});
+    monitor("place_0", {.name = "m", .kind = Kind::multiplier, .place = 0});
+    monitor("held_nan", {.name = "m", .held = not_a_number});
+    monitor("crossing_nan", {.name = "m", .crossings = {not_a_number}});
+    monitor("bounds_reversed", {.name = "m", .least = 1, .greatest = 0});
+    for (const auto& [kind, tolerance] : not_positive())
+        wrong("monitors_tolerance_" + kind, [t = tolerance] {
+            keep(OrbitMonitors(calm_oscillator(), calm_orbit().signature, {{.name = "period"}}, t));
+        });
+    for (const auto& [kind, index] : wrong_indices(1))
+        wrong("monitors_segment_" + kind, [i = index] {
+            keep(OrbitMonitors(calm_oscillator(), calm_orbit().signature, {{.name = "period"}}).segment(i));
+        });
+    wrong("moved_monitors", [] {
+        OrbitMonitors monitors(calm_oscillator(), calm_orbit().signature, {{.name = "period"}});
+        const OrbitMonitors moved = std::move(monitors);
+        keep(monitors(calm_orbit()));
+    });
+    for (const auto& [kind, length] : wrong_lengths(2))
+        wrong("measure_multipliers_" + kind, [n = length] {
+            std::vector<double> values(n);
+            measure_multipliers({{.name = "a", .kind = Kind::multiplier}, {.name = "b", .kind = Kind::multiplier}},
+                                {1.0, 0.5}, values);
+        });
+    wrong("measure_multipliers_place_0", [] {
+        std::vector<double> values(1);
+        measure_multipliers({{.name = "a", .kind = Kind::multiplier, .place = 0}}, {1.0}, values);
+    });
+}
+
+void branches(WrongUses& wrong) {
+    const auto branch = [&](const std::string& name, const std::function<void(OrbitBranch&)>& use) {
+        wrong("orbit_branch_" + name, [use] {
+            OrbitBranch one(calm_oscillator(), calm_orbit(), by_amplitude());
+            use(one);
+        });
+    };
+    branch("step_before_start", [](OrbitBranch& b) { keep(b.step()); });
+    branch("point_before_start", [](OrbitBranch& b) { keep(b.point()); });
+    for (const std::size_t length : {0, 1, 3, 6})
+        branch("along_" + std::to_string(length),
+               [length](OrbitBranch& b) { keep(b.start_along(std::vector<double>(length, 1.0), 0.01)); });
+    const std::vector<double> along = {0, 0, 0, 0, 1};
+    for (const auto& [kind, value] : not_finite()) {
+        branch("along_direction_" + kind,
+               [v = value](OrbitBranch& b) { keep(b.start_along(std::vector<double>(5, v), 0.01)); });
+        branch("along_distance_" + kind, [along, v = value](OrbitBranch& b) { keep(b.start_along(along, v)); });
+    }
+    branch("along_nothing", [](OrbitBranch& b) { keep(b.start_along(std::vector<double>(5), 0.01)); });
+    branch("along_distance_negative", [along](OrbitBranch& b) { keep(b.start_along(along, -1)); });
+    const auto moved = [&](const std::string& name, const std::function<void(OrbitBranch&)>& use) {
+        branch("moved_" + name, [use](OrbitBranch& b) {
+            const OrbitBranch taken = std::move(b);
+            use(b);
+        });
+    };
+    moved("start", [](OrbitBranch& b) { keep(b.start()); });
+    moved("step", [](OrbitBranch& b) { keep(b.step()); });
+    moved("point", [](OrbitBranch& b) { keep(b.point().parameter); });
+    moved("found", [](OrbitBranch& b) { keep(b.found().size()); });
+    moved("outcome", [](OrbitBranch& b) { keep(b.outcome()); });
+    wrong("branches_at_default_point", [] { keep(branches_at(calm_oscillator(), {}, by_amplitude())); });
+    for (int type = 0; type <= static_cast<int>(PointType::regular) + 1; ++type) {
+        wrong("branches_at_default_point_of_type_" + std::to_string(type), [type] {
+            SpecialPoint point;
+            point.type = static_cast<PointType>(type);
+            keep(branches_at(calm_oscillator(), point, by_amplitude()));
+        });
+        wrong("branches_at_orbit_without_tangent_of_type_" + std::to_string(type), [type] {
+            SpecialPoint point;
+            point.type = static_cast<PointType>(type);
+            point.solution = calm_solution();
+            point.segment = point.event = 7;
+            keep(branches_at(calm_oscillator(), point, by_amplitude()));
+        });
+    }
+    const auto grazing = [&](const std::string& name, const std::function<void(SpecialPoint&)>& spoil) {
+        wrong("branches_at_grazing_" + name, [spoil] {
+            SpecialPoint point = grazing_point();
+            spoil(point);
+            keep(branches_at(calm_oscillator(), point, by_amplitude()));
+        });
+    };
+    for (const auto& [kind, index] : wrong_indices(1))
+        grazing("segment_" + kind, [i = index](SpecialPoint& p) { p.segment = i; });
+    for (const auto& [kind, index] : wrong_indices(2))
+        grazing("event_" + kind, [i = index](SpecialPoint& p) { p.event = i; });
+    for (const auto& [kind, value] : not_finite())
+        grazing("time_" + kind, [v = value](SpecialPoint& p) { p.time = v; });
+    grazing("time_negative", [](SpecialPoint& p) { p.time = -1; });
+    grazing("time_after_the_end", [](SpecialPoint& p) { p.time = 1e6; });
+    grazing("signature_empty", [](SpecialPoint& p) { p.solution.orbit.signature.clear(); });
+    wrong("branches_at_another_models_point",
+          [] { keep(branches_at(load_model("mems-switch"), grazing_point(), by_amplitude())); });
+    wrong("short_name_of_no_type", [] { keep(std::string(short_name(static_cast<PointType>(99)))); });
+    wrong("name_of_no_type", [] { keep(std::string(name_of(static_cast<PointType>(99)))); });
+    wrong("name_of_no_branch_outcome", [] { keep(std::string(name_of(static_cast<BranchOutcome>(99)))); });
+}
+
+std::vector<WrongUse> wrong_uses() {
+    WrongUses wrong;
+    problems(wrong);
+    continuations(wrong);
+    settings(wrong);
+    branches(wrong);
+    return wrong.list();
+}
+
+TEST(WrongBranchUse, IsRefused) {
+    each_of(wrong_uses(), expect_refusal);
+}
+
+} // namespace
+} // namespace graze

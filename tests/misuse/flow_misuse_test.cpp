@@ -1,0 +1,336 @@
+// Tapes, jets, steps, roots, systems.
+
+#include "misuse/right_things.hpp"
+#include "misuse/wrong_use.hpp"
+
+#include "graze/flow/step_check.hpp"
+#include "graze/flow/step_size.hpp"
+#include "graze/flow/tangent_reach.hpp"
+#include "graze/symbolic/transform.hpp"
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+/// x' = y, y' = -k x with the outputs x + y, x y: two states, one parameter.
+struct Pendulum {
+    std::shared_ptr<Graph> graph = Graph::create();
+    Expression x = graph->symbol("x"), y = graph->symbol("y"), k = graph->symbol("k");
+    std::vector<Expression> states = {x, y}, parameters = {k}, rates = {y, -k*x}, outputs = {x + y, x*y};
+    Tape tape() const { return compile_tape(states, parameters, rates, outputs); }
+    std::unique_ptr<Jet> jet(LaneKind kind = LaneKind::single, int order = 8) const {
+        std::unique_ptr<Jet> made = make_jet(tape(), order, kind);
+        const auto width = static_cast<std::size_t>(made->width());
+        made->set_parameters(std::vector<double>(width, 1.0));
+        made->compute(std::vector<double>(2 * width, 0.5));
+        return made;
+    }
+};
+
+void tapes(WrongUses& wrong) {
+    const auto compile = [&](const std::string& name, const std::function<void(Pendulum&)>& spoil) {
+        wrong("compile_tape_" + name, [spoil] {
+            Pendulum p;
+            spoil(p);
+            keep(p.tape());
+        });
+    };
+    const Expression none;
+    compile("state_nothing", [](Pendulum& p) { p.states[0] = {}; });
+    compile("parameter_nothing", [](Pendulum& p) { p.parameters[0] = {}; });
+    compile("rate_nothing", [](Pendulum& p) { p.rates[0] = {}; });
+    compile("output_nothing", [](Pendulum& p) { p.outputs[0] = {}; });
+    compile("all_nothing", [](Pendulum& p) {
+        p.states = p.rates = {Expression()};
+        p.parameters = p.outputs = {};
+    });
+    compile("state_no_symbol", [](Pendulum& p) { p.states[0] = p.x * p.y; });
+    compile("parameter_no_symbol", [](Pendulum& p) { p.parameters[0] = p.x * p.y; });
+    compile("state_twice", [](Pendulum& p) { p.states[0] = p.y; });
+    compile("parameter_is_state", [](Pendulum& p) { p.parameters[0] = p.y; });
+    compile("rate_unknown", [](Pendulum& p) { p.rates[0] = p.graph->symbol("unknown"); });
+    compile("output_unknown", [](Pendulum& p) { p.outputs[0] = p.graph->symbol("unknown"); });
+    compile("rates_too_few", [](Pendulum& p) { p.rates.pop_back(); });
+    compile("rates_too_many", [](Pendulum& p) { p.rates.push_back(p.x); });
+    compile("rates_none", [](Pendulum& p) { p.rates.clear(); });
+    compile("states_none", [](Pendulum& p) { p.states.clear(); });
+    compile("rate_of_another_graph", [](Pendulum& p) { p.rates[0] = Graph::create()->symbol("y"); });
+    compile("state_of_another_graph", [](Pendulum& p) { p.states[0] = Graph::create()->symbol("x"); });
+    compile("rate_no_such_node", [](Pendulum& p) { p.rates[0] = Expression(p.graph, 999); });
+
+    for (const int order : {0, -1, highest_order + 1, std::numeric_limits<int>::max()})
+        wrong("make_jet_order_" + std::to_string(order),
+              [order] { keep(make_jet(Pendulum().tape(), order, LaneKind::single)); });
+    wrong("make_jet_no_kind", [] { keep(make_jet(Pendulum().tape(), 8, static_cast<LaneKind>(9))); });
+    wrong("make_jet_no_set",
+          [] { keep(make_jet(Pendulum().tape(), 8, LaneKind::single, static_cast<InstructionSet>(9))); });
+    wrong("lanes_of_no_kind", [] { keep(lanes_of(static_cast<LaneKind>(9), InstructionSet::baseline)); });
+    wrong("lanes_of_no_set", [] { keep(lanes_of(LaneKind::ensemble, static_cast<InstructionSet>(9))); });
+    wrong("name_of_no_set", [] { keep(std::string(name_of(static_cast<InstructionSet>(9)))); });
+    const auto by_hand = [&](const std::string& name, const std::function<void(Tape&)>& spoil) {
+        wrong("make_jet_tape_" + name, [spoil] {
+            Tape tape = Pendulum().tape();
+            spoil(tape);
+            const std::unique_ptr<Jet> jet = make_jet(tape, 8, LaneKind::single);
+            jet->compute(std::vector<double>(tape.states, 0.5));
+        });
+    };
+    by_hand("register_that_is_not_there", [](Tape& t) { t.code.at(0).result = 1'000'000; });
+    by_hand("output_that_is_not_there", [](Tape& t) { t.outputs.at(0).index = 1'000'000; });
+    by_hand("rate_that_is_not_there", [](Tape& t) { t.rates.at(0).index = 1'000'000; });
+    by_hand("without_rates", [](Tape& t) { t.rates.clear(); });
+    by_hand("without_degrees", [](Tape& t) { t.degrees.clear(); });
+    by_hand("term_that_is_not_there", [](Tape& t) { t.terms.at(0).series = 1'000'000; });
+    by_hand("literal_that_is_not_there", [](Tape& t) { t.literals.push_back({1'000'000, 1.0}); });
+}
+
+void jets(WrongUses& wrong) {
+    for (const LaneKind kind : {LaneKind::single, LaneKind::ensemble, LaneKind::tangent}) {
+        const std::string of = "jet_" + std::to_string(static_cast<int>(kind)) + "_";
+        const std::size_t width =
+            kind == LaneKind::single ? 1 : static_cast<std::size_t>(Pendulum().jet(kind)->width());
+        using Numbers = std::vector<double>;
+        const auto count = [&](const std::string& name, std::size_t right,
+                               const std::function<void(Jet&, Numbers&, std::size_t)>& use) {
+            for (const auto& [how, length] : wrong_lengths(right))
+                wrong(of + name + "_" + how, [kind, use, length = length, width] {
+                    const std::unique_ptr<Jet> jet = Pendulum().jet(kind);
+                    Numbers numbers(length, 0.1);
+                    use(*jet, numbers, width);
+                });
+        };
+        count("set_parameters", width, [](Jet& jet, Numbers& n, std::size_t) { jet.set_parameters(n); });
+        count("compute", 2 * width, [](Jet& jet, Numbers& n, std::size_t) { jet.compute(n); });
+        count("begin", 2 * width, [](Jet& jet, Numbers& n, std::size_t) { jet.begin(n); });
+        count("evaluate_times", width, [](Jet& jet, Numbers& n, std::size_t w) {
+            Numbers values(2 * w);
+            jet.evaluate_states(n, values);
+        });
+        count("evaluate_values", 2 * width,
+              [](Jet& jet, Numbers& n, std::size_t w) { jet.evaluate_states(Numbers(w, 0.1), n); });
+        count("slopes_times", width, [](Jet& jet, Numbers& n, std::size_t w) {
+            Numbers values(2 * w), slopes(2 * w);
+            jet.evaluate_states(n, values, slopes);
+        });
+        count("slopes_values", 2 * width, [](Jet& jet, Numbers& n, std::size_t w) {
+            Numbers slopes(2 * w);
+            jet.evaluate_states(Numbers(w, 0.1), n, slopes);
+        });
+        count("slopes_slopes", 2 * width, [](Jet& jet, Numbers& n, std::size_t w) {
+            Numbers values(2 * w);
+            jet.evaluate_states(Numbers(w, 0.1), values, n);
+        });
+        count("evaluate_output_times", width, [](Jet& jet, Numbers& n, std::size_t w) {
+            Numbers values(w);
+            jet.evaluate_output(0, n, values);
+        });
+        count("evaluate_output_values", width,
+              [](Jet& jet, Numbers& n, std::size_t w) { jet.evaluate_output(0, Numbers(w, 0.1), n); });
+        for (const auto& [how, index] : wrong_indices(2)) {
+            const auto with = [&](const std::string& name, const std::function<void(Jet&, std::size_t)>& use) {
+                wrong(of + name + "_" + how, [kind, use, index = index] { use(*Pendulum().jet(kind), index); });
+            };
+            with("state", [](Jet& jet, std::size_t i) { keep(jet.state(i)); });
+            with("output", [](Jet& jet, std::size_t i) { keep(jet.output(i)); });
+            with("evaluate_output", [width](Jet& jet, std::size_t i) {
+                Numbers values(width);
+                jet.evaluate_output(i, Numbers(width, 0.1), values);
+            });
+        }
+        if (kind == LaneKind::tangent) {
+            const auto not_for_tangents = [&](const std::string& name, const std::function<void(Jet&)>& use) {
+                wrong(of + name + "_not_for_tangents", [use] { use(*Pendulum().jet(LaneKind::tangent)); });
+            };
+            not_for_tangents("find_steps", [width](Jet& jet) {
+                Numbers steps(width);
+                jet.find_steps(-40, Numbers(width, 0.1), steps);
+            });
+            not_for_tangents("guard_steps", [width](Jet& jet) {
+                Numbers steps(width, 0.1);
+                jet.guard_steps(steps);
+            });
+            not_for_tangents("bound_outputs", [width](Jet& jet) {
+                Numbers least(2 * width), sizes(2 * width);
+                jet.bound_outputs(Numbers(width, 0.1), least, sizes);
+            });
+            continue;
+        }
+        count("find_steps_references", width, [](Jet& jet, Numbers& n, std::size_t w) {
+            Numbers steps(w);
+            jet.find_steps(-40, n, steps);
+        });
+        count("find_steps_steps", width,
+              [](Jet& jet, Numbers& n, std::size_t w) { jet.find_steps(-40, Numbers(w, 0.1), n); });
+        count("guard_steps", width, [](Jet& jet, Numbers& n, std::size_t) { jet.guard_steps(n); });
+        count("bound_outputs_lengths", width, [](Jet& jet, Numbers& n, std::size_t w) {
+            Numbers least(2 * w), sizes(2 * w);
+            jet.bound_outputs(n, least, sizes);
+        });
+        wrong(of + "bound_outputs_too_many", [kind, width] {
+            Numbers least(3 * width), sizes(3 * width);
+            Pendulum().jet(kind)->bound_outputs(Numbers(width, 0.1), least, sizes);
+        });
+        wrong(of + "bound_outputs_unequal", [kind, width] {
+            Numbers least(2 * width), sizes(width);
+            Pendulum().jet(kind)->bound_outputs(Numbers(width, 0.1), least, sizes);
+        });
+        const auto disagreement = [&](const std::string& name, std::size_t lengths, std::size_t values,
+                                      std::size_t slopes, std::size_t worst) {
+            wrong(of + "find_disagreement_" + name, [=] {
+                const auto jet = Pendulum().jet(kind), end = Pendulum().jet(kind);
+                Numbers result(worst);
+                jet->find_disagreement(*end, {1, 1, 1}, Numbers(lengths, 0.1), Numbers(values, 0.1),
+                                       Numbers(slopes, 0.1), result);
+            });
+        };
+        disagreement("lengths", width + 1, 2 * width, 2 * width, width);
+        disagreement("no_lengths", 0, 2 * width, 2 * width, width);
+        disagreement("values", width, width, 2 * width, width);
+        disagreement("slopes", width, 2 * width, 0, width);
+        disagreement("worst", width, 2 * width, 2 * width, 0);
+        wrong(of + "find_disagreement_of_another_kind", [kind, width] {
+            Numbers result(width);
+            Pendulum().jet(kind)->find_disagreement(*Pendulum().jet(LaneKind::tangent), {1, 1, 1}, Numbers(width),
+                                                    Numbers(2 * width), Numbers(2 * width), result);
+        });
+        wrong(of + "find_disagreement_of_another_order", [kind, width] {
+            Numbers result(width);
+            Pendulum().jet(kind)->find_disagreement(*Pendulum().jet(kind, 5), {1, 1, 1}, Numbers(width),
+                                                    Numbers(2 * width), Numbers(2 * width), result);
+        });
+        wrong(of + "find_disagreement_of_another_tape", [kind, width] {
+            Pendulum other;
+            other.outputs.pop_back();
+            Numbers result(width);
+            Pendulum().jet(kind)->find_disagreement(*other.jet(kind), {1, 1, 1}, Numbers(width), Numbers(2 * width),
+                                                    Numbers(2 * width), result);
+        });
+    }
+    const auto reach = [&](const std::string& name, LaneKind kind, std::size_t states, std::size_t count) {
+        wrong("tangent_reach_" + name, [=] { keep(tangent_reach(*Pendulum().jet(kind), states, count, 1e-6, 0.1)); });
+    };
+    reach("states_too_many", LaneKind::tangent, 3, 1);
+    reach("states_huge", LaneKind::tangent, huge, 1);
+    reach("lanes_too_many", LaneKind::tangent, 2, 100);
+    reach("lanes_huge", LaneKind::tangent, 2, huge);
+    reach("single_jet", LaneKind::single, 2, 1);
+    const auto follow = [&](const std::string& name, LaneKind kind, std::size_t states, std::size_t count,
+                            std::size_t room) {
+        wrong("follow_tangents_" + name, [=] {
+            const auto jet = Pendulum().jet(kind), next = Pendulum().jet(kind);
+            std::vector<double> times(room), sums(room), slopes(room);
+            keep(follow_tangents(*jet, *next, states, count, 1e-6, 0.1, times, sums, slopes));
+        });
+    };
+    follow("without_room", LaneKind::tangent, 2, 1, 0);
+    follow("little_room", LaneKind::tangent, 2, 1, 1);
+    follow("states_too_many", LaneKind::tangent, 3, 1, 64);
+    follow("lanes_too_many", LaneKind::tangent, 2, 100, 64);
+}
+
+void steps(WrongUses& wrong) {
+    for (const double tolerance : {0.0, -1.0, 1.0, not_a_number, infinity}) {
+        const std::string number = std::to_string(tolerance);
+        wrong("order_for_tolerance_" + number, [tolerance] { keep(order_for_tolerance(tolerance)); });
+        wrong("step_size_tolerance_" + number, [tolerance] { keep(StepSize(10, tolerance)); });
+        wrong("step_check_tolerance_" + number, [tolerance] { keep(StepCheck(oscillator(), 10, tolerance)); });
+    }
+    for (const int order : {0, -1, highest_order + 1, std::numeric_limits<int>::max()}) {
+        wrong("step_size_order_" + std::to_string(order), [order] { keep(StepSize(order, 1e-10)); });
+        wrong("step_check_order_" + std::to_string(order), [order] { keep(StepCheck(oscillator(), order, 1e-10)); });
+    }
+    wrong("root_finder_degree_negative", [] { keep(RootFinder(-1)); });
+    wrong("root_finder_degree_huge", [] { keep(RootFinder(std::numeric_limits<int>::max())); });
+    const std::vector<double> cubic = {1, -1, 1, -1};
+    wrong("first_falling_degree", [cubic] {
+        Root root;
+        keep(RootFinder(2).first_falling(cubic, 1, RootStart::as_is, root));
+    });
+    wrong("crossings_degree", [cubic] {
+        std::vector<Root> roots;
+        RootFinder(2).crossings(cubic, 1, RootStart::as_is, roots);
+    });
+    wrong("minimum_degree", [cubic] { keep(RootFinder(2).minimum(cubic, 1)); });
+    for (const auto& [how, length] : wrong_lengths(5))
+        wrong("step_check_parameters_" + how, [length = length] {
+            StepCheck check(oscillator(), 10, 1e-10);
+            check.set_parameters(std::vector<double>(length));
+        });
+    static const std::vector<double> coefficients(33, 0.1);
+    for (const auto& [how, mode] : wrong_indices(2))
+        wrong("step_check_mode_" + how, [mode = mode] {
+            StepCheck check(oscillator(), 10, 1e-10);
+            check.set_parameters(oscillator().parameter_values());
+            keep(check.longest(mode, std::vector<Series>(4, Series{coefficients.data(), 1}), 0.1, false));
+        });
+    for (const auto& [how, length] : wrong_lengths(4)) {
+        wrong("step_check_series_" + how, [length = length] {
+            StepCheck check(oscillator(), 10, 1e-10);
+            check.set_parameters(oscillator().parameter_values());
+            keep(check.longest(0, std::vector<Series>(length, Series{coefficients.data(), 1}), 0.1, false));
+        });
+        if (length > 0)
+            wrong("step_check_floors_" + how, [length = length] {
+                StepCheck check(oscillator(), 10, 1e-10);
+                check.set_parameters(oscillator().parameter_values());
+                keep(check.longest(0, std::vector<Series>(4, Series{coefficients.data(), 1}), 0.1, false,
+                                   std::vector<double>(length)));
+            });
+    }
+    for (const auto& [how, length] : wrong_lengths(2))
+        wrong("step_size_floors_" + how, [length = length] {
+            const std::vector<Series> states(2, Series{coefficients.data(), 1});
+            keep(StepSize(10, 1e-10).with_floors(states, 0.1, std::vector<double>(length)));
+        });
+}
+
+void systems(WrongUses& wrong) {
+    const auto indices = [&](const std::string& name, std::size_t size,
+                             const std::function<void(const System&, std::size_t)>& use) {
+        for (const auto& [how, index] : wrong_indices(size))
+            wrong("system_" + name + "_" + how, [use, index = index] { use(System(symmetric_oscillator()), index); });
+    };
+    const Model model = symmetric_oscillator();
+    indices("mode", model.modes.size(), [](const System& s, std::size_t i) { keep(s.mode(i)); });
+    indices("jump", model.jumps.size(), [](const System& s, std::size_t i) { keep(s.jump(i)); });
+    indices("transition", model.transitions.size(), [](const System& s, std::size_t i) { keep(s.transition(i)); });
+    indices("symmetry", model.symmetries.size(), [](const System& s, std::size_t i) { keep(s.symmetry(i)); });
+    indices("event", model.events.size(), [](const System& s, std::size_t i) { keep(s.event(i)); });
+    indices("section", model.sections.size(), [](const System& s, std::size_t i) { keep(s.section(i)); });
+    indices("section_of_symmetry", model.symmetries.size(),
+            [](const System& s, std::size_t i) { keep(s.section(0, i)); });
+    const auto expressions = [&](const std::string& kind, const Expression& expression) {
+        const std::vector<Expression> list = {expression};
+        wrong("system_observing_" + kind, [list] { keep(System(oscillator()).observing(list)); });
+        wrong("system_function_of_" + kind, [list] { keep(System(oscillator()).function_of(list)); });
+        wrong("system_parameter_function_" + kind, [list] { keep(System(oscillator()).function_of_parameters(list)); });
+        wrong("system_gradient_" + kind, [list] { keep(System(oscillator()).with_gradient(list[0])); });
+    };
+    expressions("nothing", {});
+    expressions("unknown", Graph::create()->symbol("unknown"));
+    wrong("system_parameter_function_of_state",
+          [] { keep(System(oscillator()).function_of_parameters(std::vector{Graph::create()->symbol("x")})); });
+    wrong("system_model_grows", [] { keep(System(oscillator()).model().symbol("new")); });
+    wrong("moved_system", [] {
+        System system(oscillator());
+        const System moved = std::move(system);
+        keep(system.model().name);
+    });
+}
+
+std::vector<WrongUse> wrong_uses() {
+    WrongUses wrong;
+    tapes(wrong);
+    jets(wrong);
+    steps(wrong);
+    systems(wrong);
+    return wrong.list();
+}
+
+TEST(WrongFlowUse, IsRefused) {
+    each_of(wrong_uses(), expect_refusal);
+}
+
+} // namespace
+} // namespace graze

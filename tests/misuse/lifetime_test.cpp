@@ -1,0 +1,304 @@
+// What must work: temporaries handed to constructors, and things that outlive what they were made from.
+
+#include "misuse/right_things.hpp"
+#include "misuse/wrong_use.hpp"
+
+#include "graze/study/runner.hpp"
+#include "graze/sweep/plan.hpp"
+#include "graze/symbolic/transform.hpp"
+#include "graze/trajectory/ensemble.hpp"
+#include "graze/trajectory/recorder.hpp"
+
+#include <optional>
+
+// What is not said of a struct is as its header says.
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+/// Runs a trajectory on which nothing of what it was made from remains but its observer.
+void run_alone(Trajectory& trajectory) {
+    trajectory.start(oscillator().initial_state(), 0, 0, 1);
+    JetSet jets(trajectory.simulation(), LaneKind::single);
+    run(trajectory, jets);
+    if (trajectory.outcome().ending != Ending::end_time)
+        throw std::logic_error(trajectory.outcome().detail);
+}
+
+void expressions(WrongUses& right) {
+    right("expression_outlives_graph_handle", [] { keep(to_string(sin(Graph::create()->symbol("x")) + 1)); });
+    right("expression_outlives_model", [] {
+        const Expression force = oscillator().definitions[0].value;
+        keep(to_string(differentiate(force, force.graph()->symbol("v"))));
+    });
+    right("function_outlives_graph", [] {
+        Function function;
+        {
+            const Expression x = Graph::create()->symbol("x");
+            function = Function(std::vector{x}, std::vector{x * x});
+        }
+        EXPECT_EQ(function(std::vector<double>{3})[0], 9);
+    });
+    right("function_of_temporary_vectors", [] {
+        const Model model = oscillator();
+        keep(Function(model.inputs(), std::vector{model.symbol("x") * 2.0})(std::vector<double>(8, 1.0)));
+    });
+    right("jet_outlives_tape_and_graph", [] {
+        std::unique_ptr<Jet> jet;
+        {
+            const Expression x = Graph::create()->symbol("x");
+            jet = make_jet(compile_tape(std::vector{x}, {}, std::vector{x}, {}), 5, LaneKind::single);
+        }
+        jet->compute(std::vector<double>{1});
+        EXPECT_EQ(jet->state(0)[1], 1);
+    });
+    right("copied_model_outlives_original", [] {
+        std::optional<Model> model = oscillator();
+        const Model copy = *model;
+        model.reset();
+        copy.validate();
+    });
+    right("assigned_to_moved_model", [] {
+        Model model = oscillator();
+        const Model moved = std::move(model);
+        model = moved;
+        model.validate();
+    });
+    right("model_assigned_to_itself", [] {
+        Model model = oscillator();
+        const Model& same = model;
+        model = same;
+        model.validate();
+    });
+}
+
+void systems(WrongUses& right) {
+    right("system_outlives_model", [] {
+        std::optional<Model> model = oscillator();
+        const System system(*model);
+        model.reset();
+        keep(Simulation(system));
+        EXPECT_EQ(system.model().states.size(), 3U);
+    });
+    right("model_changes_after_compilation", [] {
+        Model model = oscillator();
+        const System system(model);
+        model.states.clear();
+        EXPECT_EQ(system.model().states.size(), 3U);
+    });
+    right("observing_system_outlives_first", [] {
+        std::optional<System> first = System(oscillator());
+        const System observing = first->observing(std::vector{Graph::create()->symbol("x")});
+        first.reset();
+        EXPECT_EQ(observing.observed(), 1U);
+        keep(observing.mode(1).tape.outputs.size());
+    });
+    right("mode_of_another_handle", [] {
+        std::optional<System> first = System(oscillator());
+        const System second = *first;
+        const System::CompiledMode& mode = first->mode(0);
+        first.reset();
+        EXPECT_EQ(mode.rates.outputs(), second.states());
+    });
+    right("function_of_system_outlives_it", [] {
+        const Function function = System(oscillator()).function_of(std::vector{Graph::create()->symbol("x")});
+        EXPECT_EQ(function(std::vector<double>(8, 2.0))[0], 2);
+    });
+    right("step_check_outlives_system", [] {
+        StepCheck check(System(oscillator()), 10, 1e-10);
+        check.set_parameters(oscillator().parameter_values());
+    });
+    right("simulation_of_temporaries", [] {
+        const Simulation simulation(System(oscillator()), {section_probe(oscillator(), "turning")},
+                                    {Graph::create()->symbol("v")});
+        EXPECT_EQ(simulation.probes().size(), 1U);
+    });
+    right("model_of_a_simulation_copied", [] {
+        Model model = Simulation(oscillator()).model();
+        keep(model.symbol("new"));
+    });
+}
+
+void trajectories(WrongUses& right) {
+    right("trajectory_of_temporaries", [] {
+        Observer nobody;
+        Trajectory trajectory(Simulation(System(oscillator())), oscillator().parameter_values(), nobody);
+        run_alone(trajectory);
+    });
+    right("trajectory_of_temporaries_with_probes", [] {
+        Recorder recorder;
+        Trajectory trajectory(Simulation(oscillator(), {section_probe(oscillator(), "turning")}),
+                              oscillator().parameter_values(), recorder);
+        run_alone(trajectory);
+    });
+    right("trajectory_outlives_simulation", [] {
+        Observer nobody;
+        std::optional<Simulation> simulation = Simulation(oscillator());
+        Trajectory trajectory(*simulation, oscillator().parameter_values(), nobody);
+        simulation.reset();
+        run_alone(trajectory);
+    });
+    right("moved_trajectory_goes_on", [] {
+        Motion motion;
+        motion.begun();
+        Trajectory moved = std::move(motion.trajectory);
+        run(moved, motion.jets);
+        moved.extend(2);
+        run(moved, motion.jets);
+        EXPECT_EQ(moved.outcome().ending, Ending::end_time);
+    });
+    right("moved_trajectory_keeps_derivatives", [] {
+        Motion motion;
+        motion.begun().carry_derivatives({"x"});
+        Trajectory moved = std::move(motion.trajectory);
+        run(moved, motion.jets);
+        keep(moved.derivative(0, 0));
+    });
+    right("start_from_own_state", [] {
+        Motion motion;
+        const std::span<const double> state = motion.finished().state();
+        motion.trajectory.start(state, motion.trajectory.mode(), 0, 1);
+        run(motion.trajectory, motion.jets);
+    });
+    right("parameters_of_another_trajectory", [] {
+        Observer nobody;
+        std::optional<Motion> motion(std::in_place);
+        Trajectory trajectory(motion->simulation, motion->trajectory.parameters(), nobody);
+        motion.reset();
+        run_alone(trajectory);
+    });
+    right("temporary_seeds", [] {
+        Motion motion;
+        motion.begun().carry_tangents(std::vector<double>(8, 1.0), 1);
+        run(motion.trajectory, motion.jets);
+        keep(motion.trajectory.derivative(0, 0));
+    });
+    right("jet_set_outlives_simulation", [] {
+        JetSet jets(Simulation(oscillator()), LaneKind::single);
+        Observer nobody;
+        Trajectory trajectory(jets.simulation(), oscillator().parameter_values(), nobody);
+        trajectory.start(oscillator().initial_state(), 0, 0, 1);
+        run(trajectory, jets);
+    });
+    right("jet_set_with_temporary_parameters", [] {
+        JetSet jets(Simulation(oscillator()), LaneKind::single);
+        jets.set_parameters(oscillator().parameter_values());
+        jets.computed(1, std::vector<double>(3, 0.1));
+    });
+    right("outlook_outlives_simulation", [] {
+        Outlook outlook(Simulation(oscillator()), 1);
+        JetSet jets(Simulation(oscillator()), LaneKind::single);
+        jets.set_parameters(oscillator().parameter_values());
+        outlook.lengths()[0] = 0;
+        outlook.find_steps(jets.computed(0, oscillator().initial_state()));
+    });
+    right("ensemble_outlives_simulation", [] {
+        Observer nobody;
+        std::optional<Simulation> simulation = Simulation(oscillator());
+        Ensemble ensemble(*simulation);
+        std::vector<Trajectory> trajectories;
+        for (int i = 0; i < 5; ++i) {
+            trajectories.emplace_back(*simulation, oscillator().parameter_values(), nobody);
+            trajectories.back().start(oscillator().initial_state(), 0, 0, 1);
+        }
+        simulation.reset();
+        ensemble.run(trajectories);
+        for (const Trajectory& trajectory : trajectories)
+            EXPECT_TRUE(trajectory.finished());
+    });
+    right("ensemble_of_nothing", [] { Ensemble(Simulation(oscillator())).run(std::span<Trajectory>{}); });
+}
+
+void searches(WrongUses& right) {
+    right("search_outlives_factory_and_model", [] {
+        std::unique_ptr<PointSearch> search;
+        {
+            const Model model = oscillator();
+            search =
+                transient_searches(model, {.time = 0.1}, {{.name = "a", .section = "phase0"}}, {model.symbol("x")}, {})
+                    ->make();
+        }
+        search->begin(oscillator().parameter_values(), oscillator().initial_state(), 0);
+        run(search->trajectory(), *std::make_unique<JetSet>(search->trajectory().simulation(), LaneKind::single));
+        while (search->proceed())
+            run(search->trajectory(), *std::make_unique<JetSet>(search->trajectory().simulation(), LaneKind::single));
+        EXPECT_EQ(search->result().label, Label::ended);
+    });
+    right("attractor_search_of_temporaries", [] {
+        keep(attractor_searches(oscillator(), by_phase(), {{.name = "a", .section = "phase0"}},
+                                {oscillator().symbol("v")}, {}));
+    });
+    right("execution_of_temporaries", [] {
+        std::size_t done = 0;
+        EXPECT_TRUE(execute(
+            {.chains = 3,
+             .start =
+                 [](std::size_t) {
+                     return PointStart{oscillator().parameter_values(), oscillator().initial_state(), 0};
+                 }},
+            *transient_searches(oscillator(), {.time = 0.1}, {}, {}, {}), {}, {.jobs = 2}, [&](auto&&...) { ++done; }));
+        EXPECT_EQ(done, 3U);
+    });
+    right("find_orbit_of_temporaries", [] { keep(find_orbit(calm_oscillator(), by_phase())); });
+    right("solve_orbit_of_temporaries", [] { keep(solve_orbit(calm_oscillator(), calm_orbit())); });
+    right("orbit_monitors_outlive_model", [] {
+        OrbitMonitors monitors(
+            calm_oscillator(), calm_orbit().signature,
+            {{.name = "m", .kind = Monitor::Kind::mean, .expression = calm_oscillator().symbol("x")}});
+        OrbitMonitors moved = std::move(monitors);
+        keep(moved(calm_orbit()));
+    });
+    right("orbit_branch_of_temporaries", [] {
+        OrbitBranch branch(calm_oscillator(), calm_orbit(), by_amplitude());
+        EXPECT_TRUE(branch.start());
+        EXPECT_TRUE(branch.step());
+    });
+    right("moved_orbit_branch_goes_on", [] {
+        OrbitBranch branch(calm_oscillator(), calm_orbit(), by_amplitude());
+        EXPECT_TRUE(branch.start());
+        OrbitBranch moved = std::move(branch);
+        EXPECT_TRUE(moved.step());
+    });
+    right("orbit_branch_outlives_the_one_its_start_came_from", [] {
+        const std::vector<BranchStart> starts = branches_at(calm_oscillator(), grazing_point(), by_amplitude());
+        OrbitBranch branch(calm_oscillator(), BranchStart(starts.at(0)).orbit, by_amplitude());
+        EXPECT_TRUE(branch.start_along(BranchStart(starts.at(0)).direction, starts.at(0).distance));
+    });
+    right("follow_branch_of_temporaries", [] {
+        keep(follow_branch(System(calm_oscillator()), Orbit(calm_orbit()), by_amplitude(),
+                           [](const BranchPoint&, const std::vector<SpecialPoint>&) { return false; }));
+    });
+    right("dense_problem_of_temporary_functions", [] {
+        DenseProblem problem(2, [offset = std::vector<double>{1}](std::span<const double> u, std::span<double> values) {
+            values[0] = u[0] + u[1] - offset[0];
+            return true;
+        });
+        Continuation continuation(problem);
+        EXPECT_TRUE(continuation.start(std::vector<double>{1, 0}, 1, 1));
+        EXPECT_TRUE(continuation.step());
+        EXPECT_TRUE(continuation.start_at(continuation.point().u, continuation.point().tangent));
+    });
+    right("follow_motion_of_temporaries", [] {
+        keep(follow_motion(Simulation(oscillator()), oscillator().parameter_values(), oscillator().initial_state(), 0,
+                           1));
+    });
+}
+
+std::vector<WrongUse> right_uses() {
+    WrongUses right;
+    expressions(right);
+    systems(right);
+    trajectories(right);
+    searches(right);
+    return right.list();
+}
+
+TEST(Lifetime, DoesNotMatter) {
+    each_of(right_uses(), [](const auto& right) { EXPECT_NO_THROW(right.use()) << right.name; });
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,215 @@
+// Orbits and signatures that cannot be.
+
+#include "misuse/right_things.hpp"
+#include "misuse/wrong_use.hpp"
+
+#include "graze/branch/monitor.hpp"
+#include "graze/orbit/orbit_file.hpp"
+
+// What is not said of a struct is as its header says.
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+struct Defect {
+    std::string name;
+    std::function<void(Orbit&)> make;
+};
+
+std::vector<Defect> defects() {
+    std::vector<Defect> list = {
+        {"by_default", [](Orbit& o) { o = {}; }},
+        {"signature_empty", [](Orbit& o) { o.signature.clear(); }},
+        {"signature_longer", [](Orbit& o) { o.signature.push_back(o.signature[0]); }},
+        {"segment_without_end", [](Orbit& o) { o.signature[0].end = static_cast<SegmentEnd>(9); }},
+        {"segment_by_default", [](Orbit& o) { o.signature[0] = {.mode = 1}; }},
+        {"start_missing", [](Orbit& o) { o.starts.clear(); }},
+        {"start_too_many", [](Orbit& o) { o.starts.push_back(o.starts[0]); }},
+        {"duration_missing", [](Orbit& o) { o.durations.clear(); }},
+        {"duration_too_many", [](Orbit& o) { o.durations.push_back(1); }},
+        {"duration_negative", [](Orbit& o) { o.durations[0] = -1; }},
+        {"symmetry_0", [](Orbit& o) { o.symmetry = 0; }},
+        {"symmetry_1", [](Orbit& o) { o.symmetry = 1; }},
+        {"symmetry_huge", [](Orbit& o) { o.symmetry = huge; }},
+    };
+    for (const auto& [kind, length] : wrong_lengths(5))
+        list.push_back({"parameters_" + kind, [n = length](Orbit& o) { o.parameters.resize(n); }});
+    for (const auto& [kind, length] : wrong_lengths(3))
+        list.push_back({"start_" + kind, [n = length](Orbit& o) { o.starts[0].resize(n); }});
+    for (const auto& [kind, value] : not_finite()) {
+        list.push_back({"parameter_" + kind, [v = value](Orbit& o) { o.parameters[0] = v; }});
+        list.push_back({"start_" + kind, [v = value](Orbit& o) { o.starts[0][1] = v; }});
+        list.push_back({"duration_" + kind, [v = value](Orbit& o) { o.durations[0] = v; }});
+    }
+    for (const auto& [kind, index] : wrong_indices(2)) {
+        list.push_back({"mode_" + kind, [i = index](Orbit& o) { o.signature[0].mode = i; }});
+        list.push_back({"section_" + kind, [i = index](Orbit& o) { o.signature[0].index = i; }});
+        list.push_back(
+            {"transition_" + kind, [i = index](Orbit& o) { o.signature[0] = {.end = SegmentEnd::event, .index = i}; }});
+    }
+    return list;
+}
+
+void defective_orbits(WrongUses& wrong) {
+    const Orbit right{.signature = {{.mode = 0, .end = SegmentEnd::section, .index = 0}},
+                      .parameters = calm_oscillator().parameter_values(),
+                      .starts = {{0.1, 0.1, 0}},
+                      .durations = {5.2},
+                      .symmetry = std::nullopt};
+    for (const Defect& defect : defects()) {
+        const auto with = [&](const std::string& name, const std::function<void(const Model&, const Orbit&)>& use) {
+            wrong(name + "_" + defect.name, [make = defect.make, right, use] {
+                Orbit orbit = right;
+                make(orbit);
+                use(calm_oscillator(), orbit);
+            });
+        };
+        with("validate_orbit", [](const Model& m, const Orbit& o) { validate_orbit(m, o); });
+        with("solve_orbit", [](const Model& m, const Orbit& o) { keep(solve_orbit(m, o)); });
+        with("whole_orbit", [](const Model& m, const Orbit& o) { keep(whole_orbit(m, o)); });
+        with("half_orbit", [](const Model& m, const Orbit& o) { keep(half_orbit(m, o)); });
+        with("orbit_branch", [](const Model& m, const Orbit& o) { keep(OrbitBranch(m, o, by_amplitude())); });
+        with("follow_branch", [](const Model& m, const Orbit& o) { keep(follow_branch(m, o, by_amplitude())); });
+        with("monitors", [](const Model& m, const Orbit& o) {
+            OrbitMonitors monitors(m, calm_orbit().signature, {{.name = "period"}});
+            keep(monitors(o));
+        });
+        with("image_of", [](const Model&, const Orbit& o) {
+            keep(image_of(symmetric_oscillator(), 0, o.signature.empty() ? Segment{huge} : o.signature[0], o));
+        });
+    }
+    // With an orbit of this model, whose symmetry it is: half orbits are asked for more than whole ones.
+    for (const auto& [kind, index] : wrong_indices(symmetric_oscillator().symmetries.size())) {
+        wrong("image_under_symmetry_" + kind,
+              [right, i = index] { keep(image_of(symmetric_oscillator(), i, right.signature[0], right)); });
+        wrong("validate_signature_symmetry_" + kind,
+              [right, i = index] { validate_signature(symmetric_oscillator(), right.signature, {}, i); });
+    }
+}
+
+void signatures(WrongUses& wrong) {
+    for (const std::string text :
+         {"", "  ", "unknown", "impact^0", "impact^-1", "impact^", "^2", "(impact", "impact)", "{}",
+          "impact^99999999999999999999", "impact^1000000000", "unknown:impact", "stuck:impact", "impact:", ":",
+          "release release", "impact^2.5", "((impact^9999)^9999)^9999"})
+        wrong("parse_signature_" + text, [text] { keep(parse_signature(oscillator(), text)); });
+    const auto segment = [&](const std::string& name, const Segment& one) {
+        wrong("end_name_" + name, [one] { keep(std::string(end_name(oscillator(), one))); });
+        wrong("to_string_" + name, [one] { keep(to_string(oscillator(), Signature{one})); });
+        wrong("validate_signature_" + name, [one] { validate_signature(oscillator(), Signature{one}); });
+        wrong("orbit_monitors_signature_" + name,
+              [one] { keep(OrbitMonitors(oscillator(), Signature{one}, {{.name = "period"}})); });
+        wrong("orbit_with_signature_" + name, [one] {
+            keep(orbit_with_signature(oscillator(), Signature{one}, {}, {},
+                                      {.steps = 200, .segments = 20, .trials = 1}));
+        });
+    };
+    for (const auto& [kind, index] : wrong_indices(2)) {
+        segment("mode_" + kind + "_", {.mode = index});
+        segment("transition_" + kind, {.index = index});
+        segment("section_" + kind, {.end = SegmentEnd::section, .index = index});
+    }
+    segment("no_end", {.end = static_cast<SegmentEnd>(9)});
+    segment("transition_of_another_mode", {.mode = 1});
+    wrong("validate_signature_empty", [] { validate_signature(oscillator(), {}); });
+    wrong("orbit_monitors_signature_empty", [] { keep(OrbitMonitors(oscillator(), {}, {{.name = "period"}})); });
+    wrong("orbit_with_signature_empty", [] { keep(orbit_with_signature(oscillator(), {})); });
+}
+
+void options(WrongUses& wrong) {
+    const auto option = [&](const std::string& name, const std::function<void(OrbitOptions&)>& set) {
+        const auto made = [set] {
+            OrbitOptions options;
+            set(options);
+            return options;
+        };
+        wrong("orbit_options_" + name, [made] { made().validate(); });
+        wrong("solve_orbit_with_" + name, [made] { keep(solve_orbit(calm_oscillator(), calm_orbit(), made())); });
+        wrong("find_orbit_with_" + name, [made] { keep(find_orbit(calm_oscillator(), by_phase(), made())); });
+        wrong("orbit_with_signature_with_" + name, [made] {
+            keep(orbit_with_signature(calm_oscillator(), parse_signature(oscillator(), "phase0"), made()));
+        });
+    };
+    for (const double value : {0.0, -1.0, 1.0, 1e-17, not_a_number, infinity})
+        option("tolerance_" + std::to_string(value), [value](OrbitOptions& o) { o.tolerance = value; });
+    for (const auto& [kind, value] : not_positive())
+        option("accuracy_" + kind, [v = value](OrbitOptions& o) { o.accuracy = v; });
+    option("iterations_0", [](OrbitOptions& o) { o.iterations = 0; });
+    wrong("find_orbit_simulation_options",
+          [] { keep(find_orbit(calm_oscillator(), by_phase(), {}, {.tolerance = not_a_number})); });
+    wrong("find_orbit_of_two_graphs_model", [] {
+        Model model = calm_oscillator();
+        model.states.clear();
+        keep(find_orbit(model, by_phase()));
+    });
+    for (const auto& [kind, value] :
+         std::vector<std::pair<std::string, double>>{{"negative", -1}, {"nan", not_a_number}, {"infinite", infinity}})
+        wrong("half_orbit_tolerance_" + kind,
+              [v = value] { keep(half_orbit(symmetric_oscillator(), calm_orbit(), v)); });
+    const auto search = [&](const std::string& name, const SignatureSearchOptions& limits) {
+        wrong("signature_search_" + name, [limits] {
+            keep(orbit_with_signature(calm_oscillator(), parse_signature(oscillator(), "phase0"), {}, {}, limits));
+        });
+    };
+    search("no_steps", {.steps = 0});
+    search("no_segments", {.segments = 0});
+    search("no_trials", {.trials = 0});
+}
+
+void motions(WrongUses& wrong) {
+    struct Given {
+        std::vector<double> parameters = oscillator().parameter_values(), state = oscillator().initial_state();
+        std::size_t mode = 0;
+        double time = 1;
+    };
+    const auto motion = [&](const std::string& name, const std::function<void(Given&)>& spoil) {
+        wrong("follow_motion_" + name, [spoil] {
+            Given given;
+            spoil(given);
+            keep(follow_motion(Simulation(oscillator()), given.parameters, given.state, given.mode, given.time));
+        });
+    };
+    for (const auto& [kind, length] : wrong_lengths(5))
+        motion("parameters_" + kind, [n = length](Given& g) { g.parameters.resize(n); });
+    for (const auto& [kind, length] : wrong_lengths(3))
+        motion("state_" + kind, [n = length](Given& g) { g.state.resize(n); });
+    for (const auto& [kind, value] : not_finite()) {
+        motion("parameter_" + kind, [v = value](Given& g) { g.parameters[0] = v; });
+        motion("state_" + kind, [v = value](Given& g) { g.state[0] = v; });
+        motion("time_" + kind, [v = value](Given& g) { g.time = v; });
+    }
+    motion("time_negative", [](Given& g) { g.time = -1; });
+    for (const auto& [kind, index] : wrong_indices(2))
+        motion("mode_" + kind, [i = index](Given& g) { g.mode = i; });
+    for (const std::string table : {"", "t,x,v,theta\n", "segment,t,x,v\n1,0,0,0\n", "segment,t,x,v,theta\n",
+                                    "segment,t,x,v,theta\n1,0,0,0,0\n", "segment,t,x,v,theta\n1,0,0,0,0\n1,nan,0,0,0\n",
+                                    "segment,t,x,v,theta\n1,1,0,0,0\n1,0,0,0,0\n", "segment,t,x,v,theta\n2,0,0,0,0\n",
+                                    "segment,t,x,v,theta\n1,0,0\n", "segment,segment,t,x,v,theta\n1,1,0,0,0,0\n",
+                                    "segment,t,x,v,theta,end\n1,0,0,0,0,unknown\n1,1,0,0,0,unknown\n", "\xff"}) {
+        wrong("parse_orbit_table", [table] { keep(parse_orbit_table(oscillator(), table, "", "file.csv")); });
+        wrong("parse_orbit_table_signature",
+              [table] { keep(parse_orbit_table(oscillator(), table, "unknown", "file.csv")); });
+    }
+    wrong("read_orbit_table_no_file", [] { keep(read_orbit_table(oscillator(), "/no/such/file", "impact")); });
+    wrong("read_orbit_table_folder", [] { keep(read_orbit_table(oscillator(), "/tmp", "impact")); });
+    wrong("name_of_no_orbit_outcome", [] { keep(std::string(name_of(static_cast<OrbitOutcome>(99)))); });
+}
+
+std::vector<WrongUse> wrong_uses() {
+    WrongUses wrong;
+    defective_orbits(wrong);
+    signatures(wrong);
+    options(wrong);
+    motions(wrong);
+    return wrong.list();
+}
+
+TEST(WrongOrbitUse, IsRefused) {
+    each_of(wrong_uses(), expect_refusal);
+}
+
+} // namespace
+} // namespace graze

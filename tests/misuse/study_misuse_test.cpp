@@ -1,0 +1,376 @@
+// Files of results and what is made of them; studies.
+
+#include "misuse/right_things.hpp"
+#include "misuse/wrong_use.hpp"
+
+#include "graze/results/hdf5.hpp"
+#include "graze/results/regression.hpp"
+#include "graze/results/result_file.hpp"
+#include "graze/results/spectrum.hpp"
+#include "graze/study/runner.hpp"
+#include "graze/study/study_catalogue.hpp"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+/// A folder with a file in which there are a sweep of four points with two states, coordinates and values, and a
+/// branch.
+struct Results {
+    std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("graze-misuse-" + std::to_string(getpid()));
+    std::unique_ptr<ResultFile> file;
+    Results() {
+        std::filesystem::remove_all(folder);
+        std::filesystem::create_directories(folder);
+        file = std::make_unique<ResultFile>(path(), ResultFile::Access::write);
+        file->begin_run(sweep());
+    }
+    ~Results() {
+        file.reset();
+        std::filesystem::remove_all(folder);
+    }
+    std::string path(const std::string& name = "results.sqlite") const { return (folder / name).string(); }
+    static RunRecord sweep() {
+        RunRecord run;
+        run.name = "sweep";
+        run.kind = "sweep";
+        run.model_name = "oscillator";
+        run.model = write_model(oscillator());
+        run.settings = "{}";
+        run.fingerprint = "abc";
+        run.version = "0.1.0";
+        run.coordinates = {{"amplitude", ""}, {"omega", ""}};
+        run.states = {{"x", ""}, {"v", ""}, {"theta", ""}};
+        run.values = {{"x", ""}, {"v", ""}};
+        run.samplings = {"phase0"};
+        run.modes = {"free", "stuck"};
+        run.directions = {"up"};
+        run.points = 4;
+        return run;
+    }
+    static RunRecord branch() {
+        RunRecord run = sweep();
+        run.name = "branch";
+        run.kind = "continue";
+        run.coordinates.clear();
+        for (const std::string& name : oscillator().independent_parameters())
+            run.coordinates.push_back({name, ""});
+        run.values.clear();
+        return run;
+    }
+    static PointRecord point() {
+        PointRecord record;
+        record.coordinates = {1, 2};
+        record.result.state = {0, 0, 0};
+        record.result.samples = {.width = 2, .samplings = {0}, .times = {1}, .values = {1, 2}};
+        return record;
+    }
+    static OrbitRecord orbit() {
+        OrbitRecord record;
+        record.part = "up";
+        record.point.type = PointType::regular;
+        record.point.solution = calm_solution();
+        return record;
+    }
+};
+
+void result_files(WrongUses& wrong) {
+    const auto of = [&](const std::string& name, const std::function<void(Results&)>& use) {
+        wrong("results_" + name, [use] {
+            Results results;
+            use(results);
+        });
+    };
+    using Access = ResultFile::Access;
+    of("second_writer", [](Results& r) { ResultFile(r.path(), Access::write); });
+    of("read_no_file", [](Results& r) { ResultFile(r.path("none"), Access::read); });
+    of("read_folder", [](Results& r) { ResultFile(r.folder.string(), Access::read); });
+    of("write_in_no_folder", [](Results& r) { ResultFile(r.path("none/none"), Access::write); });
+    for (const Access access : {Access::read, Access::write}) {
+        const std::string number = std::to_string(static_cast<int>(access));
+        of("empty_path_" + number, [access](Results&) { ResultFile("", access); });
+        of("memory_" + number, [access](Results&) { ResultFile(":memory:", access); });
+        of("text_file_" + number, [access](Results& r) {
+            std::ofstream(r.path("text")) << "this is no such file, however long it may be";
+            ResultFile(r.path("text"), access);
+        });
+    }
+    const auto reading = [&](const std::string& name, const std::function<void(ResultFile&)>& use) {
+        of("write_to_read_only_" + name, [use](Results& r) {
+            r.file->flush();
+            ResultFile file(r.path(), Access::read);
+            use(file);
+            file.flush();
+        });
+    };
+    reading("begin_run", [](ResultFile& f) { f.begin_run(Results::sweep()); });
+    reading("remove_run", [](ResultFile& f) { f.remove_run("sweep"); });
+    reading("add_point", [](ResultFile& f) { f.add_point("sweep", Results::point()); });
+    reading("complete_run", [](ResultFile& f) { f.complete_run("sweep"); });
+    const auto begin = [&](const std::string& name, const std::function<void(RunRecord&)>& spoil) {
+        of("begin_run_" + name, [spoil](Results& r) {
+            RunRecord run = Results::sweep();
+            spoil(run);
+            r.file->begin_run(run);
+        });
+    };
+    begin("by_default", [](RunRecord& run) { run = {}; });
+    begin("without_name", [](RunRecord& run) { run.name = ""; });
+    begin("name_of_folder", [](RunRecord& run) { run.name = "../x"; });
+    begin("of_no_kind", [](RunRecord& run) { run.kind = "unknown"; });
+    begin("settings_no_json", [](RunRecord& run) { run.settings = "{"; });
+    begin("column_twice", [](RunRecord& run) { run.coordinates = {{"a", ""}, {"a", ""}}; });
+    begin("column_without_name", [](RunRecord& run) { run.coordinates = {{"", ""}}; });
+    of("remove_unknown", [](Results& r) { r.file->remove_run("unknown"); });
+    of("complete_unknown", [](Results& r) { r.file->complete_run("unknown"); });
+    of("point_count_unknown", [](Results& r) { keep(r.file->point_count("unknown")); });
+    of("last_points_unknown", [](Results& r) { keep(r.file->last_points("unknown", 2)); });
+    of("last_points_of_empty_chains", [](Results& r) { keep(r.file->last_points("sweep", 0)); });
+    of("point_unknown", [](Results& r) { keep(r.file->point("unknown", 0)); });
+    of("nearest_unknown", [](Results& r) { keep(r.file->nearest_point("unknown", "amplitude", 1, {})); });
+    of("nearest_coordinate_unknown", [](Results& r) { keep(r.file->nearest_point("sweep", "unknown", 1, {})); });
+    of("nearest_direction_unknown", [](Results& r) { keep(r.file->nearest_point("sweep", "amplitude", 1, 7)); });
+    of("nearest_to_nan", [](Results& r) { keep(r.file->nearest_point("sweep", "amplitude", not_a_number, {})); });
+    of("orbits_unknown", [](Results& r) { keep(r.file->orbits("unknown", false)); });
+    of("orbits_of_sweep", [](Results& r) { keep(r.file->orbits("sweep", false)); });
+    of("orbit_unknown", [](Results& r) { keep(r.file->orbit("unknown", 0)); });
+    const auto point = [&](const std::string& name, const std::function<void(PointRecord&)>& spoil) {
+        of("add_point_" + name, [spoil](Results& r) {
+            PointRecord record = Results::point();
+            spoil(record);
+            r.file->add_point("sweep", record);
+            r.file->flush();
+            keep(r.file->point("sweep", record.number));
+        });
+    };
+    of("add_point_to_unknown", [](Results& r) { r.file->add_point("unknown", Results::point()); });
+    of("add_point_to_branch", [](Results& r) {
+        r.file->begin_run(Results::branch());
+        r.file->add_point("branch", Results::point());
+    });
+    of("add_point_twice", [](Results& r) {
+        r.file->add_point("sweep", Results::point());
+        r.file->add_point("sweep", Results::point());
+    });
+    for (const auto& [kind, length] : wrong_lengths(2)) {
+        point("coordinates_" + kind, [n = length](PointRecord& p) { p.coordinates.resize(n); });
+        point("values_" + kind, [n = length](PointRecord& p) { p.result.samples.values.resize(n); });
+    }
+    for (const auto& [kind, length] : wrong_lengths(3))
+        point("state_" + kind, [n = length](PointRecord& p) { p.result.state.resize(n); });
+    for (const auto& [kind, length] : wrong_lengths(1))
+        point("samplings_" + kind, [n = length](PointRecord& p) { p.result.samples.samplings.resize(n); });
+    point("width", [](PointRecord& p) { p.result.samples.width = 3; });
+    for (const auto& [kind, index] : wrong_indices(2))
+        point("mode_" + kind, [i = index](PointRecord& p) { p.result.mode = i; });
+    for (const auto& [kind, index] : wrong_indices(1)) {
+        point("direction_" + kind, [i = index](PointRecord& p) { p.direction = i; });
+        point("sampling_" + kind, [i = index](PointRecord& p) { p.result.samples.samplings = {i}; });
+    }
+    for (const auto& [kind, index] : wrong_indices(4))
+        point("number_" + kind, [i = index](PointRecord& p) { p.number = i; });
+    point("no_label", [](PointRecord& p) { p.result.label = static_cast<Label>(99); });
+    const auto orbit = [&](const std::string& name, const std::function<void(OrbitRecord&)>& spoil) {
+        of("add_orbit_" + name, [spoil](Results& r) {
+            OrbitRecord record = Results::orbit();
+            spoil(record);
+            r.file->begin_run(Results::branch());
+            r.file->add_orbit("branch", record);
+            r.file->flush();
+            keep(r.file->orbits("branch", false));
+        });
+    };
+    of("add_orbit_to_unknown", [](Results& r) { r.file->add_orbit("unknown", Results::orbit()); });
+    of("add_orbit_to_sweep", [](Results& r) { r.file->add_orbit("sweep", Results::orbit()); });
+    orbit("by_default", [](OrbitRecord& o) { o = {}; });
+    orbit("no_type", [](OrbitRecord& o) { o.point.type = static_cast<PointType>(99); });
+    orbit("monitors_too_many", [](OrbitRecord& o) { o.point.monitors = {1}; });
+    orbit("parameters_missing", [](OrbitRecord& o) { o.point.solution.orbit.parameters.clear(); });
+    orbit("starts_missing", [](OrbitRecord& o) { o.point.solution.orbit.starts.clear(); });
+    orbit("start_too_short", [](OrbitRecord& o) { o.point.solution.orbit.starts[0].pop_back(); });
+    orbit("durations_missing", [](OrbitRecord& o) { o.point.solution.orbit.durations.clear(); });
+    orbit("mode_huge", [](OrbitRecord& o) { o.point.solution.orbit.signature[0].mode = huge; });
+    orbit("index_huge", [](OrbitRecord& o) { o.point.solution.orbit.signature[0].index = huge; });
+    orbit("approach_speeds_missing", [](OrbitRecord& o) { o.point.solution.certificate.approach_speeds.clear(); });
+}
+
+void rows(WrongUses& wrong) {
+    const auto row = [&](const std::string& name, const std::function<void(ResultFile::Rows&)>& use) {
+        wrong("rows_" + name, [use] {
+            Results results;
+            ResultFile::Rows one = results.file->query("select name, points from runs");
+            use(one);
+        });
+    };
+    using Rows = ResultFile::Rows;
+    const std::vector<std::pair<std::string, std::function<void(const Rows&, std::size_t)>>> readers = {
+        {"is_null", [](const Rows& r, std::size_t i) { keep(r.is_null(i)); }},
+        {"is_text", [](const Rows& r, std::size_t i) { keep(r.is_text(i)); }},
+        {"is_integer", [](const Rows& r, std::size_t i) { keep(r.is_integer(i)); }},
+        {"number", [](const Rows& r, std::size_t i) { keep(r.number(i)); }},
+        {"integer", [](const Rows& r, std::size_t i) { keep(r.integer(i)); }},
+        {"text", [](const Rows& r, std::size_t i) { keep(r.text(i)); }}};
+    for (const auto& [name, read] : readers) {
+        row(name + "_before_next", [read = read](Rows& r) { read(r, 0); });
+        row(name + "_after_the_last", [read = read](Rows& r) {
+            while (r.next()) {
+            }
+            read(r, 0);
+        });
+        for (const auto& [kind, index] : wrong_indices(2))
+            row(name + "_column_" + kind, [read = read, i = index](Rows& r) {
+                r.next();
+                read(r, i);
+            });
+        row(name + "_moved", [read = read](Rows& r) {
+            r.next();
+            const Rows moved = std::move(r);
+            read(r, 0);
+        });
+    }
+    for (const auto& [kind, index] : wrong_indices(2))
+        row("column_name_" + kind, [i = index](Rows& r) { keep(r.column_name(i)); });
+    row("moved_next", [](Rows& r) {
+        const Rows moved = std::move(r);
+        keep(r.next());
+    });
+    row("moved_columns", [](Rows& r) {
+        const Rows moved = std::move(r);
+        keep(r.columns());
+    });
+    row("number_of_a_text", [](Rows& r) {
+        r.next();
+        keep(r.number(0));
+    });
+    for (const std::string sql : {"", "  ", "garbage", "select", "select * from unknown", "delete from runs",
+                                  "select 1; select 2", "pragma journal_mode=delete", "attach 'x' as y", "select ?1"})
+        wrong("query_" + sql, [sql] {
+            Results results;
+            keep(results.file->query(sql).next());
+        });
+    wrong("query_values_too_many", [] { keep(Results().file->query("select ?1", {1, 2}).next()); });
+    wrong("patience_negative", [] { Results().file->set_patience(std::chrono::milliseconds(-1)); });
+    wrong("stored_model_of_nothing", [] { keep(stored_model({})); });
+    wrong("stored_model_of_other_columns", [] {
+        RunRecord run = Results::sweep();
+        run.states.pop_back();
+        keep(stored_model(run));
+    });
+    for (const std::string path : {"", "/no/such/folder/file.h5", "/tmp"})
+        wrong("export_hdf5_to_" + path, [path] { export_hdf5(*Results().file, {"sweep"}, path); });
+    wrong("export_hdf5_unknown", [] {
+        const Results results;
+        export_hdf5(*results.file, {"unknown"}, results.path("a.h5"));
+    });
+    wrong("export_hdf5_twice", [] {
+        const Results results;
+        export_hdf5(*results.file, {"sweep", "sweep"}, results.path("a.h5"));
+    });
+    wrong("export_hdf5_over_its_own_source", [] {
+        const Results results;
+        export_hdf5(*results.file, {"sweep"}, results.path());
+    });
+    wrong("spectrum_of_nothing", [] { keep(spectrum({}, 1)); });
+    for (const auto& [kind, value] : not_positive())
+        wrong("spectrum_frequency_" + kind, [v = value] { keep(spectrum(std::vector<double>{1, 2, 3, 4}, v)); });
+    for (const auto& [kind, value] : not_finite()) {
+        wrong("spectrum_sample_" + kind, [v = value] { keep(spectrum(std::vector<double>{1, v, 3, 4}, 1)); });
+        wrong("regression_" + kind, [v = value] { keep(regression(std::vector{1.0, v}, std::vector{1.0, 2.0})); });
+        wrong("regression_y_" + kind, [v = value] { keep(regression(std::vector{1.0, 2.0}, std::vector{1.0, v})); });
+    }
+    for (const auto& [kind, length] : wrong_lengths(3)) {
+        wrong("regression_x_" + kind, [n = length] {
+            keep(regression(std::vector(n, 1.0), std::vector{1.0, 2.0, 3.0}));
+        });
+        wrong("regression_y_" + kind, [n = length] {
+            keep(regression(std::vector{1.0, 2.0, 3.0}, std::vector(n, 1.0)));
+        });
+    }
+}
+
+void studies(WrongUses& wrong) {
+    for (const std::string text : {"", "garbage", "name = 'a'", "name = 'a'\n[runs.a]\n", "name = 1", "[", "\xff",
+                                   "name = 'a'\n[runs.a]\nkind = 'unknown'\nmodel = 'mems-switch'\n"})
+        wrong("parse_study_" + text, [text] { keep(parse_study(text, "study.toml")); });
+    for (const std::string name : {"", "unknown", "/no/such.toml", "/tmp/", "mems-switch.toml"}) {
+        wrong("load_study_" + name, [name] { keep(load_study(name)); });
+        wrong("read_study_" + name, [name] { keep(read_study(name)); });
+        wrong("shipped_study_text_" + name, [name] { keep(shipped_study_text(name)); });
+    }
+    wrong("name_of_no_run_kind", [] { keep(std::string(name_of(static_cast<RunKind>(99)))); });
+    const auto run = [&](const std::string& name, const std::function<void(Study&, Results&, RunnerOptions&)>& spoil) {
+        wrong("run_study_" + name, [spoil] {
+            Study study;
+            study.name = "study";
+            study.runs.resize(1);
+            StudyRun& one = study.runs[0];
+            one.name = "a";
+            one.model = oscillator();
+            one.transient.time = 0.1;
+            one.axes = {{.name = "amplitude", .unit = "", .index = 2, .values = {0.5, 1}}};
+            Results results;
+            RunnerOptions options;
+            spoil(study, results, options);
+            for (const RunReport& report : run_study(study, *results.file, options))
+                if (report.outcome == RunOutcome::failed)
+                    throw InputError(report.problem, report.remedy);
+        });
+    };
+    for (const int jobs : {0, -1})
+        run("jobs_" + std::to_string(jobs), [jobs](Study&, Results&, RunnerOptions& o) { o.jobs = jobs; });
+    run("only_unknown", [](Study&, Results&, RunnerOptions& o) { o.only = {"unknown"}; });
+    run("read_only", [](Study&, Results& r, RunnerOptions&) {
+        r.file = nullptr;
+        r.file = std::make_unique<ResultFile>(r.path(), ResultFile::Access::read);
+    });
+    run("run_by_default", [](Study& s, Results&, RunnerOptions&) { s.runs[0] = {}; });
+    run("run_twice", [](Study& s, Results&, RunnerOptions&) { s.runs.push_back(s.runs[0]); });
+    run("run_of_no_kind", [](Study& s, Results&, RunnerOptions&) { s.runs[0].kind = static_cast<RunKind>(99); });
+    run("start_unknown", [](Study& s, Results&, RunnerOptions&) { s.runs[0].start.emplace().run = "unknown"; });
+    run("values_without_names",
+        [](Study& s, Results&, RunnerOptions&) { s.runs[0].values = {s.runs[0].model.symbol("x")}; });
+    run("value_of_nothing", [](Study& s, Results&, RunnerOptions&) {
+        s.runs[0].values.resize(1);
+        s.runs[0].value_names = s.runs[0].value_units = {"a"};
+    });
+    for (const auto& [kind, index] : wrong_indices(5))
+        run("axis_parameter_" + kind, [i = index](Study& s, Results&, RunnerOptions&) { s.runs[0].axes[0].index = i; });
+    run("axis_nan", [](Study& s, Results&, RunnerOptions&) { s.runs[0].axes[0].values = {not_a_number}; });
+    run("axis_without_values", [](Study& s, Results&, RunnerOptions&) { s.runs[0].axes[0].values.clear(); });
+    run("no_end", [](Study& s, Results&, RunnerOptions&) { s.runs[0].transient = {}; });
+    wrong("plan_of_default_run", [] { keep(plan_of({}, oscillator(), nullptr)); });
+    for (const auto& [kind, index] : wrong_indices(1)) {
+        wrong("coordinates_of_point_" + kind, [i = index] {
+            StudyRun one;
+            one.axes = {{.name = "amplitude", .unit = "", .values = {0.5}}};
+            keep(coordinates_of(one, i));
+        });
+        wrong("direction_of_point_" + kind, [i = index] {
+            StudyRun one;
+            one.axes = {{.name = "amplitude", .unit = "", .values = {0.5}}};
+            keep(direction_of(one, i));
+        });
+    }
+}
+
+std::vector<WrongUse> wrong_uses() {
+    WrongUses wrong;
+    result_files(wrong);
+    rows(wrong);
+    studies(wrong);
+    return wrong.list();
+}
+
+TEST(WrongStudyUse, IsRefused) {
+    each_of(wrong_uses(), expect_refusal);
+}
+
+} // namespace
+} // namespace graze

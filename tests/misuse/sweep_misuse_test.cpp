@@ -1,0 +1,236 @@
+// Attractors, simulations of many points, plans.
+
+#include "misuse/right_things.hpp"
+#include "misuse/wrong_use.hpp"
+
+#include "graze/sweep/plan.hpp"
+
+// What is not said of a struct is as its header says.
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+using Values = std::vector<Expression>;
+using Samplings = std::vector<Sampling>;
+
+Sampling at_phase() {
+    return {.name = "phase0", .section = "phase0"};
+}
+std::unique_ptr<SearchFactory> searches(const AttractorOptions& options = by_phase()) {
+    const Model model = oscillator();
+    return attractor_searches(model, options, {at_phase()}, {model.symbol("v")}, {});
+}
+
+void attractor_options(WrongUses& wrong) {
+    const auto option = [&](const std::string& name, const std::function<void(AttractorOptions&)>& set) {
+        const auto made = [set] {
+            AttractorOptions options = by_phase();
+            set(options);
+            return options;
+        };
+        wrong("attractor_options_" + name, [made] { made().validate(oscillator()); });
+        wrong("attractor_searches_" + name, [made] { keep(searches(made())); });
+        wrong("find_orbit_" + name, [made] { keep(find_orbit(calm_oscillator(), made())); });
+    };
+    option("section_empty", [](AttractorOptions& o) { o.section = ""; });
+    option("section_unknown", [](AttractorOptions& o) { o.section = "unknown"; });
+    option("cycles_0", [](AttractorOptions& o) { o.cycles = 0; });
+    option("largest_period_0", [](AttractorOptions& o) { o.largest_period = 0; });
+    option("largest_period_huge", [](AttractorOptions& o) { o.largest_period = huge; });
+    for (const auto& [kind, value] : not_positive())
+        option("recurrence_" + kind, [value = value](AttractorOptions& o) { o.recurrence = value; });
+    for (const auto& [kind, value] : negative()) {
+        option("disturbance_" + kind, [value = value](AttractorOptions& o) { o.disturbance = value; });
+        option("longest_return_" + kind, [value = value](AttractorOptions& o) { o.longest_return = value; });
+    }
+    for (const auto& [kind, index] : wrong_indices(3))
+        option("bounds_state_" + kind, [i = index](AttractorOptions& o) { o.bounds = {{i, {0, 1}}}; });
+    option("bounds_reversed", [](AttractorOptions& o) { o.bounds = {{0, {1, 0}}}; });
+    option("bounds_nan", [](AttractorOptions& o) { o.bounds = {{0, {not_a_number, 1}}}; });
+}
+
+void transient_options(WrongUses& wrong) {
+    const auto option = [&](const std::string& name, const std::function<void(TransientOptions&)>& set) {
+        const auto made = [set] {
+            TransientOptions options{.section = "phase0", .time = 1};
+            set(options);
+            return options;
+        };
+        wrong("transient_options_" + name, [made] { made().validate(oscillator()); });
+        wrong("transient_searches_" + name, [made] { keep(transient_searches(oscillator(), made(), {}, {}, {})); });
+    };
+    option("no_end", [](TransientOptions& o) { o.time = 0; });
+    option("section_unknown", [](TransientOptions& o) { o.section = "unknown"; });
+    option("periods_without_section", [](TransientOptions& o) {
+        o.section = "";
+        o.periods = 3;
+    });
+    option("contacts_of_nothing", [](TransientOptions& o) { o.contacts = 3; });
+    for (const auto& [kind, index] : wrong_indices(2))
+        option("counted_" + kind, [i = index](TransientOptions& o) {
+            o.contacts = 3;
+            o.counted = {i};
+        });
+    for (const auto& [kind, value] : negative()) {
+        option("time_" + kind, [value = value](TransientOptions& o) { o.time = value; });
+        option("skip_time_" + kind, [value = value](TransientOptions& o) { o.skip_time = value; });
+        option("greatest_speed_" + kind, [value = value](TransientOptions& o) { o.greatest_speed = value; });
+    }
+    for (const auto& [kind, index] : wrong_indices(3))
+        option("bounds_state_" + kind, [i = index](TransientOptions& o) { o.bounds = {{i, {0, 1}}}; });
+    option("bounds_reversed", [](TransientOptions& o) { o.bounds = {{0, {1, 0}}}; });
+    option("bounds_nan", [](TransientOptions& o) { o.bounds = {{0, {not_a_number, 1}}}; });
+}
+
+void samplings(WrongUses& wrong) {
+    const auto sampling = [&](const std::string& name, const std::function<void(Sampling&)>& spoil) {
+        const auto made = [spoil] {
+            Sampling one = at_phase();
+            spoil(one);
+            return Samplings{one};
+        };
+        wrong("attractor_sampling_" + name, [made] {
+            const Model model = oscillator();
+            keep(attractor_searches(model, by_phase(), made(), Values{model.symbol("v")}, {}));
+        });
+        wrong("transient_sampling_" + name, [made] {
+            const Model model = oscillator();
+            keep(transient_searches(model, {.time = 1}, made(), Values{model.symbol("v")}, {}));
+        });
+    };
+    sampling("by_default", [](Sampling& s) { s = {}; });
+    sampling("section_unknown", [](Sampling& s) { s.section = "unknown"; });
+    sampling("nowhere", [](Sampling& s) { s.at = static_cast<Sampling::At>(9); });
+    sampling("extremum_of_nothing", [](Sampling& s) { s = {.at = Sampling::At::extremum}; });
+    sampling("extremum_of_unknown",
+             [](Sampling& s) { s = {.at = Sampling::At::extremum, .expression = Graph::create()->symbol("unknown")}; });
+    sampling("contact_of_nothing", [](Sampling& s) { s = {.at = Sampling::At::contact}; });
+    for (const auto& [kind, index] : wrong_indices(2))
+        sampling("contact_event_" + kind,
+                 [i = index](Sampling& s) { s = {.at = Sampling::At::contact, .events = {i}}; });
+    for (const auto& [kind, index] : wrong_indices(0))
+        sampling("symmetry_" + kind, [i = index](Sampling& s) { s.symmetry = i; });
+    for (const auto& [kind, value] : std::vector<std::pair<std::string, Expression>>{
+             {"nothing", {}}, {"unknown", Graph::create()->symbol("unknown")}}) {
+        wrong("attractor_value_" + kind,
+              [value = value] { keep(attractor_searches(oscillator(), by_phase(), {at_phase()}, Values{value}, {})); });
+        wrong("transient_value_" + kind, [value = value] {
+            keep(transient_searches(oscillator(), {.time = 1}, {at_phase()}, Values{value}, {}));
+        });
+    }
+    wrong("attractor_searches_simulation_options",
+          [] { keep(attractor_searches(oscillator(), by_phase(), {}, {}, {.tolerance = not_a_number})); });
+}
+
+void point_searches(WrongUses& wrong) {
+    const auto both = [&](const std::string& name, const std::function<void(PointSearch&)>& use) {
+        wrong("attractor_search_" + name, [use] { use(*searches()->make()); });
+        wrong("transient_search_" + name, [use] {
+            const Model model = oscillator();
+            use(*transient_searches(model, {.time = 1}, {at_phase()}, {model.symbol("v")}, {})->make());
+        });
+    };
+    const std::vector<double> parameters = oscillator().parameter_values(), state = oscillator().initial_state();
+    for (const auto& [kind, length] : wrong_lengths(5))
+        both("parameters_" + kind, [=, n = length](PointSearch& s) { s.begin(std::vector<double>(n, 0.5), state, 0); });
+    for (const auto& [kind, length] : wrong_lengths(3))
+        both("state_" + kind, [=, n = length](PointSearch& s) { s.begin(parameters, std::vector<double>(n), 0); });
+    for (const auto& [kind, value] : not_finite()) {
+        both("state_" + kind, [=, v = value](PointSearch& s) { s.begin(parameters, std::vector<double>{v, 0, 0}, 0); });
+        both("parameters_" + kind, [=, v = value](PointSearch& s) { s.begin(std::vector<double>(5, v), state, 0); });
+    }
+    for (const auto& [kind, index] : wrong_indices(2))
+        both("mode_" + kind, [=, i = index](PointSearch& s) { s.begin(parameters, state, i); });
+    both("trajectory_before_begin", [](PointSearch& s) { keep(s.trajectory()); });
+    both("proceed_before_begin", [](PointSearch& s) { keep(s.proceed()); });
+    both("proceed_before_the_trajectory_is_run", [=](PointSearch& s) {
+        s.begin(parameters, state, 0);
+        keep(s.proceed());
+    });
+}
+
+/// Four points in two chains, quickly done.
+struct Execution {
+    std::unique_ptr<SearchFactory> factory = transient_searches(oscillator(), {.time = 0.1}, {}, {}, {});
+    Plan plan{.chains = 2, .chain_length = 2, .start = [](std::size_t) {
+                  const Model model = oscillator();
+                  return PointStart{model.parameter_values(), model.initial_state(), 0};
+              }};
+    std::vector<ChainProgress> progress;
+    ExecutionOptions options;
+    std::function<void(std::size_t, const PointStart&, PointResult&)> sink = [](auto&&...) {};
+};
+
+void executions(WrongUses& wrong) {
+    const auto execution = [&](const std::string& name, const std::function<void(Execution&)>& spoil) {
+        wrong("execute_" + name, [spoil] {
+            Execution e;
+            spoil(e);
+            keep(execute(e.plan, *e.factory, e.progress, e.options, e.sink));
+        });
+    };
+    execution("without_start", [](Execution& e) { e.plan.start = {}; });
+    execution("without_sink", [](Execution& e) { e.sink = {}; });
+    execution("no_chains", [](Execution& e) { e.plan.chains = 0; });
+    execution("chains_without_points", [](Execution& e) { e.plan.chain_length = 0; });
+    execution("points_that_overflow", [](Execution& e) {
+        e.plan.chains = e.plan.chain_length = std::size_t{1} << 33;
+        e.sink = [](auto&&...) { throw std::bad_exception(); };
+    });
+    for (const int jobs : {0, -1, std::numeric_limits<int>::min()})
+        execution("jobs_" + std::to_string(jobs), [jobs](Execution& e) { e.options.jobs = jobs; });
+    execution("no_instruction_set", [](Execution& e) { e.options.instruction_set = static_cast<InstructionSet>(9); });
+    for (const std::size_t length : {1, 3})
+        execution("progress_" + std::to_string(length), [length](Execution& e) { e.progress.resize(length); });
+    execution("progress_done_too_much", [](Execution& e) { e.progress = {{.done = 3}, {.done = 0}}; });
+    execution("progress_done_huge", [](Execution& e) { e.progress = {{.done = huge}, {.done = 0}}; });
+    const auto carried = [&](const std::string& name, const ChainProgress& first) {
+        execution("progress_" + name, [first](Execution& e) {
+            e.plan.carry = true;
+            e.progress = {first, {}};
+        });
+    };
+    carried("without_state", {.done = 1, .regular = true});
+    carried("state_too_long", {.done = 1, .regular = true, .state = std::vector<double>(4)});
+    carried("state_nan", {.done = 1, .regular = true, .state = std::vector<double>(3, not_a_number)});
+    carried("mode", {.done = 1, .regular = true, .state = {0, 0, 0}, .mode = 2});
+    carried("mode_huge", {.done = 1, .regular = true, .state = {0, 0, 0}, .mode = huge});
+    const auto start = [&](const std::string& name, const PointStart& one) {
+        for (const int jobs : {1, 2})
+            execution("start_" + name + "_jobs_" + std::to_string(jobs), [one, jobs](Execution& e) {
+                e.options.jobs = jobs;
+                e.plan.start = [one](std::size_t) { return one; };
+            });
+    };
+    const std::vector<double> parameters = oscillator().parameter_values(), state = oscillator().initial_state();
+    start("by_default", {});
+    start("without_parameters", {{}, state, 0});
+    start("without_state", {parameters, {}, 0});
+    start("state_nan", {parameters, {0, not_a_number, 0}, 0});
+    start("mode", {parameters, state, 2});
+    execution("start_that_throws", [](Execution& e) {
+        e.options.jobs = 2;
+        e.plan.start = [](std::size_t) -> PointStart { throw std::invalid_argument("no such point"); };
+    });
+    wrong("name_of_no_label", [] { keep(std::string(name_of(static_cast<Label>(99)))); });
+}
+
+std::vector<WrongUse> wrong_uses() {
+    WrongUses wrong;
+    attractor_options(wrong);
+    transient_options(wrong);
+    samplings(wrong);
+    point_searches(wrong);
+    executions(wrong);
+    return wrong.list();
+}
+
+TEST(WrongSweepUse, IsRefused) {
+    each_of(wrong_uses(), expect_refusal);
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,442 @@
+// Simulations, trajectories and those who drive and observe them.
+
+#include "misuse/right_things.hpp"
+#include "misuse/wrong_use.hpp"
+
+#include "graze/trajectory/ensemble.hpp"
+#include "graze/trajectory/recorder.hpp"
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+void options(WrongUses& wrong) {
+    const auto option = [&](const std::string& name, const std::function<void(SimulationOptions&)>& set) {
+        wrong("simulation_options_" + name, [set] {
+            SimulationOptions options;
+            set(options);
+            options.validate();
+        });
+        wrong("simulation_with_" + name, [set] {
+            SimulationOptions options;
+            set(options);
+            keep(Simulation(oscillator(), {}, {}, options));
+        });
+    };
+    for (const double value : {0.0, -1.0, 1.0, 1e-17, not_a_number, infinity})
+        option("tolerance_" + std::to_string(value), [value](SimulationOptions& o) { o.tolerance = value; });
+    for (const int value : {-1, 1, highest_order + 1, std::numeric_limits<int>::max()})
+        option("order_" + std::to_string(value), [value](SimulationOptions& o) { o.order = value; });
+    for (const auto& [kind, value] : negative()) {
+        if (value != infinity)
+            option("largest_step_" + kind, [value = value](SimulationOptions& o) { o.largest_step = value; });
+        option("touch_" + kind, [value = value](SimulationOptions& o) { o.touch = value; });
+    }
+    option("step_limit_0", [](SimulationOptions& o) { o.step_limit = 0; });
+    option("contacts_at_once_0", [](SimulationOptions& o) { o.contacts_at_once = 0; });
+    option("contacts_at_once_negative", [](SimulationOptions& o) { o.contacts_at_once = -1; });
+}
+
+void probes(WrongUses& wrong) {
+    const auto probe = [&](const std::string& name, const std::function<void(Probe&, Graph&)>& spoil) {
+        wrong("probe_" + name, [spoil] {
+            const std::shared_ptr<Graph> graph = Graph::create();
+            Probe one;
+            one.name = "probe";
+            one.expression = graph->symbol("x");
+            spoil(one, *graph);
+            keep(Simulation(oscillator(), {one}));
+        });
+    };
+    const auto phase = [](Probe& p, Graph& g) {
+        p = {};
+        p.kind = Probe::Kind::phase;
+        p.state = 2;
+        p.value = g.number(1);
+    };
+    probe("by_default", [](Probe& p, Graph&) { p = {}; });
+    probe("extremum_of_nothing", [](Probe& p, Graph&) {
+        p = {};
+        p.kind = Probe::Kind::extremum;
+    });
+    probe("of_unknown", [](Probe& p, Graph& g) { p.expression = g.symbol("unknown"); });
+    probe("of_no_such_node", [](Probe& p, Graph& g) { p.expression = Expression(g.shared_from_this(), 999); });
+    probe("of_no_kind", [](Probe& p, Graph&) { p.kind = static_cast<Probe::Kind>(9); });
+    probe("in_no_direction", [](Probe& p, Graph&) { p.direction = static_cast<Direction>(9); });
+    probe("phase_without_value", [phase](Probe& p, Graph& g) {
+        phase(p, g);
+        p.value = {};
+    });
+    probe("phase_value_of_state", [phase](Probe& p, Graph& g) {
+        phase(p, g);
+        p.value = g.symbol("x");
+    });
+    probe("phase_value_unknown", [phase](Probe& p, Graph& g) {
+        phase(p, g);
+        p.value = g.symbol("unknown");
+    });
+    probe("phase_of_state_not_cyclic", [phase](Probe& p, Graph& g) {
+        phase(p, g);
+        p.state = 0;
+    });
+    for (const auto& [kind, index] : wrong_indices(3))
+        probe("phase_state_" + kind, [phase, i = index](Probe& p, Graph& g) {
+            phase(p, g);
+            p.state = i;
+        });
+    wrong("simulation_observing_nothing", [] { keep(Simulation(oscillator(), {}, {Expression()})); });
+    wrong("simulation_observing_unknown", [] { keep(Simulation(oscillator(), {}, {Graph::create()->symbol("q")})); });
+    for (const auto& [kind, index] : wrong_indices(0)) {
+        wrong("series_of_probe_" + kind, [i = index] { keep(Simulation(oscillator()).series_of_probe(i)); });
+        wrong("series_of_observed_" + kind, [i = index] { keep(Simulation(oscillator()).series_of_observed(i)); });
+    }
+    wrong("moved_simulation", [] {
+        Simulation simulation(oscillator());
+        const Simulation moved = std::move(simulation);
+        keep(simulation.model().name);
+    });
+}
+
+void starts(WrongUses& wrong) {
+    for (const auto& [kind, length] : wrong_lengths(5))
+        wrong("trajectory_parameters_" + kind, [length = length] {
+            const Simulation simulation(oscillator());
+            Observer nobody;
+            keep(Trajectory(simulation, std::vector<double>(length), nobody));
+        });
+    for (const auto& [kind, value] : not_finite()) {
+        wrong("trajectory_parameter_" + kind, [value = value] {
+            const Motion motion;
+            Observer nobody;
+            std::vector<double> parameters = motion.model.parameter_values();
+            parameters[0] = value;
+            Trajectory trajectory(motion.simulation, parameters, nobody);
+            trajectory.start(motion.model.initial_state(), 0, 0, 1);
+        });
+        wrong("start_state_" + kind, [value = value] {
+            Motion motion;
+            motion.trajectory.start(std::vector<double>{value, 0, 0}, 0, 0, 1);
+        });
+        wrong("start_time_" + kind, [value = value] {
+            Motion motion;
+            motion.trajectory.start(motion.model.initial_state(), 0, value, 1);
+        });
+        wrong("end_time_" + kind, [value = value] {
+            Motion motion;
+            motion.trajectory.start(motion.model.initial_state(), 0, 0, value);
+        });
+        wrong("extend_" + kind, [value = value] {
+            Motion motion;
+            motion.finished().extend(value);
+        });
+    }
+    wrong("end_before_start", [] {
+        Motion motion;
+        motion.trajectory.start(motion.model.initial_state(), 0, 0, -1);
+    });
+    for (const auto& [kind, length] : wrong_lengths(3))
+        wrong("start_states_" + kind, [length = length] {
+            Motion motion;
+            motion.trajectory.start(std::vector<double>(length), 0, 0, 1);
+        });
+    for (const auto& [kind, mode] : wrong_indices(2))
+        wrong("start_mode_" + kind, [mode = mode] {
+            Motion motion;
+            motion.trajectory.start(motion.model.initial_state(), mode, 0, 1);
+        });
+    wrong("period_that_is_negative_at_these_parameters", [] {
+        Model model = oscillator();
+        model.states[2].period = model.symbol("sigma");
+        const Simulation simulation(model);
+        std::vector<double> parameters = model.parameter_values();
+        parameters[model.independent_parameter("sigma")] = -1;
+        Observer nobody;
+        Trajectory trajectory(simulation, parameters, nobody);
+        trajectory.start(std::vector<double>(3), 0, 0, 1);
+    });
+    wrong("extend_to_the_past", [] {
+        Motion motion;
+        motion.finished().extend(0.5);
+    });
+    wrong("extend_unfinished", [] {
+        Motion motion;
+        motion.begun().extend(2);
+    });
+    wrong("limit_step_negative", [] {
+        Motion motion;
+        motion.begun().limit_step(-1);
+    });
+    wrong("limit_step_nan", [] {
+        Motion motion;
+        motion.begun().limit_step(not_a_number);
+    });
+}
+
+void carried(WrongUses& wrong) {
+    wrong("carry_unknown", [] {
+        Motion motion;
+        motion.begun().carry_derivatives({"unknown"});
+    });
+    wrong("carry_empty_name", [] {
+        Motion motion;
+        motion.begun().carry_derivatives({""});
+    });
+    wrong("carry_definition", [] {
+        Motion motion;
+        motion.begun().carry_derivatives({"force"});
+    });
+    for (const auto& [kind, length] : wrong_lengths(8))
+        wrong("carry_seeds_" + kind, [length = length] {
+            Motion motion;
+            motion.begun().carry_tangents(std::vector<double>(length), 1);
+        });
+    for (const auto& [kind, value] : not_finite())
+        wrong("carry_seeds_" + kind, [value = value] {
+            Motion motion;
+            motion.begun().carry_tangents(std::vector<double>(8, value), 1);
+        });
+    wrong("carry_directions_huge", [] {
+        Motion motion;
+        motion.begun().carry_tangents(std::vector<double>(8), huge);
+    });
+    wrong("carry_directions_that_overflow", [] {
+        Motion motion;
+        motion.begun().carry_tangents({}, std::size_t{1} << 61);
+    });
+    for (const auto& [kind, index] : wrong_indices(3))
+        wrong("derivative_of_state_" + kind, [i = index] {
+            Motion motion;
+            motion.begun().carry_derivatives({"x"});
+            keep(motion.trajectory.derivative(i, 0));
+        });
+    for (const auto& [kind, index] : wrong_indices(1))
+        wrong("derivative_in_direction_" + kind, [i = index] {
+            Motion motion;
+            motion.begun().carry_derivatives({"x"});
+            keep(motion.trajectory.derivative(0, i));
+        });
+    wrong("derivative_not_carried", [] {
+        Motion motion;
+        keep(motion.finished().derivative(0, 0));
+    });
+}
+
+/// Calls that need a start, a proposal, or that it is not over.
+void order_of_calls(WrongUses& wrong) {
+    const auto of_motion = [&](const std::string& name, const std::function<void(Motion&)>& use) {
+        wrong(name, [use] {
+            Motion motion;
+            use(motion);
+        });
+    };
+    const auto jet = [](Motion& m) -> Jet& { return m.jets.computed(0, m.model.initial_state()); };
+    const auto parameters = [](Motion& m) { m.jets.set_parameters(m.model.parameter_values()); };
+    of_motion("run_before_start", [](Motion& m) { run(m.trajectory, m.jets); });
+    of_motion("extend_before_start", [](Motion& m) { m.trajectory.extend(1); });
+    of_motion("carry_derivatives_before_start", [](Motion& m) { m.trajectory.carry_derivatives({"x"}); });
+    of_motion("carry_tangents_before_start", [](Motion& m) { m.trajectory.carry_tangents(std::vector<double>(8), 1); });
+    of_motion("derivative_before_start", [](Motion& m) { keep(m.trajectory.derivative(0, 0)); });
+    of_motion("propose_before_start", [=](Motion& m) {
+        parameters(m);
+        keep(m.trajectory.propose(jet(m), 0.1));
+    });
+    of_motion("advance_before_start", [](Motion& m) { m.trajectory.advance(Outlook(m.simulation, 1)); });
+    of_motion("advance_before_propose", [](Motion& m) { m.begun().advance(Outlook(m.simulation, 1)); });
+    of_motion("propose_after_end", [=](Motion& m) {
+        m.finished();
+        keep(m.trajectory.propose(jet(m), 0.1));
+    });
+    of_motion("advance_after_end", [](Motion& m) { m.finished().advance(Outlook(m.simulation, 1)); });
+    for (const auto& [kind, lane] : wrong_indices(1)) {
+        of_motion("propose_lane_" + kind, [=, lane = lane](Motion& m) {
+            parameters(m);
+            keep(m.begun().propose(jet(m), 0.1, lane));
+        });
+        of_motion("advance_lane_" + kind, [=, lane = lane](Motion& m) {
+            parameters(m);
+            keep(m.begun().propose(jet(m), 0.1));
+            m.trajectory.advance(Outlook(m.simulation, 1), lane);
+        });
+    }
+    of_motion("propose_with_another_models_jet", [](Motion& m) {
+        const Simulation other(load_model("mems-switch"));
+        JetSet jets(other, LaneKind::single);
+        jets.set_parameters(other.model().parameter_values());
+        keep(m.begun().propose(jets.computed(0, other.model().initial_state()), 0.1));
+    });
+    of_motion("propose_with_another_order", [](Motion& m) {
+        const Simulation other(m.model, {}, {}, {.order = 6});
+        JetSet jets(other, LaneKind::single);
+        jets.set_parameters(m.model.parameter_values());
+        keep(m.begun().propose(jets.computed(0, m.model.initial_state()), 0.1));
+    });
+    of_motion("advance_with_another_models_outlook", [=](Motion& m) {
+        parameters(m);
+        keep(m.begun().propose(jet(m), 0.1));
+        m.trajectory.advance(Outlook(Simulation(load_model("mems-switch")), 1));
+    });
+    of_motion("run_with_another_simulations_jets", [](Motion& m) {
+        JetSet jets(Simulation(load_model("mems-switch")), LaneKind::single);
+        run(m.begun(), jets);
+    });
+    of_motion("run_with_jets_of_the_same_model", [](Motion& m) {
+        JetSet jets(Simulation(m.model), LaneKind::single);
+        run(m.begun(), jets);
+    });
+    of_motion("run_with_ensemble_jets", [](Motion& m) {
+        JetSet jets(m.simulation, LaneKind::ensemble);
+        run(m.begun(), jets);
+    });
+    of_motion("run_with_tangent_jets", [](Motion& m) {
+        JetSet jets(m.simulation, LaneKind::tangent);
+        run(m.begun(), jets);
+    });
+    const auto moved = [&](const std::string& name, const std::function<void(Motion&)>& use) {
+        of_motion("moved_trajectory_" + name, [use](Motion& m) {
+            const Trajectory taken = std::move(m.begun());
+            use(m);
+        });
+    };
+    moved("start", [](Motion& m) { m.begun(); });
+    moved("run", [](Motion& m) { run(m.trajectory, m.jets); });
+    moved("extend", [](Motion& m) { m.trajectory.extend(2); });
+    moved("carry", [](Motion& m) { m.trajectory.carry_derivatives({"x"}); });
+}
+
+void drivers(WrongUses& wrong) {
+    const auto of_motion = [&](const std::string& name, const std::function<void(Motion&)>& use) {
+        wrong(name, [use] {
+            Motion motion;
+            use(motion);
+        });
+    };
+    for (const auto& [kind, mode] : wrong_indices(2)) {
+        of_motion("jet_set_mode_" + kind, [i = mode](Motion& m) { keep(m.jets(i)); });
+        of_motion("jet_set_next_" + kind, [i = mode](Motion& m) { keep(m.jets.next(i)); });
+        of_motion("jet_set_computed_" + kind,
+                  [i = mode](Motion& m) { keep(m.jets.computed(i, std::vector<double>(3))); });
+        of_motion("jet_set_parameters_of_mode_" + kind,
+                  [i = mode](Motion& m) { m.jets.set_parameters(i, std::vector<double>(5)); });
+        of_motion("outlook_look_mode_" + kind, [i = mode](Motion& m) {
+            m.jets.set_parameters(m.model.parameter_values());
+            Outlook outlook(m.simulation, 1);
+            Jet& jet = m.jets.computed(0, m.model.initial_state());
+            outlook.lengths()[0] = 0.01;
+            outlook.look(jet, m.jets.next(0), i);
+        });
+    }
+    for (const auto& [kind, length] : wrong_lengths(5)) {
+        of_motion("jet_set_parameters_" + kind,
+                  [n = length](Motion& m) { m.jets.set_parameters(std::vector<double>(n)); });
+        of_motion("jet_set_parameters_of_mode_" + kind,
+                  [n = length](Motion& m) { m.jets.set_parameters(0, std::vector<double>(n)); });
+    }
+    for (const auto& [kind, length] : wrong_lengths(3))
+        of_motion("jet_set_computed_states_" + kind,
+                  [n = length](Motion& m) { keep(m.jets.computed(0, std::vector<double>(n))); });
+    of_motion("jet_set_no_kind", [](Motion& m) { keep(JetSet(m.simulation, static_cast<LaneKind>(9))); });
+    of_motion("jet_set_no_set",
+              [](Motion& m) { keep(JetSet(m.simulation, LaneKind::single, static_cast<InstructionSet>(9))); });
+    of_motion("ensemble_no_set", [](Motion& m) { keep(Ensemble(m.simulation, static_cast<InstructionSet>(9))); });
+    for (const int width : {0, -1, std::numeric_limits<int>::min()})
+        of_motion("outlook_width_" + std::to_string(width), [width](Motion& m) { keep(Outlook(m.simulation, width)); });
+    of_motion("outlook_of_another_width", [](Motion& m) {
+        m.jets.set_parameters(m.model.parameter_values());
+        Outlook(m.simulation, 8).find_steps(m.jets.computed(0, m.model.initial_state()));
+    });
+    for (const auto& [kind, index] : wrong_indices(1)) {
+        of_motion("outlook_length_" + kind, [i = index](Motion& m) { keep(Outlook(m.simulation, 1).length(i)); });
+        of_motion("outlook_agrees_" + kind, [i = index](Motion& m) { keep(Outlook(m.simulation, 1).agrees(i)); });
+        of_motion("outlook_state_lane_" + kind, [i = index](Motion& m) { keep(Outlook(m.simulation, 1).state(2, i)); });
+        of_motion("outlook_least_lane_" + kind, [i = index](Motion& m) { keep(Outlook(m.simulation, 1).least(0, i)); });
+        of_motion("outlook_size_lane_" + kind, [i = index](Motion& m) { keep(Outlook(m.simulation, 1).size(0, i)); });
+    }
+    of_motion("ensemble_unstarted", [](Motion& m) { Ensemble(m.simulation).run(std::span(&m.trajectory, 1)); });
+    of_motion("ensemble_of_another_simulation",
+              [](Motion& m) { Ensemble(Simulation(m.model)).run(std::span(&m.begun(), 1)); });
+    of_motion("ensemble_without_again", [](Motion& m) {
+        std::vector<Trajectory*> slots = {&m.begun()};
+        Ensemble(m.simulation).run(slots, {});
+    });
+    of_motion("ensemble_same_trajectory_twice", [](Motion& m) {
+        std::vector<Trajectory*> slots(2, &m.begun());
+        Ensemble(m.simulation).run(slots, [](std::size_t) { return nullptr; });
+    });
+    of_motion("ensemble_again_unstarted", [](Motion& m) {
+        std::vector<Trajectory*> slots = {&m.begun()};
+        Trajectory other(m.simulation, m.model.parameter_values(), m.nobody);
+        bool given = false;
+        Ensemble(m.simulation).run(slots, [&](std::size_t) { return std::exchange(given, true) ? nullptr : &other; });
+    });
+    of_motion("ensemble_again_of_another_simulation", [](Motion& m) {
+        std::vector<Trajectory*> slots = {&m.begun()};
+        Motion other;
+        other.begun();
+        Ensemble(m.simulation).run(slots, [&](std::size_t) { return &other.trajectory; });
+    });
+    of_motion("ensemble_again_what_runs_elsewhere", [](Motion& m) {
+        Trajectory other(m.simulation, m.model.parameter_values(), m.nobody);
+        other.start(m.model.initial_state(), 0, 0, 5);
+        std::vector<Trajectory*> slots = {&m.begun(0.1), &other};
+        bool given = false;
+        Ensemble(m.simulation).run(slots, [&](std::size_t) { return std::exchange(given, true) ? nullptr : &other; });
+    });
+    of_motion("ensemble_moved_trajectory", [](Motion& m) {
+        const Trajectory taken = std::move(m.begun());
+        Ensemble(m.simulation).run(std::span(&m.trajectory, 1));
+    });
+}
+
+void observers(WrongUses& wrong) {
+    const auto receiver = [](double, std::size_t, std::span<const double>) {};
+    wrong("relay_to_nobody", [] { Relay({nullptr}).step({}); });
+    for (const auto& [kind, value] : not_positive())
+        wrong("sampler_spacing_" + kind, [value = value, receiver] {
+            keep(Sampler(0, value, 3, {0, 0, 0}, receiver));
+        });
+    for (const auto& [kind, value] : not_finite())
+        wrong("sampler_start_" + kind, [value = value, receiver] { keep(Sampler(value, 1, 3, {0, 0, 0}, receiver)); });
+    wrong("sampler_without_receiver", [] { keep(Sampler(0, 1, 3, {0, 0, 0}, {})); });
+    wrong("sampler_period_negative", [receiver] { keep(Sampler(0, 1, 3, {-1, 0, 0}, receiver)); });
+    wrong("sampler_period_nan", [receiver] { keep(Sampler(0, 1, 3, {not_a_number, 0, 0}, receiver)); });
+    for (const auto& [kind, length] : wrong_lengths(3))
+        wrong("sampler_periods_" + kind, [n = length, receiver] {
+            Motion motion;
+            Sampler sampler(0, 0.1, 5, std::vector<double>(n), receiver);
+            Trajectory trajectory(motion.simulation, motion.model.parameter_values(), sampler);
+            trajectory.start(motion.model.initial_state(), 0, 0, 1);
+            run(trajectory, motion.jets);
+        });
+    wrong("arc_minima_without_receiver", [] {
+        Motion motion;
+        const Simulation simulation(motion.model, {}, {}, {.minima = true});
+        ArcMinima minima{{}};
+        Trajectory trajectory(simulation, motion.model.parameter_values(), minima);
+        trajectory.start(motion.model.initial_state(), 0, 0, 1);
+        JetSet jets(simulation, LaneKind::single);
+        run(trajectory, jets);
+        minima.finish();
+    });
+    wrong("step_state_of_no_step", [] { keep(Step().state(0, 0.1)); });
+    wrong("name_of_no_ending", [] { keep(std::string(name_of(static_cast<Ending>(99)))); });
+}
+
+std::vector<WrongUse> wrong_uses() {
+    WrongUses wrong;
+    options(wrong);
+    probes(wrong);
+    starts(wrong);
+    carried(wrong);
+    order_of_calls(wrong);
+    drivers(wrong);
+    observers(wrong);
+    return wrong.list();
+}
+
+TEST(WrongTrajectoryUse, IsRefused) {
+    each_of(wrong_uses(), expect_refusal);
+}
+
+} // namespace
+} // namespace graze
