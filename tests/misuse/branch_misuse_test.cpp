@@ -37,8 +37,8 @@ void problems(WrongUses& wrong) {
         wrong("dense_problem_scale_" + kind, [v = value] { keep(DenseProblem(2, residual, {}, {1, v})); });
     for (const auto& [kind, length] : wrong_lengths(2)) {
         wrong("dense_evaluate_" + kind, [n = length] { keep(Circle().problem.evaluate(std::vector<double>(n, 1.0))); });
-        const auto solve = [&, n = length](const std::string& name, std::size_t row, std::size_t step) {
-            wrong("dense_solve_" + name + "_" + kind, [row, step] {
+        const auto solve = [&, what = kind](const std::string& name, std::size_t row, std::size_t step) {
+            wrong("dense_solve_" + name + "_" + what, [row, step] {
                 Circle circle;
                 circle.problem.evaluate(circle.point);
                 std::vector<double> result(step);

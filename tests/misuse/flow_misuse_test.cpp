@@ -128,8 +128,9 @@ void jets(WrongUses& wrong) {
         count("evaluate_output_values", width,
               [](Jet& jet, Numbers& n, std::size_t w) { jet.evaluate_output(0, Numbers(w, 0.1), n); });
         for (const auto& [how, index] : wrong_indices(2)) {
-            const auto with = [&](const std::string& name, const std::function<void(Jet&, std::size_t)>& use) {
-                wrong(of + name + "_" + how, [kind, use, index = index] { use(*Pendulum().jet(kind), index); });
+            const auto with = [&, what = how, i = index](const std::string& name,
+                                                         const std::function<void(Jet&, std::size_t)>& use) {
+                wrong(of + name + "_" + what, [kind, use, index = i] { use(*Pendulum().jet(kind), index); });
             };
             with("state", [](Jet& jet, std::size_t i) { keep(jet.state(i)); });
             with("output", [](Jet& jet, std::size_t i) { keep(jet.output(i)); });
