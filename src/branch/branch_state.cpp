@@ -52,35 +52,33 @@ void BranchState::make_problem(const Orbit& orbit) {
     continuation_ = std::make_unique<Continuation>(*problem_, settings_.continuation);
 }
 
-std::vector<double> BranchState::unknowns_of(const Orbit& orbit) {
-    const Eigen::VectorXd unknowns = problem_->shooting().unknowns_of(orbit);
-    return {unknowns.begin(), unknowns.end()};
-}
-
 bool BranchState::is_outside(double parameter) const {
     return (settings_.least && parameter < *settings_.least) || (settings_.greatest && parameter > *settings_.greatest);
 }
 
-void BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std::vector<BranchTest>& tests) {
-    Shooting& shooting = problem_->shooting();
-    const auto unknowns = OrbitProblem::vector_of(at.u);
-    shooting.evaluate(unknowns);
+bool BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std::vector<BranchTest>& tests) {
+    OrbitEquations& equations = problem_->equations();
+    if (!problem_->evaluate(at.u))
+        return false;
+    const OrbitEvaluation& evaluation = problem_->evaluation();
     result.solution = {};
     result.solution.outcome = OrbitOutcome::converged;
     result.solution.iterations = at.iterations;
-    result.solution.orbit = shooting.orbit_of(unknowns);
-    describe_orbit(shooting, unknowns, result.solution);
+    result.solution.orbit = problem_->orbit_of(at.u);
+    describe_orbit(equations, evaluation, result.solution);
     result.parameter = at.u[problem_->parameter_place()];
-    result.tangent = at.tangent;
+    result.tangent = problem_->direction_of(at.tangent);
     result.monitors = monitors_ ? (*monitors_)(result.solution.orbit) : std::vector<double>();
     if (monitors_)
         measure_multipliers(settings_.monitors, result.solution.multipliers, result.monitors);
     result.arclength = arclength(at.arclength);
     result.stable = is_stable(result.solution);
-    tests = branch_tests(shooting, result.solution, at.tangent, at.determinant, result.monitors, settings_);
+    tests =
+        branch_tests(equations, evaluation, result.solution, at.tangent, at.determinant, result.monitors, settings_);
+    return true;
 }
 
-std::optional<double> BranchState::error_of(const Orbit& orbit, const std::vector<double>& tangent) {
+std::optional<double> BranchState::error_of(const Orbit& orbit, const OrbitDirection& tangent) {
     if (!settings_.free.empty())
         return std::nullopt;
     if (!tighter_) {
@@ -88,10 +86,9 @@ std::optional<double> BranchState::error_of(const Orbit& orbit, const std::vecto
                          integration(0.01 * settings_.orbit.tolerance));
     }
     OrbitProblem problem(*tighter_, orbit, settings_.parameter);
-    const Eigen::VectorXd unknowns = problem.shooting().unknowns_of(orbit);
     std::vector<double> step(problem.unknowns());
-    if (tangent.size() != step.size() || !problem.shooting().evaluate(unknowns) ||
-        !problem.solve(problem.row_of(tangent), 0, false, step, nullptr))
+    if (!problem.evaluate(problem.unknowns_of(orbit)) ||
+        !problem.solve(problem.row_of(problem.unknowns_of(tangent)), 0, false, step, nullptr))
         return std::nullopt;
     double error = 0;
     for (std::size_t i = 0; i < step.size(); ++i)
@@ -100,13 +97,14 @@ std::optional<double> BranchState::error_of(const Orbit& orbit, const std::vecto
 }
 
 bool BranchState::pieces_are_unfit() {
-    const Shooting& shooting = problem_->shooting();
-    for (std::size_t k = 0; k < shooting.pieces(); ++k) {
-        const Shooting::Piece& piece = shooting.piece(k);
-        if (piece.flow.leftCols(static_cast<Eigen::Index>(shooting.states())).norm() > too_much_growth * growth_)
+    const OrbitEquations& equations = problem_->equations();
+    const OrbitLayout& layout = equations.layout();
+    for (std::size_t k = 0; k < layout.pieces(); ++k) {
+        const Eigen::MatrixXd& flow = problem_->evaluation().pieces[k].flow;
+        if (flow.leftCols(static_cast<Eigen::Index>(layout.states())).norm() > too_much_growth * growth_)
             return true;
-        if (piece.last && k > shooting.first_piece(piece.segment) &&
-            continuation_->point().u[shooting.duration_of(k)] < 0.5 * piece.fixed_duration)
+        if (layout.is_last(k) && k > layout.first_piece(layout.segment_of(k)) &&
+            continuation_->point().u[layout.duration_of(k)] < 0.5 * equations.fixed_duration(k))
             return true;
     }
     return false;
@@ -114,23 +112,13 @@ bool BranchState::pieces_are_unfit() {
 
 void BranchState::renew_pieces(const BranchPoint& from) {
     const double length = continuation_->next_step();
-    const std::vector<double> tangent = continuation_->point().tangent;
     std::unique_ptr<OrbitProblem> old = std::move(problem_);
     std::unique_ptr<Continuation> old_continuation = std::move(continuation_);
     make_problem(from.solution.orbit);
-    if (problem_->shooting().pieces() <= old->shooting().pieces())
+    if (problem_->equations().layout().pieces() <= old->equations().layout().pieces())
         growth_ *= 10; // nothing was gained: ask again later
-    // The direction in what both have in common: starts of segments and the parameter.
-    std::vector<double> row(problem_->unknowns(), 0.0);
-    const auto weigh = [&](std::size_t to, std::size_t of) {
-        row[to] = tangent[of] / (problem_->scales()[to] * problem_->scales()[to]);
-    };
-    for (std::size_t s = 0; s < problem_->shooting().signature().size(); ++s)
-        for (std::size_t i = 0; i < problem_->shooting().states(); ++i)
-            weigh(problem_->shooting().start_of(problem_->shooting().first_piece(s)) + i,
-                  old->shooting().start_of(old->shooting().first_piece(s)) + i);
-    weigh(problem_->parameter_place(), old->parameter_place());
-    if (!continuation_->start_at(unknowns_of(from.solution.orbit), row)) {
+    const std::vector<double> u = problem_->unknowns_of(from.solution.orbit);
+    if (!problem_->evaluate(u) || !continuation_->start_at(u, problem_->row_of(problem_->unknowns_of(from.tangent)))) {
         growth_ *= 10; // as it was, for some time
         problem_ = std::move(old);
         continuation_ = std::move(old_continuation);
@@ -147,8 +135,8 @@ void BranchState::go_on(const BranchStart& start, double arclength) {
     const double length = continuation_->next_step();
     arclength_ = arclength;
     make_problem(start.orbit);
-    const std::vector<double> u = unknowns_of(start.orbit);
-    if (!continuation_->start_at(u, problem_->row_of(start.direction)))
+    const std::vector<double> u = problem_->unknowns_of(start.orbit);
+    if (!problem_->evaluate(u) || !continuation_->start_at(u, problem_->row_of(problem_->unknowns_of(start.direction))))
         throw InputError("the continuation does not start there", "choose another point");
     continuation_->set_next_step(length);
 }

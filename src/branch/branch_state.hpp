@@ -22,16 +22,15 @@ public:
     const BranchSettings& settings() const { return settings_; }
     OrbitProblem& problem() { return *problem_; }
     Continuation& continuation() { return *continuation_; }
-    std::vector<double> unknowns_of(const Orbit& orbit);
     /// Arclength on the branch of one in the present continuation, which may not have begun where the branch did.
     double arclength(double in_continuation) const { return arclength_ + in_continuation; }
     bool is_outside(double parameter) const;
 
-    /// What is known of a point of the branch.
-    void describe(const ContinuationPoint& at, BranchPoint& result, std::vector<BranchTest>& tests);
+    /// What is known of a point of the branch. @return false where its equations are not defined
+    bool describe(const ContinuationPoint& at, BranchPoint& result, std::vector<BranchTest>& tests);
     /// By how much an orbit of the branch would change at a tolerance a hundred times smaller, relative to the size of
     /// each unknown. None where that cannot be said: where another branch crosses, or monitors are held.
-    std::optional<double> error_of(const Orbit& orbit, const std::vector<double>& tangent);
+    std::optional<double> error_of(const Orbit& orbit, const OrbitDirection& tangent);
     /// Whether derivatives have grown too much for their pieces, or the last piece of a segment, which alone has a
     /// duration that is free, has become too short for the others.
     bool pieces_are_unfit();

@@ -10,6 +10,7 @@
 #include "orbit/eigen_index.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/orbit_flow.hpp"
+#include "orbit/shooting.hpp"
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -45,7 +46,7 @@ class Touch {
 public:
     Touch(const Simulation& simulation, const SpecialPoint& point)
         : simulation_(simulation), orbit_(&point.solution.orbit), mode_(orbit_->signature[point.segment].mode),
-          event_(point.event), shooting_(simulation, *orbit_, {}) {
+          event_(point.event), shooting_(simulation, *orbit_, {}), at_(shooting_.evaluation()) {
         const System& system = simulation.system();
         function_ = system.event(event_);
         rate_ = system.with_gradient(rate_of(system, mode_, event_));
@@ -59,7 +60,7 @@ public:
             greatest_value_ = std::max(greatest_value_, std::abs(function_(inputs(state_))[0]));
             greatest_speed_ = std::max(greatest_speed_, std::abs(rate_(inputs(state_))[0]));
         }
-        shooting_.evaluate(shooting_.unknowns_of(*orbit_));
+        shooting_.evaluate(shooting_.unknowns_of(*orbit_), at_);
     }
 
     std::size_t mode() const { return mode_; }
@@ -74,7 +75,7 @@ public:
         const auto h = function_(inputs(state_)), r = rate_(inputs(state_));
         const std::size_t n = state_.size();
         Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, index(n));
-        for (const std::size_t i : shooting_.active()) {
+        for (const std::size_t i : at_.active) {
             if (simulation_.model().states[i].period)
                 continue;
             const double scale = shooting_.scales()[index(i)];
@@ -99,6 +100,7 @@ private:
     const Orbit* orbit_;
     std::size_t mode_, event_;
     Shooting shooting_;
+    OrbitEvaluation at_;
     Function function_, rate_;
     std::vector<double> state_;
     double greatest_speed_ = 0, greatest_value_ = 0; ///< along the arc
@@ -125,31 +127,33 @@ double sum(const std::vector<double>& values) {
 
 /// Moves an orbit, with the parameter, to where the last segment's event is met at a given speed.
 /// @return direction of the branch there, towards higher speeds; empty when Newton's method fails
-std::vector<double> meet_at_speed(const Simulation& simulation, Orbit& orbit, const Expression& rate, double speed,
-                                  const BranchSettings& settings) {
+OrbitDirection meet_at_speed(const Simulation& simulation, Orbit& orbit, const Expression& rate, double speed,
+                             const BranchSettings& settings) {
     Shooting shooting(simulation, orbit, {settings.parameter});
-    const Function rate_function = shooting.simulation().system().with_gradient(rate);
+    const Function rate_function = shooting.system().with_gradient(rate);
     Eigen::VectorXd unknowns = shooting.unknowns_of(orbit);
-    const std::size_t last = shooting.pieces() - 1;
+    OrbitEvaluation at = shooting.evaluation();
+    const std::size_t last = shooting.layout().pieces() - 1;
     for (int i = 0; i < most_iterations; ++i) {
-        if (!shooting.evaluate(unknowns))
+        if (!shooting.evaluate(unknowns, at))
             return {};
-        std::vector<double> inputs = shooting.piece(last).end;
-        inputs.insert(inputs.end(), shooting.parameters().begin(), shooting.parameters().end());
+        std::vector<double> inputs = at.pieces[last].end;
+        inputs.insert(inputs.end(), at.parameters.begin(), at.parameters.end());
         const std::vector<double> values = rate_function(inputs);
-        const Eigen::RowVectorXd row = shooting.row_at_end(last, shooting.gradient_of(values));
+        const Eigen::RowVectorXd row = shooting.row_at_end(at, last, shooting.gradient_of(values));
         Eigen::VectorXd step;
-        if (!shooting.solve(row, Eigen::VectorXd::Constant(1, -speed - values[0]), false, step))
+        if (!shooting.solve(at, row, Eigen::VectorXd::Constant(1, -speed - values[0]), false, step))
             return {};
         unknowns += step;
         const double size = step.cwiseQuotient(shooting.scales()).cwiseAbs().maxCoeff();
         if (!(size < 1e3))
             return {};
         if (size < settings.orbit.accuracy) {
-            if (!shooting.evaluate(unknowns) || !shooting.solve(row, Eigen::VectorXd::Constant(1, -1), true, step))
+            if (!shooting.evaluate(unknowns, at) ||
+                !shooting.solve(at, row, Eigen::VectorXd::Constant(1, -1), true, step))
                 return {};
             orbit = shooting.orbit_of(unknowns);
-            return {step.begin(), step.end()};
+            return shooting.direction_of(step);
         }
     }
     return {};
@@ -212,8 +216,8 @@ BranchStart with_one_more_contact(const System& system, const SpecialPoint& poin
             if (!orbit)
                 continue;
             join_drifts(simulation, *orbit);
-            const std::vector<double> direction = meet_at_speed(simulation, *orbit, rate, speed, settings);
-            if (!direction.empty() && is_admissible(simulation, *orbit, why))
+            const OrbitDirection direction = meet_at_speed(simulation, *orbit, rate, speed, settings);
+            if (!direction.is_empty() && is_admissible(simulation, *orbit, why))
                 return {*orbit, direction, 0, fmt::format("with one more contact at '{}'", name)};
         }
     }
@@ -277,16 +281,15 @@ BranchStart with_one_contact_fewer(const System& system, const SpecialPoint& poi
     BranchSettings trial = settings;
     trial.continuation.first_step = 1e-3;
     trial.stop_when_unphysical = false;
-    std::vector<double> direction;
+    OrbitDirection direction;
     for (const int sign : {1, -1}) {
         const Simulation here(system, {}, {}, integration(settings.orbit.tolerance));
         OrbitProblem problem(here, solution.orbit, settings.parameter);
-        const Eigen::VectorXd unknowns = problem.shooting().unknowns_of(solution.orbit);
-        std::vector<double> row(problem.unknowns(), 0.0);
+        std::vector<double> row(problem.unknowns(), 0.0), tangent(problem.unknowns());
         row[problem.parameter_place()] = sign;
-        direction.resize(problem.unknowns());
-        if (!problem.shooting().evaluate(unknowns) || !problem.solve(row, 1, true, direction, nullptr))
+        if (!problem.evaluate(problem.unknowns_of(solution.orbit)) || !problem.solve(row, 1, true, tangent, nullptr))
             fail("the branch turns right there");
+        direction = problem.direction_of(tangent);
         OrbitBranch branch(system, solution.orbit, trial);
         if (branch.start_along(direction, 0) && branch.step() && branch.point().solution.certificate.admissible)
             break;

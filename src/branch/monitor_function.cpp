@@ -22,16 +22,16 @@ constexpr std::array<std::pair<double, double>, 8> gauss{{{0.019855071751231884,
                                                           {0.9801449282487681, 0.05061426814518813}}};
 
 /// The monitor's expression and, for the second half of a symmetric orbit, the same of the image.
-std::vector<Expression> expressions_of(const Shooting& shooting, const Monitor& monitor, bool whole) {
-    Model model = shooting.model();
+std::vector<Expression> expressions_of(const OrbitEquations& equations, const Monitor& monitor, bool whole) {
+    Model model = equations.model();
     if (monitor.kind == Monitor::Kind::duration)
         return {};
     const Expression own = model.expand(monitor.kind == Monitor::Kind::norm ? monitor.expression * monitor.expression
                                                                             : monitor.expression);
     std::vector<Expression> result{own};
-    if (whole && shooting.symmetry()) {
+    if (whole && equations.symmetry()) {
         const auto states = model.state_symbols();
-        const auto map = model.expand(model.symmetries[*shooting.symmetry()].map);
+        const auto map = model.expand(model.symmetries[*equations.symmetry()].map);
         std::vector<Replacement> replacements;
         for (std::size_t i = 0; i < states.size(); ++i)
             replacements.emplace_back(states[i], map[i]);
@@ -42,36 +42,37 @@ std::vector<Expression> expressions_of(const Shooting& shooting, const Monitor& 
 
 } // namespace
 
-MonitorFunction::MonitorFunction(const Shooting& shooting, const Monitor& monitor, std::optional<std::size_t> segment)
+MonitorFunction::MonitorFunction(const OrbitEquations& equations, const Monitor& monitor,
+                                 std::optional<std::size_t> segment)
     : kind_(monitor.kind), segment_(segment),
-      simulation_(shooting.simulation().system(), {}, expressions_of(shooting, monitor, !segment),
-                  shooting.simulation().options()),
-      flow_(flow_of(simulation_, shooting.free())), roots_(simulation_.order()) {
-    for (const Expression& expression : expressions_of(shooting, monitor, !segment))
+      simulation_(equations.system(), {}, expressions_of(equations, monitor, !segment),
+                  equations.simulation().options()),
+      flow_(flow_of(simulation_, equations.free())), roots_(simulation_.order()) {
+    for (const Expression& expression : expressions_of(equations, monitor, !segment))
         watched_.push_back({simulation_.system().with_gradient(expression), watched_.size()});
 }
 
-bool MonitorFunction::evaluate(const Shooting& shooting, const Eigen::VectorXd& unknowns) {
-    gradient_ = Eigen::RowVectorXd::Zero(unknowns.size());
-    flow_.set_parameters(shooting.parameters());
+bool MonitorFunction::evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    gradient_ = Eigen::RowVectorXd::Zero(at.unknowns.size());
+    flow_.set_parameters(at.parameters);
     bool defined = false;
     switch (kind_) {
     case Monitor::Kind::value:
-        defined = at_end(shooting);
+        defined = at_end(equations, at);
         break;
     case Monitor::Kind::start:
-        defined = at_start(shooting, unknowns);
+        defined = at_start(equations, at);
         break;
     case Monitor::Kind::duration:
-        defined = duration(shooting, unknowns);
+        defined = duration(equations, at);
         break;
     case Monitor::Kind::maximum:
     case Monitor::Kind::minimum:
-        defined = extremum(shooting, unknowns);
+        defined = extremum(equations, at);
         break;
     case Monitor::Kind::mean:
     case Monitor::Kind::norm:
-        defined = mean(shooting, unknowns);
+        defined = mean(equations, at);
         break;
     case Monitor::Kind::multiplier: // never held: BranchSettings::validate refuses it
         break;
@@ -79,68 +80,68 @@ bool MonitorFunction::evaluate(const Shooting& shooting, const Eigen::VectorXd& 
     return defined && std::isfinite(value_) && gradient_.allFinite();
 }
 
-std::vector<std::size_t> MonitorFunction::pieces(const Shooting& shooting) const {
+std::vector<std::size_t> MonitorFunction::pieces(const OrbitLayout& layout) const {
     std::vector<std::size_t> result;
-    for (std::size_t s = 0; s < shooting.signature().size(); ++s)
+    for (std::size_t s = 0; s < layout.segments(); ++s)
         if (is_whole() || *segment_ == s)
-            for (std::size_t k = shooting.first_piece(s); k <= shooting.last_piece(s); ++k)
+            for (std::size_t k = layout.first_piece(s); k <= layout.last_piece(s); ++k)
                 result.push_back(k);
     return result;
 }
 
 /// With respect to states, then free parameters.
-Eigen::VectorXd MonitorFunction::gradient_at(const Shooting& shooting, const Watched& watched,
-                                             std::vector<double> state, double& value) const {
-    state.insert(state.end(), shooting.parameters().begin(), shooting.parameters().end());
+Eigen::VectorXd MonitorFunction::gradient_at(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                             const Watched& watched, std::vector<double> state, double& value) const {
+    state.insert(state.end(), at.parameters.begin(), at.parameters.end());
     const std::vector<double> all = watched.function(state);
     value = all[0];
-    return shooting.gradient_of(all);
+    return equations.gradient_of(all);
 }
 
-bool MonitorFunction::at_end(const Shooting& shooting) {
-    const std::size_t piece = shooting.last_piece(segment_.value_or(0));
-    const Eigen::VectorXd by_all = gradient_at(shooting, watched_[0], shooting.piece(piece).end, value_);
-    gradient_ = shooting.row_at_end(piece, by_all);
+bool MonitorFunction::at_end(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    const std::size_t piece = equations.layout().last_piece(segment_.value_or(0));
+    const Eigen::VectorXd by_all = gradient_at(equations, at, watched_[0], at.pieces[piece].end, value_);
+    gradient_ = equations.row_at_end(at, piece, by_all);
     return true;
 }
 
-bool MonitorFunction::at_start(const Shooting& shooting, const Eigen::VectorXd& unknowns) {
-    const auto n = index(shooting.states());
-    const Eigen::Index place = index(shooting.start_of(shooting.first_piece(segment_.value_or(0))));
-    const std::vector<double> state(unknowns.data() + place, unknowns.data() + place + n);
-    const Eigen::VectorXd by_all = gradient_at(shooting, watched_[0], state, value_);
+bool MonitorFunction::at_start(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    const auto n = index(equations.layout().states());
+    const Eigen::Index place = index(equations.layout().start_of(equations.layout().first_piece(segment_.value_or(0))));
+    const std::vector<double> state(at.unknowns.data() + place, at.unknowns.data() + place + n);
+    const Eigen::VectorXd by_all = gradient_at(equations, at, watched_[0], state, value_);
     gradient_.segment(place, n) = by_all.head(n).transpose();
     gradient_.tail(by_all.size() - n) = by_all.tail(by_all.size() - n).transpose();
     return true;
 }
 
-bool MonitorFunction::duration(const Shooting& shooting, const Eigen::VectorXd& unknowns) {
+bool MonitorFunction::duration(const OrbitEquations& equations, const OrbitEvaluation& at) {
     value_ = 0;
-    const double times = is_whole() && shooting.symmetry() ? 2 : 1;
-    for (const std::size_t k : pieces(shooting)) {
-        value_ += times * unknowns[index(shooting.duration_of(k))];
-        gradient_[index(shooting.duration_of(k))] = times;
+    const double times = is_whole() && equations.symmetry() ? 2 : 1;
+    for (const std::size_t k : pieces(equations.layout())) {
+        value_ += times * at.unknowns[index(equations.layout().duration_of(k))];
+        gradient_[index(equations.layout().duration_of(k))] = times;
     }
     return true;
 }
 
-std::optional<MonitorFunction::Place> MonitorFunction::find_extremum(const Shooting& shooting,
-                                                                     const Eigen::VectorXd& unknowns) {
+std::optional<MonitorFunction::Place> MonitorFunction::find_extremum(const OrbitEquations& equations,
+                                                                     const OrbitEvaluation& at) {
     const double sign = kind_ == Monitor::Kind::maximum ? 1 : -1;
-    const std::size_t n = shooting.states();
+    const std::size_t n = equations.layout().states();
     std::optional<Place> best;
     std::vector<double> coefficients, derivative;
     std::vector<Root> found;
-    for (const std::size_t k : pieces(shooting)) {
+    for (const std::size_t k : pieces(equations.layout())) {
         const auto note = [&](std::size_t watched, double time, bool at_end, double value) {
             if (std::isfinite(value) && (!best || sign * value > sign * best->value))
                 best = Place{watched, k, time, at_end, value};
         };
-        const double* start = unknowns.data() + shooting.start_of(k);
+        const double* start = at.unknowns.data() + equations.layout().start_of(k);
         std::vector<double> state(start, start + n);
-        const std::size_t mode = shooting.signature()[shooting.piece(k).segment].mode;
+        const std::size_t mode = equations.mode_of(k);
         const std::size_t events = simulation_.system().mode(mode).watched.size();
-        const double duration = unknowns[index(shooting.duration_of(k))];
+        const double duration = at.unknowns[index(equations.layout().duration_of(k))];
         flow_.run(mode, state, duration, [&](const Jet& jet, double time, double length) {
             for (const Watched& watched : watched_) {
                 const double* series = jet.output(events + watched.series);
@@ -162,40 +163,39 @@ std::optional<MonitorFunction::Place> MonitorFunction::find_extremum(const Shoot
     return best;
 }
 
-bool MonitorFunction::extremum(const Shooting& shooting, const Eigen::VectorXd& unknowns) {
-    const auto place = find_extremum(shooting, unknowns);
+bool MonitorFunction::extremum(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    const auto place = find_extremum(equations, at);
     if (!place)
         return false;
-    const auto n = index(shooting.states()), q = index(shooting.free().size());
+    const auto n = index(equations.layout().states()), q = index(equations.free().size());
     const Watched& watched = watched_[place->watched];
     if (place->at_end) { // ends with its segment, however long that takes
-        const Eigen::VectorXd by_all = gradient_at(shooting, watched, shooting.piece(place->piece).end, value_);
-        gradient_ = shooting.row_at_end(place->piece, by_all);
+        const Eigen::VectorXd by_all = gradient_at(equations, at, watched, at.pieces[place->piece].end, value_);
+        gradient_ = equations.row_at_end(at, place->piece, by_all);
         return true;
     }
-    const double* start = unknowns.data() + shooting.start_of(place->piece);
+    const double* start = at.unknowns.data() + equations.layout().start_of(place->piece);
     std::vector<double> state(start, start + n);
     Eigen::MatrixXd flow;
-    if (run(flow_, shooting.signature()[shooting.piece(place->piece).segment].mode, state, place->time, flow) !=
-        ModeFlow::Ending::done)
+    if (run(flow_, equations.mode_of(place->piece), state, place->time, flow) != ModeFlow::Ending::done)
         return false;
-    const Eigen::VectorXd by_all = gradient_at(shooting, watched, state, value_);
+    const Eigen::VectorXd by_all = gradient_at(equations, at, watched, state, value_);
     value_ = place->value;
     const Eigen::RowVectorXd by_state = by_all.head(n).transpose();
-    gradient_.segment(index(shooting.start_of(place->piece)), n) = by_state * flow.leftCols(n);
+    gradient_.segment(index(equations.layout().start_of(place->piece)), n) = by_state * flow.leftCols(n);
     gradient_.tail(q) = by_state * flow.rightCols(q) + by_all.tail(q).transpose();
     return true;
 }
 
 /// Integrals of the function and of its changes, by Gauss's rule on each Taylor step.
-bool MonitorFunction::mean(const Shooting& shooting, const Eigen::VectorXd& unknowns) {
-    const auto n = index(shooting.states()), q = index(shooting.free().size());
+bool MonitorFunction::mean(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    const auto n = index(equations.layout().states()), q = index(equations.free().size());
     double integral = 0, time = 0;
     const double share = 1.0 / static_cast<double>(watched_.size());
-    for (const std::size_t k : pieces(shooting)) {
-        const double* start = unknowns.data() + shooting.start_of(k);
-        const std::size_t mode = shooting.signature()[shooting.piece(k).segment].mode;
-        const double duration = unknowns[index(shooting.duration_of(k))];
+    for (const std::size_t k : pieces(equations.layout())) {
+        const double* start = at.unknowns.data() + equations.layout().start_of(k);
+        const std::size_t mode = equations.mode_of(k);
+        const double duration = at.unknowns[index(equations.layout().duration_of(k))];
         std::vector<double> state(start, start + n);
         std::vector<std::pair<double, double>> steps;
         flow_.run(mode, state, duration,
@@ -213,26 +213,26 @@ bool MonitorFunction::mean(const Shooting& shooting, const Eigen::VectorXd& unkn
                 flow.rightCols(q) += part.rightCols(q);
                 for (const Watched& watched : watched_) {
                     double value = 0;
-                    const Eigen::VectorXd by_all = gradient_at(shooting, watched, state, value);
+                    const Eigen::VectorXd by_all = gradient_at(equations, at, watched, state, value);
                     const Eigen::RowVectorXd by_state = by_all.head(n).transpose();
                     const double here = share * weight * length;
                     integral += here * value;
-                    gradient_.segment(index(shooting.start_of(k)), n) += here * (by_state * flow.leftCols(n));
+                    gradient_.segment(index(equations.layout().start_of(k)), n) += here * (by_state * flow.leftCols(n));
                     gradient_.tail(q) += here * (by_state * flow.rightCols(q) + by_all.tail(q).transpose());
                 }
             }
         for (const Watched& watched : watched_) {
             double value = 0;
-            gradient_at(shooting, watched, shooting.piece(k).end, value);
-            gradient_[index(shooting.duration_of(k))] += share * value;
+            gradient_at(equations, at, watched, at.pieces[k].end, value);
+            gradient_[index(equations.layout().duration_of(k))] += share * value;
         }
         time += duration;
     }
     if (time == 0)
         return false;
     value_ = integral / time;
-    for (const std::size_t k : pieces(shooting))
-        gradient_[index(shooting.duration_of(k))] -= value_;
+    for (const std::size_t k : pieces(equations.layout()))
+        gradient_[index(equations.layout().duration_of(k))] -= value_;
     gradient_ /= time;
     if (kind_ == Monitor::Kind::norm) {
         if (!(value_ > 0))

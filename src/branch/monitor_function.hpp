@@ -2,7 +2,7 @@
 
 #include "graze/branch/monitor.hpp"
 #include "graze/flow/roots.hpp"
-#include "orbit/shooting.hpp"
+#include "orbit/orbit_equations.hpp"
 
 #include <Eigen/Core>
 
@@ -18,10 +18,10 @@ namespace graze {
 class MonitorFunction {
 public:
     /// @param segment whose monitor it is; none: of the whole orbit
-    MonitorFunction(const Shooting& shooting, const Monitor& monitor, std::optional<std::size_t> segment);
+    MonitorFunction(const OrbitEquations& equations, const Monitor& monitor, std::optional<std::size_t> segment);
 
-    /// Value and gradient, at unknowns at which the equations have been evaluated. @return false where not defined
-    bool evaluate(const Shooting& shooting, const Eigen::VectorXd& unknowns);
+    /// Value and gradient. @return false where not defined
+    bool evaluate(const OrbitEquations& equations, const OrbitEvaluation& at);
     double value() const { return value_; }
     const Eigen::RowVectorXd& gradient() const { return gradient_; }
 
@@ -39,15 +39,15 @@ private:
         double value = 0;
     };
     bool is_whole() const { return !segment_; }
-    std::vector<std::size_t> pieces(const Shooting& shooting) const;
-    bool at_end(const Shooting& shooting);
-    bool at_start(const Shooting& shooting, const Eigen::VectorXd& unknowns);
-    bool duration(const Shooting& shooting, const Eigen::VectorXd& unknowns);
-    bool extremum(const Shooting& shooting, const Eigen::VectorXd& unknowns);
-    std::optional<Place> find_extremum(const Shooting& shooting, const Eigen::VectorXd& unknowns);
-    bool mean(const Shooting& shooting, const Eigen::VectorXd& unknowns);
-    Eigen::VectorXd gradient_at(const Shooting& shooting, const Watched& watched, std::vector<double> state,
-                                double& value) const;
+    std::vector<std::size_t> pieces(const OrbitLayout& layout) const;
+    bool at_end(const OrbitEquations& equations, const OrbitEvaluation& at);
+    bool at_start(const OrbitEquations& equations, const OrbitEvaluation& at);
+    bool duration(const OrbitEquations& equations, const OrbitEvaluation& at);
+    bool extremum(const OrbitEquations& equations, const OrbitEvaluation& at);
+    std::optional<Place> find_extremum(const OrbitEquations& equations, const OrbitEvaluation& at);
+    bool mean(const OrbitEquations& equations, const OrbitEvaluation& at);
+    Eigen::VectorXd gradient_at(const OrbitEquations& equations, const OrbitEvaluation& at, const Watched& watched,
+                                std::vector<double> state, double& value) const;
 
     Monitor::Kind kind_;
     std::optional<std::size_t> segment_;

@@ -97,17 +97,21 @@ public:
         : state_(system, candidate, settings), candidate_(candidate), locator_(state_, point, tests_) {}
 
     bool start() {
-        const std::vector<double> u = state_.unknowns_of(candidate_);
+        const std::vector<double> u = state_.problem().unknowns_of(candidate_);
         return begin(state_.continuation().start(u, state_.problem().parameter_place(), state_.settings().direction));
     }
 
-    bool start_along(const std::vector<double>& direction, double distance) {
-        const std::vector<double> u = state_.unknowns_of(candidate_);
-        if (direction.size() != u.size())
-            throw InputError("the direction does not fit the orbit", "give as many numbers as there are unknowns");
+    bool start_along(const OrbitDirection& given, double distance) {
+        OrbitProblem& problem = state_.problem();
+        if (given.parameters.size() > problem.equations().free().size())
+            throw InputError("the direction has more parameters than vary", "leave out those that stay");
+        const std::vector<double> u = problem.unknowns_of(candidate_);
+        if (!problem.evaluate(u))
+            return begin(false);
+        const std::vector<double> direction = problem.unknowns_of(given);
         if (distance != 0)
             return start_on_other(u, direction, distance);
-        return begin(state_.continuation().start_at(u, state_.problem().row_of(direction)));
+        return begin(state_.continuation().start_at(u, problem.row_of(direction)));
     }
 
     bool step() {
@@ -127,7 +131,7 @@ public:
         if (!step_on_branch())
             return end(continuation.outcome() == ContinuationOutcome::undefined ? BranchOutcome::undefined
                                                                                 : BranchOutcome::no_convergence,
-                       state_.problem().shooting().problem());
+                       state_.problem().evaluation().problem);
         describe_here();
         ++point.step;
         point.iterations = continuation.point().iterations;
@@ -194,11 +198,9 @@ private:
         const double length = std::sqrt(std::inner_product(row.begin(), row.end(), direction.begin(), 0.0));
         for (std::size_t i = 0; i < u.size(); ++i)
             u[i] += distance * direction[i] / length;
-        return state_.problem().shooting().orbit_of(OrbitProblem::vector_of(u));
+        return state_.problem().orbit_of(u);
     }
-    Orbit orbit_here() {
-        return state_.problem().shooting().orbit_of(OrbitProblem::vector_of(state_.continuation().point().u));
-    }
+    Orbit orbit_here() { return state_.problem().orbit_of(state_.continuation().point().u); }
     double distance_from(const std::vector<double>& u) {
         double sum = 0;
         for (std::size_t i = 0; i < u.size(); ++i) {
@@ -226,7 +228,7 @@ private:
         ended_ = !begun;
         if (!begun) {
             outcome = BranchOutcome::no_start;
-            detail = state_.problem().shooting().problem();
+            detail = state_.problem().evaluation().problem;
             if (detail.empty())
                 detail = fmt::format("{} from the orbit that was given", name_of(state_.continuation().outcome()));
             return false;
@@ -267,7 +269,7 @@ private:
         }
         locator_.forget();
         special.detail +=
-            fmt::format("; goes on as {}", to_string(state_.model(), state_.problem().shooting().signature()));
+            fmt::format("; goes on as {}", to_string(state_.model(), state_.problem().equations().signature()));
         describe_here();
         is_regular_ = is_degenerate(state_, orbit_here(), same_orbit);
         return true;
@@ -342,10 +344,13 @@ bool OrbitBranch::start() {
     begun_ = true;
     return follower_->start();
 }
-bool OrbitBranch::start_along(const std::vector<double>& direction, double distance) {
-    begun_ = true;
-    require_finite(direction, "a number of the direction");
+bool OrbitBranch::start_along(const OrbitDirection& direction, double distance) {
+    for (const std::vector<double>& start : direction.starts)
+        require_finite(start, "a number of the direction");
+    require_finite(direction.durations, "a number of the direction");
+    require_finite(direction.parameters, "a number of the direction");
     require_finite(distance, "the distance");
+    begun_ = true;
     return follower_->start_along(direction, distance);
 }
 bool OrbitBranch::step() {

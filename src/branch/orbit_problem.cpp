@@ -1,5 +1,6 @@
 #include "branch/orbit_problem.hpp"
 #include "orbit/eigen_index.hpp"
+#include "orbit/shooting.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,16 +20,22 @@ double range_of(const BranchSettings& settings) {
 
 } // namespace
 
+OrbitProblem::OrbitProblem(const Simulation& simulation, const Orbit& orbit, std::size_t parameter)
+    : equations_(std::make_unique<Shooting>(simulation, orbit, std::vector{parameter})), at_(equations_->evaluation()) {
+}
+
 OrbitProblem::OrbitProblem(const Simulation& simulation, const Orbit& orbit, const BranchSettings& settings,
                            const OrbitMonitors* monitors)
-    : shooting_(simulation, orbit, both(settings.parameter, settings.free), {range_of(settings)}) {
+    : equations_(std::make_unique<Shooting>(simulation, orbit, both(settings.parameter, settings.free),
+                                            std::vector{range_of(settings)})),
+      at_(equations_->evaluation()) {
     if (!monitors)
         return;
     for (std::size_t m = 0; m < monitors->monitors().size(); ++m) {
         const Monitor& monitor = monitors->monitors()[m];
         if (monitor.fixed)
             held_.push_back(
-                {monitor.held.value(), std::make_unique<MonitorFunction>(shooting_, monitor, monitors->segment(m))});
+                {monitor.held.value(), std::make_unique<MonitorFunction>(*equations_, monitor, monitors->segment(m))});
     }
 }
 
@@ -39,19 +46,34 @@ std::vector<double> OrbitProblem::row_of(std::span<const double> direction) cons
     return row;
 }
 
-bool OrbitProblem::evaluate(std::span<const double> u) {
-    const Eigen::VectorXd unknowns = vector_of(u);
-    return shooting_.evaluate(unknowns) && evaluate_held(unknowns);
+std::vector<double> OrbitProblem::unknowns_of(const Orbit& orbit) {
+    const Eigen::VectorXd unknowns = equations_->unknowns_of(orbit);
+    return {unknowns.begin(), unknowns.end()};
 }
 
-bool OrbitProblem::evaluate_held(const Eigen::VectorXd& u) {
-    rows_.resize(index(held_.size()), u.size());
+std::vector<double> OrbitProblem::unknowns_of(const OrbitDirection& direction) const {
+    const Eigen::VectorXd unknowns = equations_->unknowns_of(direction, at_);
+    return {unknowns.begin(), unknowns.end()};
+}
+
+bool OrbitProblem::evaluate(std::span<const double> u) {
+    const Eigen::VectorXd unknowns = vector_of(u);
+    if (at_.is_at(unknowns) && at_.scales == equations_->scales())
+        return true;
+    if (equations_->evaluate(unknowns, at_) && evaluate_held())
+        return true;
+    at_.unknowns.resize(0);
+    return false;
+}
+
+bool OrbitProblem::evaluate_held() {
+    rows_.resize(index(held_.size()), index(unknowns()));
     residuals_.resize(index(held_.size()));
     for (std::size_t h = 0; h < held_.size(); ++h) {
         MonitorFunction& function = *held_[h].function;
-        if (!function.evaluate(shooting_, u))
+        if (!function.evaluate(*equations_, at_))
             return false;
-        const double unit = function.gradient().transpose().cwiseProduct(shooting_.scales()).norm();
+        const double unit = function.gradient().transpose().cwiseProduct(at_.scales).norm();
         if (!std::isfinite(unit) || unit == 0)
             return false;
         rows_.row(index(h)) = function.gradient() / unit;
@@ -72,7 +94,7 @@ bool OrbitProblem::solve(std::span<const double> row, double right, bool homogen
         values.tail(held) = homogeneous ? Eigen::VectorXd(Eigen::VectorXd::Zero(held)) : Eigen::VectorXd(-residuals_);
     }
     Eigen::VectorXd result;
-    if (!shooting_.solve(borders, values, homogeneous, result, determinant))
+    if (!equations_->solve(at_, borders, values, homogeneous, result, determinant))
         return false;
     Eigen::Map<Eigen::VectorXd>(step.data(), result.size()) = result;
     return true;

@@ -4,7 +4,7 @@
 #include "graze/branch/continuation.hpp"
 #include "graze/branch/monitor.hpp"
 #include "graze/branch/orbit_branch.hpp"
-#include "orbit/shooting.hpp"
+#include "orbit/orbit_equations.hpp"
 
 #include <Eigen/Core>
 
@@ -20,22 +20,31 @@ namespace graze {
 /// further parameters.
 class OrbitProblem : public ContinuationProblem {
 public:
-    OrbitProblem(const Simulation& simulation, const Orbit& orbit, std::size_t parameter)
-        : shooting_(simulation, orbit, {parameter}) {}
+    OrbitProblem(const Simulation& simulation, const Orbit& orbit, std::size_t parameter);
     /// @param monitors those that are fixed count, and say at which value; may be null
     OrbitProblem(const Simulation& simulation, const Orbit& orbit, const BranchSettings& settings,
                  const OrbitMonitors* monitors);
 
-    Shooting& shooting() { return shooting_; }
-    const Shooting& shooting() const { return shooting_; }
-    std::size_t parameter_place() const { return shooting_.place_of_parameter(0); }
+    OrbitEquations& equations() { return *equations_; }
+    const OrbitEquations& equations() const { return *equations_; }
+    std::size_t parameter_place() const { return equations_->layout().parameter(0); }
+    std::vector<double> unknowns_of(const Orbit& orbit);
+    Orbit orbit_of(std::span<const double> u) const { return equations_->orbit_of(vector_of(u)); }
 
-    std::size_t unknowns() const override { return shooting_.unknowns(); }
+    /// The evaluation that is at hand: of the last unknowns at which there was one.
+    const OrbitEvaluation& evaluation() const { return at_; }
+    /// Unknowns that change as the orbit does, at the last evaluation. @throws InputError when the direction does not
+    /// fit the orbit
+    std::vector<double> unknowns_of(const OrbitDirection& direction) const;
+    OrbitDirection direction_of(std::span<const double> u) const { return equations_->direction_of(vector_of(u)); }
+
+    std::size_t unknowns() const override { return equations_->unknowns(); }
     std::span<const double> scales() const override {
-        return {shooting_.scales().data(), static_cast<std::size_t>(shooting_.scales().size())};
+        return {equations_->scales().data(), static_cast<std::size_t>(equations_->scales().size())};
     }
     /// The row whose product with vectors is that with a direction, in units of the scales.
     std::vector<double> row_of(std::span<const double> direction) const;
+    /// Asked again for where it has been evaluated last, as after Newton's method, it does nothing.
     bool evaluate(std::span<const double> u) override;
     bool solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
                double* determinant) override;
@@ -43,15 +52,15 @@ public:
         // Scales need not be exact: what they cost is saved most of the time.
         constexpr std::size_t renewal = 5;
         if (accepted_++ % renewal == 0)
-            shooting_.set_scales(vector_of(u));
+            equations_->set_scales(vector_of(u));
     }
 
     void reduce(std::span<double> difference) const override {
-        const std::vector<double>& periods = shooting_.periods();
-        for (std::size_t k = 0; k < shooting_.pieces(); ++k)
+        const std::vector<double>& periods = at_.periods;
+        for (std::size_t k = 0; k < equations_->layout().pieces(); ++k)
             for (std::size_t i = 0; i < periods.size(); ++i)
                 if (periods[i] > 0) {
-                    double& one = difference[shooting_.start_of(k) + i];
+                    double& one = difference[equations_->layout().start_of(k) + i];
                     one -= std::round(one / periods[i]) * periods[i];
                 }
     }
@@ -66,9 +75,10 @@ private:
         double value;
         std::unique_ptr<MonitorFunction> function;
     };
-    bool evaluate_held(const Eigen::VectorXd& u);
+    bool evaluate_held();
 
-    Shooting shooting_;
+    std::unique_ptr<OrbitEquations> equations_;
+    OrbitEvaluation at_;
     std::vector<Held> held_;
     Eigen::MatrixXd rows_;      ///< gradients of the monitors that are held
     Eigen::VectorXd residuals_; ///< how far they are off

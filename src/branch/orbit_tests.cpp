@@ -36,10 +36,10 @@ void add_torus_test(const std::vector<std::complex<double>>& multipliers, std::v
     tests.push_back(test);
 }
 
-void add_arc_tests(const Shooting& shooting, const Certificate& certificate, std::vector<BranchTest>& tests) {
-    const System& compiled = shooting.simulation().system();
-    for (std::size_t s = 0; s < shooting.signature().size(); ++s) {
-        const auto& mode = compiled.mode(shooting.signature()[s].mode);
+void add_arc_tests(const OrbitEquations& equations, const Certificate& certificate, std::vector<BranchTest>& tests) {
+    const System& compiled = equations.system();
+    for (std::size_t s = 0; s < equations.signature().size(); ++s) {
+        const auto& mode = compiled.mode(equations.signature()[s].mode);
         for (std::size_t w = 0; w < mode.watched.size(); ++w) {
             BranchTest test{PointType::grazing, s, mode.watched[w], nothing, 0, false, 0, std::nullopt, 0};
             for (const OrbitMinimum& minimum : certificate.minima)
@@ -52,7 +52,7 @@ void add_arc_tests(const Shooting& shooting, const Certificate& certificate, std
         }
     }
     for (const EndValue& end : certificate.end_values) {
-        const bool barrier = shooting.model().events[end.event].kind == EventKind::barrier;
+        const bool barrier = equations.model().events[end.event].kind == EventKind::barrier;
         tests.push_back({PointType::two_events, end.segment, end.event, barrier ? end.value : nothing, 0, false,
                          end.rate, std::nullopt, 0});
     }
@@ -81,39 +81,40 @@ void add_monitor_tests(const std::vector<double>& values, const BranchSettings& 
 
 } // namespace
 
-std::vector<BranchTest> branch_tests(const Shooting& shooting, const OrbitSolution& solution,
-                                     const std::vector<double>& tangent, double determinant,
-                                     const std::vector<double>& monitors, const BranchSettings& settings) {
+std::vector<BranchTest> branch_tests(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                     const OrbitSolution& solution, const std::vector<double>& tangent,
+                                     double determinant, const std::vector<double>& monitors,
+                                     const BranchSettings& settings) {
     std::vector<BranchTest> tests;
     const auto add = [&](PointType type, double value, std::size_t segment = 0, std::size_t event = 0) {
         tests.push_back({type, segment, event, value, 0, false, 0, std::nullopt, 0});
     };
-    const double parameter = shooting.parameters()[settings.parameter];
+    const double parameter = at.parameters[settings.parameter];
     add(PointType::bound, settings.least ? parameter - *settings.least : nothing);
     add(PointType::bound, settings.greatest ? *settings.greatest - parameter : nothing);
     // Where monitors are held, the parameter may turn although no multiplier is 1.
-    const std::size_t place = shooting.place_of_parameter(0);
-    add(PointType::fold, settings.free.empty() ? tangent[place] : shooting.system().periodic_determinant());
-    tests.back().noise = settings.free.empty() ? least_rise * shooting.scales()[static_cast<Eigen::Index>(place)]
-                                               : shooting.system().periodic_noise();
+    const std::size_t place = equations.layout().parameter(0);
+    add(PointType::fold, settings.free.empty() ? tangent[place] : at.system.periodic_determinant());
+    tests.back().noise =
+        settings.free.empty() ? least_rise * at.scales[static_cast<Eigen::Index>(place)] : at.system.periodic_noise();
     // The half of a symmetric orbit that changes into its image loses the symmetry instead of doubling its period.
-    add(shooting.symmetry() ? PointType::asymmetry : PointType::flip, shooting.system().antiperiodic_determinant());
+    add(equations.symmetry() ? PointType::asymmetry : PointType::flip, at.system.antiperiodic_determinant());
     add(PointType::branch_point, determinant);
     tests.back().singular = true;
     add_torus_test(solution.half_multipliers.empty() ? solution.multipliers : solution.half_multipliers, tests);
     const Certificate& certificate = solution.certificate;
-    for (std::size_t s = 0; s < shooting.signature().size(); ++s) {
-        const Segment& segment = shooting.signature()[s];
+    for (std::size_t s = 0; s < equations.signature().size(); ++s) {
+        const Segment& segment = equations.signature()[s];
         const bool event = segment.end == SegmentEnd::event;
-        const std::size_t index = event ? shooting.model().transitions[segment.index].event : 0;
+        const std::size_t index = event ? equations.model().transitions[segment.index].event : 0;
         tests.push_back({PointType::grazing, s, index, event ? certificate.approach_speeds[s] : nothing,
                          solution.orbit.durations[s], true, 0, std::nullopt, 0});
-        tests.back().noise = least_rate * shooting.usual_rate(s);
+        tests.back().noise = least_rate * equations.usual_rate(at, s);
         add(PointType::vanishing, solution.orbit.durations[s], s, index);
         const double margin = certificate.guard_margins[s];
         add(PointType::guard, std::isfinite(margin) ? margin : nothing, s, index);
     }
-    add_arc_tests(shooting, certificate, tests);
+    add_arc_tests(equations, certificate, tests);
     add_monitor_tests(monitors, settings, tests);
     return tests;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "graze/branch/orbit_branch.hpp"
-#include "orbit/shooting.hpp"
+#include "orbit/orbit_equations.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -27,8 +27,9 @@ struct BranchTest {
 /// All of them at a point, always in the same order for one signature.
 /// @param tangent, determinant of the branch there
 /// @param monitors their values there
-std::vector<BranchTest> branch_tests(const Shooting& shooting, const OrbitSolution& solution,
-                                     const std::vector<double>& tangent, double determinant,
-                                     const std::vector<double>& monitors, const BranchSettings& settings);
+std::vector<BranchTest> branch_tests(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                     const OrbitSolution& solution, const std::vector<double>& tangent,
+                                     double determinant, const std::vector<double>& monitors,
+                                     const BranchSettings& settings);
 
 } // namespace graze

@@ -72,7 +72,8 @@ std::vector<std::pair<TestValue, TestValue>> PointLocator::brackets_of(std::size
         return {};
     BranchPoint there;
     std::vector<BranchTest> tests;
-    state_->describe(at, there, tests);
+    if (!state_->describe(at, there, tests))
+        return {};
     const TestValue middle{*dip, tests[test].value};
     if (!(middle.value * low.value < 0))
         return {};
@@ -99,9 +100,8 @@ std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const Te
         fraction = low - low_value * (high - low) / (high_value - low_value); // NaN if one of them is
         if (!(fraction > low && fraction < high) || i % 8 == 7)
             fraction = 0.5 * (low + high);
-        if (!state_->continuation().between(fraction, at))
+        if (!state_->continuation().between(fraction, at) || !state_->describe(at, there, tests))
             break;
-        state_->describe(at, there, tests);
         found_any = true;
         const double value = tests[test].value;
         if (value == 0)
@@ -118,7 +118,7 @@ std::optional<SpecialPoint> PointLocator::locate_zero(std::size_t test, const Te
             side = 1;
         }
     }
-    return found_any ? special_at(at, there, tests[test], size) : std::nullopt;
+    return found_any ? special_at(there, tests[test], size) : std::nullopt;
 }
 
 /// Where another branch crosses, at which determinants are zero.
@@ -129,19 +129,19 @@ std::optional<SpecialPoint> PointLocator::locate_branch_point(std::size_t test, 
         return std::nullopt;
     BranchPoint there;
     std::vector<BranchTest> tests;
-    state_->describe(*at, there, tests);
-    return special_at(*at, there, tests[test], std::max(std::abs(low.value), std::abs(high.value)));
+    if (!state_->describe(*at, there, tests))
+        return std::nullopt;
+    return special_at(there, tests[test], std::max(std::abs(low.value), std::abs(high.value)));
 }
 
 /// @param size of the test at the ends of the bracket
-std::optional<SpecialPoint> PointLocator::special_at(const ContinuationPoint& at, const BranchPoint& there,
-                                                     const BranchTest& here, double size) {
+std::optional<SpecialPoint> PointLocator::special_at(const BranchPoint& there, const BranchTest& here, double size) {
     SpecialPoint special;
     special.type = here.type;
     special.solution = there.solution;
     special.parameter = there.parameter;
     special.arclength = there.arclength;
-    special.tangent = at.tangent;
+    special.tangent = there.tangent;
     special.monitors = there.monitors;
     special.segment = here.segment;
     special.event = here.event;

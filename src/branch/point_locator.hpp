@@ -28,8 +28,7 @@ private:
     std::optional<SpecialPoint> locate(std::size_t test, const TestValue& low, const TestValue& high);
     std::optional<SpecialPoint> locate_zero(std::size_t test, const TestValue& begin, const TestValue& end);
     std::optional<SpecialPoint> locate_branch_point(std::size_t test, const TestValue& low, const TestValue& high);
-    std::optional<SpecialPoint> special_at(const ContinuationPoint& at, const BranchPoint& there,
-                                           const BranchTest& here, double size);
+    std::optional<SpecialPoint> special_at(const BranchPoint& there, const BranchTest& here, double size);
 
     BranchState* state_;
     const BranchPoint* point_;

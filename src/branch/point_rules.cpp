@@ -103,7 +103,7 @@ bool is_degenerate(BranchState& state, const Orbit& orbit, double same) {
     const Model& model = state.model();
     if (orbit.symmetry)
         return false;
-    if (half_of(state.problem().shooting(), orbit, same))
+    if (half_of(state.problem().equations(), orbit, same))
         return true;
     const std::size_t half = orbit.segments() / 2;
     if (orbit.segments() % 2 != 0)
@@ -111,7 +111,7 @@ bool is_degenerate(BranchState& state, const Orbit& orbit, double same) {
     for (std::size_t k = 0; k < half; ++k) {
         if (orbit.signature[k] != orbit.signature[k + half])
             return false;
-        for (const std::size_t i : state.problem().shooting().active())
+        for (const std::size_t i : state.problem().evaluation().active)
             if (!model.states[i].period &&
                 std::abs(orbit.starts[k][i] - orbit.starts[k + half][i]) > same * state.problem().scales()[i])
                 return false;

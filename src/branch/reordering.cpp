@@ -63,12 +63,14 @@ BranchStart with_events_reordered(const System& system, const SpecialPoint& poin
     const Orbit& orbit = point.solution.orbit;
     std::string why = "the branch's direction is not known";
     OrbitProblem problem(simulation, orbit, settings.parameter);
-    const Eigen::VectorXd unknowns = problem.shooting().unknowns_of(orbit);
-    if (point.tangent.size() == problem.unknowns())
+    const std::vector<double> u = problem.unknowns_of(orbit);
+    if (!point.tangent.is_empty() && problem.evaluate(u)) {
+        const std::vector<double> tangent = problem.unknowns_of(point.tangent);
         for (const double distance : distances)
             for (const double side : {1.0, -1.0}) {
-                const Eigen::VectorXd there = unknowns + side * distance * OrbitProblem::vector_of(point.tangent);
-                Orbit beyond = problem.shooting().orbit_of(there);
+                const Eigen::VectorXd there =
+                    OrbitProblem::vector_of(u) + side * distance * OrbitProblem::vector_of(tangent);
+                Orbit beyond = problem.equations().orbit_of(there);
                 const auto candidate = followed(simulation, beyond, why);
                 if (!candidate || are_alike(*candidate, orbit))
                     continue;
@@ -88,15 +90,16 @@ BranchStart with_events_reordered(const System& system, const SpecialPoint& poin
                 if (!is_admissible(simulation, solution.orbit, why))
                     continue;
                 OrbitProblem next(simulation, solution.orbit, settings.parameter);
-                std::vector<double> row(next.unknowns(), 0.0), direction(next.unknowns());
+                std::vector<double> row(next.unknowns(), 0.0), onward(next.unknowns());
                 const double rise =
                     solution.orbit.parameters[settings.parameter] - orbit.parameters[settings.parameter];
                 row[next.parameter_place()] = 1;
-                const Eigen::VectorXd start = next.shooting().unknowns_of(solution.orbit);
-                if (!next.shooting().evaluate(start) || !next.solve(row, rise < 0 ? -1 : 1, true, direction, nullptr))
+                if (!next.evaluate(next.unknowns_of(solution.orbit)) ||
+                    !next.solve(row, rise < 0 ? -1 : 1, true, onward, nullptr))
                     continue;
-                return {solution.orbit, direction, 0, "with events in another order"};
+                return {solution.orbit, next.direction_of(onward), 0, "with events in another order"};
             }
+    }
     throw InputError(fmt::format("no orbit was found beyond: {}", why), "the branch may end here");
 }
 

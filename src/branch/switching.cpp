@@ -29,23 +29,27 @@ Orbit twice(const Orbit& orbit) {
 
 /// Both ways along the null vector of an orbit's equations that is orthogonal to a row.
 std::vector<BranchStart> both_ways(const System& system, Orbit orbit, const BranchSettings& settings,
-                                   const std::vector<double>& along, const std::string& how, bool second) {
+                                   const OrbitDirection& along, const std::string& how, bool second) {
     const Simulation simulation(system, {}, {}, integration(settings.orbit.tolerance));
     join_drifts(simulation, orbit);
     OrbitProblem problem(simulation, orbit, settings.parameter);
-    Shooting& shooting = problem.shooting();
+    const auto fail = [] {
+        throw InputError("the direction of the other branch could not be found", "try another point");
+    };
+    if (!problem.evaluate(problem.unknowns_of(orbit)))
+        fail();
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(problem.unknowns()));
-    if (along.size() == problem.unknowns())
-        row = OrbitProblem::vector_of(problem.row_of(along)).transpose();
+    if (!along.is_empty())
+        row = OrbitProblem::vector_of(problem.row_of(problem.unknowns_of(along))).transpose();
     else // orbits of the new kind appear at a turning point
         row[static_cast<Eigen::Index>(problem.parameter_place())] = 1;
-    Eigen::VectorXd direction;
-    if (!shooting.evaluate(shooting.unknowns_of(orbit)) || !shooting.null_vector(row, direction))
-        throw InputError("the direction of the other branch could not be found", "try another point");
-    const std::vector<double> vector(direction.begin(), direction.end());
-    std::vector<BranchStart> result{{orbit, vector, first_distance, how}};
+    Eigen::VectorXd vector;
+    if (!problem.equations().null_vector(problem.evaluation(), row, vector))
+        fail();
+    const OrbitDirection direction = problem.equations().direction_of(vector);
+    std::vector<BranchStart> result{{orbit, direction, first_distance, how}};
     if (second)
-        result.push_back({orbit, vector, -first_distance, how + ", the other way"});
+        result.push_back({orbit, direction, -first_distance, how + ", the other way"});
     return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include "graze/flow/roots.hpp"
 #include "orbit/eigen_index.hpp"
+#include "orbit/shooting.hpp"
 
 #include <fmt/format.h>
 
@@ -19,13 +20,13 @@ constexpr double on_surface = 1e-9;
 /// Follows the watched events along one segment.
 class ArcWatcher {
 public:
-    ArcWatcher(const Shooting& shooting, std::size_t segment, RootFinder& roots)
-        : shooting_(&shooting), segment_(segment),
-          mode_(&shooting.simulation().system().mode(shooting.signature()[segment].mode)), roots_(&roots),
-          order_(static_cast<std::size_t>(shooting.simulation().order())), sizes_(mode_->watched.size(), 0.0),
+    ArcWatcher(const OrbitEquations& equations, std::size_t segment, RootFinder& roots)
+        : equations_(&equations), segment_(segment),
+          mode_(&equations.system().mode(equations.signature()[segment].mode)), roots_(&roots),
+          order_(static_cast<std::size_t>(equations.simulation().order())), sizes_(mode_->watched.size(), 0.0),
           falls_(mode_->watched.size(), std::numeric_limits<double>::infinity()), starts_(mode_->watched.size(), 0.0),
           lowest_(mode_->watched.size(), std::numeric_limits<double>::infinity()), lows_(mode_->watched.size(), 0.0) {
-        const System& compiled = shooting.simulation().system();
+        const System& compiled = equations.system();
         for (std::size_t w = 0; w < mode_->watched.size(); ++w)
             harmless_.push_back(is_harmless(compiled, mode_->transitions[w]));
     }
@@ -64,7 +65,7 @@ public:
 
     /// What is wrong with the segment, if anything. @param ends event functions at its end
     std::string verdict(double duration, std::span<const double> ends) const {
-        const Model& model = shooting_->model();
+        const Model& model = equations_->model();
         if (duration < 0)
             return fmt::format("segment {} has negative duration", segment_ + 1);
         for (std::size_t w = 0; w < mode_->watched.size(); ++w) {
@@ -93,7 +94,7 @@ public:
         return result;
     }
     bool is_own(std::size_t w) const {
-        const Segment& segment = shooting_->signature()[segment_];
+        const Segment& segment = equations_->signature()[segment_];
         return segment.end == SegmentEnd::event && mode_->transitions[w] == segment.index;
     }
     bool is_harmless_here(std::size_t w) const { return harmless_[w]; }
@@ -105,7 +106,7 @@ private:
         for (std::size_t k = 1; k < coefficients_.size(); ++k)
             derivative_.push_back(static_cast<double>(k) * coefficients_[k]);
         const double reach = std::abs(length), sign = length < 0 ? -1 : 1;
-        const bool is_section = shooting_->model().events[mode_->watched[w]].kind == EventKind::section;
+        const bool is_section = equations_->model().events[mode_->watched[w]].kind == EventKind::section;
         roots_->crossings(derivative_, reach, RootStart::as_is, found_);
         for (const Root& root : found_) {
             const bool minimum = root.kind == RootKind::rising;
@@ -126,7 +127,7 @@ private:
         }
     }
 
-    const Shooting* shooting_;
+    const OrbitEquations* equations_;
     std::size_t segment_;
     const System::CompiledMode* mode_;
     RootFinder* roots_;
@@ -167,12 +168,12 @@ bool is_harmless(const System& model, std::size_t transition) {
                        [&](const Alternative& alternative) { return alternative.mode == one.mode; });
 }
 
-Certificate certify(Shooting& shooting, const Eigen::VectorXd& unknowns) {
-    const System& compiled = shooting.simulation().system();
-    const std::size_t states = shooting.states();
-    std::vector<double> inputs(states + shooting.parameters().size()), work(compiled.workspace()), values, gradients;
-    std::copy(shooting.parameters().begin(), shooting.parameters().end(),
-              inputs.begin() + static_cast<std::ptrdiff_t>(states));
+Certificate certify(OrbitEquations& equations, const OrbitEvaluation& at) {
+    const OrbitLayout& layout = equations.layout();
+    const System& compiled = equations.system();
+    const std::size_t states = layout.states();
+    std::vector<double> inputs(states + at.parameters.size()), work(compiled.workspace()), values, gradients;
+    std::copy(at.parameters.begin(), at.parameters.end(), inputs.begin() + static_cast<std::ptrdiff_t>(states));
     Certificate certificate;
     const auto object = [&](std::string reason) {
         if (certificate.admissible && !reason.empty()) {
@@ -180,23 +181,23 @@ Certificate certify(Shooting& shooting, const Eigen::VectorXd& unknowns) {
             certificate.reason = std::move(reason);
         }
     };
-    const std::size_t segments = shooting.signature().size();
-    RootFinder roots(shooting.simulation().order());
+    const std::size_t segments = equations.signature().size();
+    ModeFlow& flow = equations.flow_at(at);
+    RootFinder roots(equations.simulation().order());
     for (std::size_t s = 0; s < segments; ++s) {
-        const Segment& segment = shooting.signature()[s];
+        const Segment& segment = equations.signature()[s];
         const auto& mode = compiled.mode(segment.mode);
-        ArcWatcher watcher(shooting, s, roots);
+        ArcWatcher watcher(equations, s, roots);
         double begin = 0;
-        for (std::size_t k = shooting.first_piece(s); k <= shooting.last_piece(s); ++k) {
-            const double* start = unknowns.data() + shooting.start_of(k);
+        for (std::size_t k = layout.first_piece(s); k <= layout.last_piece(s); ++k) {
+            const double* start = at.unknowns.data() + layout.start_of(k);
             std::vector<double> state(start, start + states);
-            const double duration = unknowns[index(shooting.duration_of(k))];
-            shooting.flow().run(segment.mode, state, duration, [&](const Jet& jet, double time, double length) {
-                watcher.look(jet, begin, time, length);
-            });
+            const double duration = at.unknowns[index(layout.duration_of(k))];
+            flow.run(segment.mode, state, duration,
+                     [&](const Jet& jet, double time, double length) { watcher.look(jet, begin, time, length); });
             begin += duration;
         }
-        const Shooting::Piece& last = shooting.piece(shooting.last_piece(s));
+        const OrbitEvaluation::Piece& last = at.pieces[layout.last_piece(s)];
         std::copy(last.end.begin(), last.end.end(), inputs.begin());
         values.resize(mode.watched.size());
         gradients.resize(mode.watched.size() * states);
@@ -212,7 +213,7 @@ Certificate certify(Shooting& shooting, const Eigen::VectorXd& unknowns) {
         object(watcher.verdict(begin, values));
         for (const OrbitMinimum& minimum : watcher.minima())
             certificate.minima.push_back(minimum);
-        const double rate = shooting.rate_at_end(s);
+        const double rate = equations.rate_at_end(at, s);
         if (segment.end == SegmentEnd::section) {
             certificate.approach_speeds.push_back(std::abs(rate));
             certificate.departures.push_back(rate);
@@ -224,13 +225,13 @@ Certificate certify(Shooting& shooting, const Eigen::VectorXd& unknowns) {
             object(fmt::format("the event that ends segment {} rises instead of falling", s + 1));
         // The symmetry's image is the start that the guard of a half orbit's last jump does not see.
         std::vector<double> after = last.end;
-        const auto& jump = compiled.jump(shooting.model().transitions[segment.index].jump);
+        const auto& jump = compiled.jump(equations.model().transitions[segment.index].jump);
         if (!jump.identity)
             jump.map.evaluate(inputs, after, work);
         std::copy(after.begin(), after.end(), inputs.begin());
-        std::size_t next = shooting.signature()[(s + 1) % segments].mode;
-        if (shooting.symmetry() && s + 1 == segments) {
-            const auto& images = shooting.model().symmetries[*shooting.symmetry()].modes;
+        std::size_t next = equations.signature()[(s + 1) % segments].mode;
+        if (equations.symmetry() && s + 1 == segments) {
+            const auto& images = equations.model().symmetries[*equations.symmetry()].modes;
             next = static_cast<std::size_t>(std::find(images.begin(), images.end(), next) - images.begin());
         }
         const double margin = guard_margin(compiled.transition(segment.index), next, inputs, work);
@@ -252,10 +253,10 @@ Certificate certify(Shooting& shooting, const Eigen::VectorXd& unknowns) {
 
 bool is_admissible(const Simulation& simulation, const Orbit& orbit, std::string& why) {
     Shooting shooting(simulation, orbit, {});
-    const Eigen::VectorXd unknowns = shooting.unknowns_of(orbit);
-    if (!shooting.evaluate(unknowns))
+    OrbitEvaluation at = shooting.evaluation();
+    if (!shooting.evaluate(shooting.unknowns_of(orbit), at))
         return false;
-    const Certificate certificate = certify(shooting, unknowns);
+    const Certificate certificate = certify(shooting, at);
     if (!certificate.admissible)
         why = certificate.reason;
     return certificate.admissible &&

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "graze/orbit/certificate.hpp"
-#include "orbit/shooting.hpp"
+#include "orbit/orbit_equations.hpp"
 
 #include <Eigen/Core>
 
@@ -13,16 +13,15 @@ namespace graze {
 /// Whether a transition changes nothing: neither state nor mode. Orbits need not list it.
 bool is_harmless(const System& model, std::size_t transition);
 
-/// Checks every watched event over every arc, by the roots of its Taylor polynomials. `shooting` must have been
-/// evaluated at the unknowns.
-Certificate certify(Shooting& shooting, const Eigen::VectorXd& unknowns);
+/// Checks every watched event over every arc, by the roots of its Taylor polynomials.
+Certificate certify(OrbitEquations& equations, const OrbitEvaluation& at);
 
 /// Whether the model would follow an orbit, all of whose segments take time. @param why not, if it is known
 bool is_admissible(const Simulation& simulation, const Orbit& orbit, std::string& why);
 
 /// Floquet multipliers of the section map at the start of the first segment, largest first: of the half orbit for one
 /// that is given by its half. Without those that drifting or unchanged states, and shifts along the flow, would add.
-/// Empty where an event is reached without speed. `shooting` must have been evaluated at the unknowns.
-std::vector<std::complex<double>> floquet_multipliers(const Shooting& shooting, const Eigen::VectorXd& unknowns);
+/// Empty where an event is reached without speed.
+std::vector<std::complex<double>> floquet_multipliers(const OrbitEquations& equations, const OrbitEvaluation& at);
 
 } // namespace graze

@@ -12,7 +12,8 @@ void join_drifts(const Simulation& simulation, Orbit& orbit) {
         std::none_of(states.begin(), states.end(), [](const State& one) { return one.drifting; }))
         return;
     Shooting shooting(simulation, orbit, {});
-    if (!shooting.evaluate(shooting.unknowns_of(orbit)))
+    OrbitEvaluation at = shooting.evaluation();
+    if (!shooting.evaluate(shooting.unknowns_of(orbit), at))
         return;
     // Nothing depends on where a drifting state is, so that all segments can be followed before any is moved.
     std::vector<double> shift(states.size(), 0.0);
@@ -20,7 +21,7 @@ void join_drifts(const Simulation& simulation, Orbit& orbit) {
         for (std::size_t i = 0; i < states.size(); ++i) {
             if (!states[i].drifting)
                 continue;
-            const double end = shooting.piece(shooting.last_piece(s)).after[i] + shift[i];
+            const double end = at.pieces[shooting.layout().last_piece(s)].after[i] + shift[i];
             shift[i] = end - orbit.starts[s + 1][i];
             orbit.starts[s + 1][i] = end;
         }

@@ -2,6 +2,7 @@
 
 #include "graze/orbit/solve.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "orbit/shooting.hpp"
 
 #include <fmt/format.h>
 
@@ -13,15 +14,16 @@ namespace graze {
 namespace {
 
 /// The largest difference of two states, in units of how far each state goes along the orbit.
-double distance(std::span<const double> a, std::span<const double> b, const Shooting& shooting) {
+double distance(std::span<const double> a, std::span<const double> b, const OrbitEquations& equations) {
+    const std::vector<double>& periods = equations.periods();
     double result = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        if (shooting.model().states[i].drifting)
+        if (equations.model().states[i].drifting)
             continue;
         double difference = a[i] - b[i];
-        if (const double period = shooting.periods()[i]; period > 0)
+        if (const double period = periods[i]; period > 0)
             difference -= std::round(difference / period) * period;
-        result = std::max(result, std::abs(difference) / shooting.scales()[static_cast<Eigen::Index>(i)]);
+        result = std::max(result, std::abs(difference) / equations.scales()[static_cast<Eigen::Index>(i)]);
     }
     return result;
 }
@@ -54,8 +56,8 @@ bool cut_in_half(const Simulation& simulation, Orbit& orbit, const Symmetry& sym
 }
 
 /// Whether the second half of an orbit's segments is the image of the first.
-bool repeats_as_image(const Orbit& orbit, const Symmetry& symmetry, const Function& map, const Shooting& shooting,
-                      double tolerance) {
+bool repeats_as_image(const Orbit& orbit, const Symmetry& symmetry, const Function& map,
+                      const OrbitEquations& equations, double tolerance) {
     const std::size_t half = orbit.segments() / 2;
     if (orbit.segments() % 2 != 0)
         return false;
@@ -67,7 +69,7 @@ bool repeats_as_image(const Orbit& orbit, const Symmetry& symmetry, const Functi
             (orbit.signature[k].end == SegmentEnd::section &&
              orbit.signature[k].index != orbit.signature[k + half].index) ||
             std::abs(orbit.durations[k] - orbit.durations[k + half]) > tolerance * orbit.period() ||
-            distance(map(state), orbit.starts[k], shooting) > tolerance)
+            distance(map(state), orbit.starts[k], equations) > tolerance)
             return false;
     }
     return true;
@@ -75,25 +77,25 @@ bool repeats_as_image(const Orbit& orbit, const Symmetry& symmetry, const Functi
 
 } // namespace
 
-std::optional<Orbit> half_of(const Shooting& shooting, const Orbit& orbit, double tolerance) {
-    const Model& model = shooting.model();
+std::optional<Orbit> half_of(const OrbitEquations& equations, const Orbit& orbit, double tolerance) {
+    const Model& model = equations.model();
     if (orbit.symmetry)
         return std::nullopt;
     for (std::size_t index = 0; index < model.symmetries.size(); ++index) {
         const Symmetry& symmetry = model.symmetries[index];
-        const Function& map = shooting.simulation().system().symmetry(index).map;
+        const Function& map = equations.system().symmetry(index).map;
         Orbit half = orbit;
         half.symmetry = index;
-        if (repeats_as_image(orbit, symmetry, map, shooting, tolerance)) {
+        if (repeats_as_image(orbit, symmetry, map, equations, tolerance)) {
             half.signature.resize(orbit.segments() / 2);
             half.starts.resize(orbit.segments() / 2);
             half.durations.resize(orbit.segments() / 2);
             return half;
         }
-        if (is_smooth(orbit) && cut_in_half(shooting.simulation(), half, symmetry)) {
+        if (is_smooth(orbit) && cut_in_half(equations.simulation(), half, symmetry)) {
             std::vector<double> state = half.starts.back();
             state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
-            if (distance(map(state), orbit.starts[0], shooting) < tolerance) {
+            if (distance(map(state), orbit.starts[0], equations) < tolerance) {
                 half.starts.pop_back();
                 return half;
             }

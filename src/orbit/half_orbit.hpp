@@ -1,6 +1,6 @@
 #pragma once
 
-#include "orbit/shooting.hpp"
+#include "orbit/orbit_equations.hpp"
 
 #include <optional>
 
@@ -8,6 +8,6 @@ namespace graze {
 
 /// The half of an orbit that is its own image under a symmetry of the model, or none if it is not.
 /// @param shooting of that orbit, or one like it, whose scales measure differences
-std::optional<Orbit> half_of(const Shooting& shooting, const Orbit& orbit, double tolerance);
+std::optional<Orbit> half_of(const OrbitEquations& equations, const Orbit& orbit, double tolerance);
 
 } // namespace graze

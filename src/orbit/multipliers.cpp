@@ -18,13 +18,15 @@ constexpr std::size_t most_parts = 1024;
 
 /// Derivatives of the start of the next piece from those of the end of this one at fixed time, where the end condition
 /// and not the time says when it ends (saltation: Aizerman and Gantmakher 1958). Empty when it is met without speed.
-Eigen::MatrixXd passed(const Shooting& shooting, std::size_t k, Eigen::MatrixXd flow) {
-    const auto n = index(shooting.states());
-    const Shooting::Piece& piece = shooting.piece(k);
-    if (piece.last) {
+Eigen::MatrixXd passed(const OrbitEquations& equations, const OrbitEvaluation& at, std::size_t k,
+                       Eigen::MatrixXd flow) {
+    const OrbitLayout& layout = equations.layout();
+    const auto n = index(layout.states());
+    const OrbitEvaluation::Piece& piece = at.pieces[k];
+    if (layout.is_last(k)) {
         const Eigen::RowVectorXd gradient = piece.condition.head(n).transpose();
         const double rate = gradient.dot(piece.field);
-        if (!(std::abs(rate) > least_rate * shooting.usual_rate(piece.segment)))
+        if (!(std::abs(rate) > least_rate * equations.usual_rate(at, layout.segment_of(k))))
             return {};
         flow -= piece.field * (gradient * flow) / rate;
     }
@@ -44,23 +46,24 @@ Eigen::MatrixXd complement(const Eigen::VectorXd& vector) {
 /// The section map as factors, restricted to active states and measured by their scales.
 class SectionMapFactors {
 public:
-    explicit SectionMapFactors(const Shooting& shooting)
-        : shooting_(&shooting), active_(&shooting.active()), work_(shooting.simulation().system().workspace()),
-          inputs_(shooting.states() + shooting.parameters().size()) {
-        std::copy(shooting.parameters().begin(), shooting.parameters().end(),
-                  inputs_.begin() + static_cast<std::ptrdiff_t>(shooting.states()));
+    SectionMapFactors(const OrbitEquations& equations, const OrbitEvaluation& at)
+        : equations_(&equations), at_(&at), active_(&at.active), work_(equations.system().workspace()),
+          inputs_(equations.layout().states() + at.parameters.size()) {
+        std::copy(at.parameters.begin(), at.parameters.end(),
+                  inputs_.begin() + static_cast<std::ptrdiff_t>(equations.layout().states()));
     }
 
     /// Adds those of a piece. @return false when its end is met without speed
-    bool add(std::size_t k, const Eigen::VectorXd& unknowns) {
-        const auto n = index(shooting_->states());
-        const double* start = unknowns.data() + shooting_->start_of(k);
-        mode_ = shooting_->signature()[shooting_->piece(k).segment].mode;
-        std::vector<Eigen::MatrixXd> flows{shooting_->piece(k).flow.leftCols(n)};
+    bool add(std::size_t k) {
+        const OrbitLayout& layout = equations_->layout();
+        const auto n = index(layout.states());
+        const double* start = at_->unknowns.data() + layout.start_of(k);
+        mode_ = equations_->mode_of(k);
+        std::vector<Eigen::MatrixXd> flows{at_->pieces[k].flow.leftCols(n)};
         std::vector<std::vector<double>> starts{{start, start + n}};
         if (contracts(flows[0]))
-            split(unknowns[index(shooting_->duration_of(k))], flows, starts);
-        flows.back() = passed(*shooting_, k, flows.back());
+            split(at_->unknowns[index(layout.duration_of(k))], flows, starts);
+        flows.back() = passed(*equations_, *at_, k, flows.back());
         if (flows.back().size() == 0)
             return false;
         for (std::size_t part = 0; part < flows.size(); ++part) {
@@ -78,7 +81,7 @@ public:
 private:
     Eigen::MatrixXd restricted(const Eigen::MatrixXd& matrix) const {
         const auto& active = *active_;
-        const Eigen::VectorXd& scales = shooting_->scales();
+        const Eigen::VectorXd& scales = at_->scales;
         Eigen::MatrixXd result(index(active.size()), index(active.size()));
         for (std::size_t i = 0; i < active.size(); ++i)
             for (std::size_t j = 0; j < active.size(); ++j)
@@ -89,10 +92,10 @@ private:
     Eigen::VectorXd direction(const std::vector<double>& state) {
         std::copy(state.begin(), state.end(), inputs_.begin());
         std::vector<double> field(state.size());
-        shooting_->simulation().system().mode(mode_).rates.evaluate(inputs_, field, work_);
+        equations_->system().mode(mode_).rates.evaluate(inputs_, field, work_);
         Eigen::VectorXd result(index(active_->size()));
         for (std::size_t i = 0; i < active_->size(); ++i)
-            result[index(i)] = field[(*active_)[i]] / shooting_->scales()[index((*active_)[i])];
+            result[index(i)] = field[(*active_)[i]] / at_->scales[index((*active_)[i])];
         return result;
     }
     bool contracts(const Eigen::MatrixXd& flow) const {
@@ -105,10 +108,10 @@ private:
     }
     /// Follows a piece in ever more parts until none contracts too much, or what there is must do.
     void split(double duration, std::vector<Eigen::MatrixXd>& flows, std::vector<std::vector<double>>& starts) {
-        const auto n = index(shooting_->states());
+        const auto n = index(equations_->layout().states());
         if (!flow_) {
-            flow_ = flow_of(shooting_->simulation());
-            flow_->set_parameters(shooting_->parameters());
+            flow_ = flow_of(equations_->simulation());
+            flow_->set_parameters(at_->parameters);
         }
         for (std::size_t count = 4; count <= most_parts; count *= 4) {
             std::vector<Eigen::MatrixXd> finer;
@@ -130,7 +133,8 @@ private:
         }
     }
 
-    const Shooting* shooting_;
+    const OrbitEquations* equations_;
+    const OrbitEvaluation* at_;
     const std::vector<std::size_t>* active_;
     std::optional<ModeFlow> flow_; ///< once it is needed
     std::size_t mode_ = 0;
@@ -154,10 +158,10 @@ std::vector<Eigen::MatrixXd> SectionMapFactors::without_shifts() const {
 
 } // namespace
 
-std::vector<std::complex<double>> floquet_multipliers(const Shooting& shooting, const Eigen::VectorXd& unknowns) {
-    SectionMapFactors factors(shooting);
-    for (std::size_t k = 0; k < shooting.pieces(); ++k)
-        if (!factors.add(k, unknowns))
+std::vector<std::complex<double>> floquet_multipliers(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    SectionMapFactors factors(equations, at);
+    for (std::size_t k = 0; k < equations.layout().pieces(); ++k)
+        if (!factors.add(k))
             return {};
     return product_eigenvalues(factors.without_shifts());
 }

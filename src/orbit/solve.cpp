@@ -3,6 +3,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/newton.hpp"
+#include "orbit/shooting.hpp"
 
 #include <fmt/format.h>
 
@@ -70,55 +71,53 @@ std::size_t unstable_directions(const OrbitSolution& solution) {
                                                   [](auto one) { return std::abs(one) > 1 + on_circle; }));
 }
 
-OrbitOutcome solve_shooting(Shooting& shooting, Eigen::VectorXd& unknowns, const OrbitOptions& options,
-                            std::size_t& iterations, std::string& detail) {
-    const Eigen::MatrixXd no_borders(0, static_cast<Eigen::Index>(shooting.unknowns()));
+OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknowns, const OrbitOptions& options,
+                             OrbitEvaluation& at, std::size_t& iterations, std::string& detail) {
+    const Eigen::MatrixXd no_borders(0, static_cast<Eigen::Index>(equations.unknowns()));
     const Eigen::VectorXd nothing(0);
-    if (!shooting.evaluate(unknowns)) {
-        detail = shooting.problem();
+    if (!equations.evaluate(unknowns, at)) {
+        detail = at.problem;
         return OrbitOutcome::undefined;
     }
+    OrbitEvaluation tried = equations.evaluation();
     for (iterations = 1; iterations <= options.iterations; ++iterations) {
         Eigen::VectorXd step;
-        if (!shooting.solve(no_borders, nothing, false, step)) {
+        if (!equations.solve(at, no_borders, nothing, false, step)) {
             detail = "the equations are singular: at a fold, or because states are not determined";
             return OrbitOutcome::singular;
         }
-        const double size = largest(step, shooting.scales()), before = shooting.residual();
+        const double size = largest(step, equations.scales());
         double factor = 1;
         bool improved = false;
-        for (int halving = 0; halving < most_halvings && !improved && !shooting.took_too_long();
-             ++halving, factor *= 0.5) {
-            const Eigen::VectorXd next = unknowns + factor * step;
-            const bool possible = shooting.evaluate(next);
+        tried.took_too_long = false;
+        for (int halving = 0; halving < most_halvings && !improved && !tried.took_too_long; ++halving, factor *= 0.5) {
+            const bool possible = equations.evaluate(unknowns + factor * step, tried);
             // Near the solution round-off decides, and any residual will do.
-            improved = possible && (shooting.residual() <= (1 - 0.1 * factor) * before || size < 1e-6);
-            if (improved)
-                unknowns = next;
+            improved = possible && (tried.residual <= (1 - 0.1 * factor) * at.residual || size < 1e-6);
         }
         if (!improved) {
-            const std::string problem = shooting.problem();
-            shooting.evaluate(unknowns);
-            detail = problem.empty() ? fmt::format("residuals do not fall below {:.3g}", before) : problem;
-            return problem.empty() ? OrbitOutcome::not_converged : OrbitOutcome::undefined;
+            detail =
+                tried.problem.empty() ? fmt::format("residuals do not fall below {:.3g}", at.residual) : tried.problem;
+            return tried.problem.empty() ? OrbitOutcome::not_converged : OrbitOutcome::undefined;
         }
+        std::swap(at, tried);
+        unknowns = at.unknowns;
         if (size < options.accuracy)
             return OrbitOutcome::converged;
     }
-    detail =
-        fmt::format("{} iterations were not enough; the residual is {:.3g}", options.iterations, shooting.residual());
+    detail = fmt::format("{} iterations were not enough; the residual is {:.3g}", options.iterations, at.residual);
     return OrbitOutcome::not_converged;
 }
 
-void describe_orbit(Shooting& shooting, const Eigen::VectorXd& unknowns, OrbitSolution& solution) {
-    solution.residual = shooting.residual();
-    solution.multipliers = floquet_multipliers(shooting, unknowns);
-    if (shooting.symmetry()) {
+void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitSolution& solution) {
+    solution.residual = at.residual;
+    solution.multipliers = floquet_multipliers(equations, at);
+    if (equations.symmetry()) {
         solution.half_multipliers = solution.multipliers;
         for (auto& multiplier : solution.multipliers)
             multiplier *= multiplier;
     }
-    solution.certificate = certify(shooting, unknowns);
+    solution.certificate = certify(equations, at);
 }
 
 OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const OrbitOptions& options) {
@@ -128,23 +127,26 @@ OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const Or
     const Simulation simulation(system, {}, {}, integration(options.tolerance));
     Shooting shooting(simulation, candidate, {});
     Eigen::VectorXd unknowns = shooting.unknowns_of(candidate);
+    OrbitEvaluation at = shooting.evaluation();
     OrbitSolution solution;
-    solution.outcome = solve_shooting(shooting, unknowns, options, solution.iterations, solution.detail);
+    solution.outcome = solve_equations(shooting, unknowns, options, at, solution.iterations, solution.detail);
     solution.orbit = shooting.orbit_of(unknowns);
-    solution.residual = shooting.residual();
+    solution.residual = at.residual;
     if (solution.outcome == OrbitOutcome::converged && !(solution.orbit.period() > no_time * candidate.period())) {
         solution.outcome = OrbitOutcome::not_converged;
         solution.detail = "Newton's method has gone to an orbit that takes no time";
     }
     if (solution.outcome != OrbitOutcome::converged)
         return solution;
-    describe_orbit(shooting, unknowns, solution);
+    describe_orbit(shooting, at, solution);
     if (options.error_estimate) {
         const Simulation tighter(system, {}, {}, integration(0.01 * options.tolerance));
         Shooting again(tighter, solution.orbit, {});
-        Eigen::VectorXd step, there = again.unknowns_of(solution.orbit);
+        Eigen::VectorXd step;
+        OrbitEvaluation there = again.evaluation();
         const Eigen::MatrixXd no_borders(0, static_cast<Eigen::Index>(again.unknowns()));
-        if (again.evaluate(there) && again.solve(no_borders, Eigen::VectorXd(0), false, step))
+        if (again.evaluate(again.unknowns_of(solution.orbit), there) &&
+            again.solve(there, no_borders, Eigen::VectorXd(0), false, step))
             solution.error = largest(step, again.scales());
     }
     return solution;

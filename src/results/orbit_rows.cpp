@@ -65,6 +65,33 @@ bool is_of_event(PointType type) {
            type == PointType::guard;
 }
 
+/// Of each segment what its start and its duration gain, then what the parameters do.
+std::vector<double> numbers_of(const OrbitDirection& direction) {
+    std::vector<double> numbers;
+    for (std::size_t s = 0; s < direction.starts.size(); ++s) {
+        numbers.insert(numbers.end(), direction.starts[s].begin(), direction.starts[s].end());
+        numbers.push_back(direction.durations[s]);
+    }
+    numbers.insert(numbers.end(), direction.parameters.begin(), direction.parameters.end());
+    return numbers;
+}
+
+/// The same back; nothing, if there are not enough of them.
+OrbitDirection direction_of(const std::vector<double>& numbers, std::size_t segments, std::size_t states) {
+    OrbitDirection direction;
+    if (numbers.size() <= segments * (states + 1))
+        return direction;
+    auto next = numbers.begin();
+    for (std::size_t s = 0; s < segments; ++s) {
+        const auto end = next + static_cast<std::ptrdiff_t>(states);
+        direction.starts.emplace_back(next, end);
+        direction.durations.push_back(*end);
+        next = end + 1;
+    }
+    direction.parameters.assign(next, numbers.end());
+    return direction;
+}
+
 void write_row(Statement& row, const Model& model, const RunRecord& run, const OrbitRecord& record) {
     const SpecialPoint& point = record.point;
     const OrbitSolution& solution = point.solution;
@@ -72,7 +99,7 @@ void write_row(Statement& row, const Model& model, const RunRecord& run, const O
     const std::string_view type = short_name(point.type), outcome = name_of(solution.outcome);
     const std::string signature = to_string(model, orbit.signature);
     const std::string symmetry = orbit.symmetry ? model.symmetries[*orbit.symmetry].name : "";
-    const std::string tangent = fmt::format("[{}]", fmt::join(point.tangent, ","));
+    const std::string tangent = fmt::format("[{}]", fmt::join(numbers_of(point.tangent), ","));
     Columns columns(row);
     columns.add(record.number).add(std::string_view(record.part)).add(point.step).add(type).add_text(record.label);
     for (const std::size_t place : parameter_places(model, run))
@@ -157,7 +184,7 @@ void read_certificate(Statement& minima, Statement& end_values, const Model& mod
     end_values.reset();
 }
 
-std::vector<double> numbers_of(const std::string& json) {
+std::vector<double> listed_numbers(const std::string& json) {
     std::istringstream text(json.substr(std::min<std::size_t>(1, json.size())));
     std::vector<double> values;
     double value = 0;
@@ -232,7 +259,6 @@ OrbitRecord read_row(const Statement& row, const Model& model, const RunRecord& 
         point.time = row.number(at + 2);
         point.at_end = row.integer(at + 3) != 0;
     }
-    point.tangent = numbers_of(row.text(at + 4));
     return record;
 }
 
@@ -307,6 +333,8 @@ std::vector<OrbitRecord> ResultFile::read_orbits(const std::string& name, const 
                 start.push_back(number_or_nothing(segments, 8 + static_cast<int>(i)));
         }
         segments.reset();
+        record.point.tangent = direction_of(listed_numbers(row.text(static_cast<int>(tables.point_columns()) - 1)),
+                                            solution.orbit.segments(), run->states.size());
         if (record.point.segment > 0 && record.point.segment >= solution.orbit.segments())
             throw_contradiction(state_->database.path(), fmt::format("orbit {} of run '{}'", record.number, name));
         if (solution.orbit.segments() == 0)

@@ -217,7 +217,7 @@ TEST(OrbitBranch, says_what_is_wrong) {
     wrong.starts[0].pop_back();
     EXPECT_NE(refusal([&] { follow_branch(one.model, wrong, one.settings); }).find("states"), std::string::npos);
     OrbitBranch branch(one.model, one.orbit, one.settings);
-    EXPECT_NE(refusal([&] { branch.start_along({1, 2}, 0.1); }).find("direction"), std::string::npos);
+    EXPECT_NE(refusal([&] { branch.start_along({{{1, 2}}, {1}, {}}, 0.1); }).find("direction"), std::string::npos);
     EXPECT_FALSE(branch.step());
     // A candidate from which no orbit is found.
     wrong = one.orbit;
@@ -305,9 +305,10 @@ TEST(OrbitBranch, a_crossing_beside_a_contact_that_vanishes_is_kept) {
             settings.steps = 1000;
             const BranchPoint& far = impacting.points.back();
             OrbitBranch back(model, far.solution.orbit, settings);
-            std::vector<double> direction = far.tangent;
-            for (double& one : direction)
-                one = -one;
+            OrbitDirection direction = far.tangent;
+            for (std::vector<double>* numbers : {&direction.starts[0], &direction.durations, &direction.parameters})
+                for (double& one : *numbers)
+                    one = -one;
             std::string found;
             for (bool going = back.start_along(direction, 0); going; going = back.step())
                 for (const SpecialPoint& special : back.found()) {

@@ -9,6 +9,8 @@
 namespace graze {
 namespace {
 
+using Numbers = std::vector<double>;
+
 using namespace testing;
 
 /// A circle.
@@ -91,7 +93,6 @@ void continuations(WrongUses& wrong) {
             use(circle);
         });
     };
-    using Numbers = std::vector<double>;
     for (const auto& [kind, length] : wrong_lengths(2)) {
         of("start_u_" + kind, [n = length](Circle& c) { keep(c.continuation.start(Numbers(n, 1.0), 0, 1)); });
         of("along_u_" + kind, [n = length](Circle& c) {
@@ -237,16 +238,37 @@ void branches(WrongUses& wrong) {
     };
     branch("step_before_start", [](OrbitBranch& b) { keep(b.step()); });
     branch("point_before_start", [](OrbitBranch& b) { keep(b.point()); });
-    for (const std::size_t length : {0, 1, 3, 6})
-        branch("along_" + std::to_string(length),
-               [length](OrbitBranch& b) { keep(b.start_along(std::vector<double>(length, 1.0), 0.01)); });
-    const std::vector<double> along = {0, 0, 0, 0, 1};
+    const OrbitDirection along{{{0, 0, 0}}, {0}, {1}};
+    branch("along_no_direction", [](OrbitBranch& b) { keep(b.start_along({}, 0.01)); });
+    for (const std::size_t length : {0, 1, 2, 4}) {
+        const std::string count = std::to_string(length);
+        branch("along_start_of_" + count, [length](OrbitBranch& b) {
+            keep(b.start_along({{Numbers(length, 1.0)}, {0}, {1}}, 0.01));
+        });
+        if (length == 1)
+            continue;
+        branch("along_starts_of_" + count, [length](OrbitBranch& b) {
+            keep(b.start_along({std::vector(length, Numbers{0, 0, 0}), {0}, {1}}, 0.01));
+        });
+        branch("along_durations_of_" + count, [length](OrbitBranch& b) {
+            keep(b.start_along({{{0, 0, 0}}, Numbers(length, 0.0), {1}}, 0.01));
+        });
+    }
+    branch("along_no_parameter", [](OrbitBranch& b) { keep(b.start_along({{{0, 0, 0}}, {0}, {}}, 0.01)); });
+    branch("along_two_parameters", [](OrbitBranch& b) { keep(b.start_along({{{0, 0, 0}}, {0}, {1, 1}}, 0.01)); });
     for (const auto& [kind, value] : not_finite()) {
-        branch("along_direction_" + kind,
-               [v = value](OrbitBranch& b) { keep(b.start_along(std::vector<double>(5, v), 0.01)); });
+        branch("along_start_" + kind, [v = value](OrbitBranch& b) {
+            keep(b.start_along({{{0, v, 0}}, {0}, {1}}, 0.01));
+        });
+        branch("along_duration_" + kind, [v = value](OrbitBranch& b) {
+            keep(b.start_along({{{0, 0, 0}}, {v}, {1}}, 0.01));
+        });
+        branch("along_parameter_" + kind, [v = value](OrbitBranch& b) {
+            keep(b.start_along({{{0, 0, 0}}, {0}, {v}}, 0.01));
+        });
         branch("along_distance_" + kind, [along, v = value](OrbitBranch& b) { keep(b.start_along(along, v)); });
     }
-    branch("along_nothing", [](OrbitBranch& b) { keep(b.start_along(std::vector<double>(5), 0.01)); });
+    branch("along_nothing", [](OrbitBranch& b) { keep(b.start_along({{{0, 0, 0}}, {0}, {0}}, 0.01)); });
     branch("along_distance_negative", [along](OrbitBranch& b) { keep(b.start_along(along, -1)); });
     const auto moved = [&](const std::string& name, const std::function<void(OrbitBranch&)>& use) {
         branch("moved_" + name, [use](OrbitBranch& b) {

@@ -38,7 +38,7 @@ struct BranchPoint {
     bool stable = false; ///< all multipliers within the unit circle
     std::size_t step = 0;
     std::size_t iterations = 0;
-    std::vector<double> tangent;  ///< of the branch, in the unknowns of the shooting problem
+    OrbitDirection tangent;       ///< of the branch
     std::vector<double> monitors; ///< values of those asked for
 };
 
@@ -66,9 +66,10 @@ public:
 
     /// Finds the first point. @return false when there is none: outcome() and detail() say why
     bool start();
-    /// The same at a solution, onto the branch through it that has this direction: of the unknowns of the shooting
-    /// problem, as SpecialPoint::tangent. @param distance of the first point; 0 for the solution itself
-    bool start_along(const std::vector<double>& direction, double distance);
+    /// The same at a solution, onto the branch through it that has this direction, such as SpecialPoint::tangent.
+    /// @param distance of the first point, in units of the unknowns' sizes; 0 for the solution itself
+    /// @throws InputError when the direction does not fit the orbit
+    bool start_along(const OrbitDirection& direction, double distance);
 
     /// @return false when the branch has ended. If a special point has ended it, its last point is that one.
     bool step();

@@ -43,8 +43,8 @@ struct SpecialPoint {
     double parameter = 0;
     std::pair<double, double> bracket; ///< parameters of the neighbours between which it was found
     double arclength = 0;
-    std::size_t step = 0;        ///< of the branch: found between this one and the one before
-    std::vector<double> tangent; ///< of the branch, in the unknowns of the shooting problem
+    std::size_t step = 0;   ///< of the branch: found between this one and the one before
+    OrbitDirection tangent; ///< of the branch
     std::vector<double> monitors;
     // Of grazing, two_events, vanishing and guard:
     std::size_t segment = 0, event = 0;

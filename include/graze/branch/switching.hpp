@@ -11,9 +11,9 @@ namespace graze {
 /// An orbit from which another branch goes, and the direction in which it does.
 struct BranchStart {
     Orbit orbit;
-    std::vector<double> direction; ///< of the unknowns of its shooting problem, for OrbitBranch::start_along
-    double distance = 0;           ///< of the first point from the orbit, for the same
-    std::string how;               ///< in words: "with one more contact at 'front'", "doubled"
+    OrbitDirection direction; ///< for OrbitBranch::start_along
+    double distance = 0;      ///< of the first point from the orbit, for the same
+    std::string how;          ///< in words: "with one more contact at 'front'", "doubled"
 };
 
 /// Where one can go on from a special point:

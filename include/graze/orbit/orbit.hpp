@@ -27,6 +27,16 @@ struct Orbit {
     double period() const;
 };
 
+/// A direction in which an orbit changes, as along a branch: what its numbers gain.
+struct OrbitDirection {
+    std::vector<std::vector<double>> starts; ///< of each segment
+    std::vector<double> durations;           ///< of each segment
+    std::vector<double> parameters;          ///< of those that vary, the branch's own first
+
+    bool is_empty() const { return starts.empty(); }
+    bool operator==(const OrbitDirection&) const = default;
+};
+
 /// The whole of an orbit that is given by its half: segments of the second half are images of those of the first.
 /// Others are returned as they are.
 Orbit whole_orbit(const System& system, const Orbit& orbit);

@@ -1,0 +1,354 @@
+#include "orbit/orbit_equations.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "orbit/eigen_index.hpp"
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+std::vector<double> usual_values(const Model& model, const std::vector<std::size_t>& free) {
+    const std::vector<double> all = model.parameter_values();
+    std::vector<double> result;
+    for (const std::size_t f : free)
+        result.push_back(all.at(f));
+    return result;
+}
+
+const Orbit& valid(const Model& model, const Orbit& orbit) {
+    validate_orbit(model, orbit);
+    return orbit;
+}
+
+} // namespace
+
+OrbitEquations::OrbitEquations(const Simulation& simulation, const Orbit& orbit, std::vector<std::size_t> free,
+                               std::vector<double> ranges)
+    : simulation_(simulation), ends_(simulation.system(), valid(simulation.model(), orbit), std::move(free)),
+      flow_(flow_of(simulation, ends_.free())), layout_(simulation.system().states(), {}, 0, ends_.free().size()),
+      orbit_scales_(simulation.system().states(), usual_values(simulation.model(), ends_.free()), std::move(ranges)),
+      parameters_(orbit.parameters), reference_(orbit.starts.front()) {
+    for (const Segment& segment : orbit.signature)
+        modes_.push_back(segment.mode);
+    flow_.set_parameters(parameters_);
+}
+
+void OrbitEquations::lay_out(const Orbit& orbit, const std::vector<std::size_t>& counts, std::size_t inner) {
+    layout_ = OrbitLayout(layout_.states(), counts, inner, layout_.free());
+    fixed_durations_.clear();
+    for (std::size_t k = 0; k < layout_.pieces(); ++k) {
+        const std::size_t segment = layout_.segment_of(k);
+        fixed_durations_.push_back(orbit.durations[segment] / static_cast<double>(counts[segment]));
+    }
+    const Eigen::VectorXd unknowns = unknowns_of(orbit);
+    set_scales(unknowns);
+    OrbitEvaluation at = evaluation();
+    if (layout_.free() > 0 && evaluate(unknowns, at)) // only now is known what the parameters do
+        set_scales(unknowns);
+}
+
+Eigen::VectorXd OrbitEquations::unknowns_of(const Orbit& orbit) {
+    Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(index(layout_.unknowns()));
+    flow_.set_parameters(orbit.parameters);
+    for (std::size_t s = 0; s < layout_.segments(); ++s) {
+        std::vector<double> state = orbit.starts[s];
+        double remaining = orbit.durations[s];
+        for (std::size_t k = layout_.first_piece(s); k <= layout_.last_piece(s); ++k) {
+            const double duration = layout_.is_last(k) ? remaining : fixed_durations_[k];
+            std::copy(state.begin(), state.end(), unknowns.data() + layout_.start_of(k));
+            unknowns[index(layout_.duration_of(k))] = duration;
+            if (!layout_.is_last(k))
+                flow_.run(modes_[s], state, duration);
+            remaining -= duration;
+        }
+    }
+    for (std::size_t f = 0; f < layout_.free(); ++f)
+        unknowns[index(layout_.parameter(f))] = orbit.parameters[free()[f]];
+    set_inner(orbit, unknowns);
+    clear_remnants(unknowns);
+    return unknowns;
+}
+
+/// States that are next to nothing against the others everywhere are on their way to zero, where a symmetry holds them.
+/// Left alone they would shrink until they underflow.
+void OrbitEquations::clear_remnants(Eigen::VectorXd& unknowns) const {
+    constexpr double remnant = 1e-25;
+    const std::vector<double>& periods = ends_.periods();
+    std::vector<double> sizes(layout_.states(), 0.0);
+    double largest = 0;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        for (std::size_t k = 0; k < layout_.pieces(); ++k)
+            sizes[i] = std::max(sizes[i], std::abs(unknowns[index(layout_.start_of(k) + i)]));
+        if (periods[i] == 0 && !model().states[i].drifting)
+            largest = std::max(largest, sizes[i]);
+    }
+    for (std::size_t i = 0; i < sizes.size(); ++i)
+        if (periods[i] == 0 && sizes[i] < remnant * largest)
+            for (std::size_t k = 0; k < layout_.pieces(); ++k)
+                unknowns[index(layout_.start_of(k) + i)] = 0;
+}
+
+Orbit OrbitEquations::orbit_of(const Eigen::VectorXd& unknowns) const {
+    Orbit orbit{signature(), parameters_, {}, {}, symmetry()};
+    for (std::size_t f = 0; f < layout_.free(); ++f)
+        orbit.parameters[free()[f]] = unknowns[index(layout_.parameter(f))];
+    for (std::size_t s = 0; s < layout_.segments(); ++s) {
+        const double* start = unknowns.data() + layout_.start_of(layout_.first_piece(s));
+        orbit.starts.emplace_back(start, start + layout_.states());
+        double duration = 0;
+        for (std::size_t k = layout_.first_piece(s); k <= layout_.last_piece(s); ++k)
+            duration += unknowns[index(layout_.duration_of(k))];
+        orbit.durations.push_back(duration);
+    }
+    return orbit;
+}
+
+OrbitDirection OrbitEquations::direction_of(const Eigen::VectorXd& unknowns) const {
+    OrbitDirection direction;
+    for (std::size_t s = 0; s < layout_.segments(); ++s) {
+        const double* start = unknowns.data() + layout_.start_of(layout_.first_piece(s));
+        direction.starts.emplace_back(start, start + layout_.states());
+        double duration = 0;
+        for (std::size_t k = layout_.first_piece(s); k <= layout_.last_piece(s); ++k)
+            duration += unknowns[index(layout_.duration_of(k))];
+        direction.durations.push_back(duration);
+    }
+    for (std::size_t f = 0; f < layout_.free(); ++f)
+        direction.parameters.push_back(unknowns[index(layout_.parameter(f))]);
+    return direction;
+}
+
+Eigen::VectorXd OrbitEquations::unknowns_of(const OrbitDirection& direction, const OrbitEvaluation& at) const {
+    const auto n = index(layout_.states()), q = index(layout_.free());
+    bool fits = direction.starts.size() == layout_.segments() && direction.durations.size() == layout_.segments();
+    for (const std::vector<double>& start : direction.starts)
+        fits = fits && start.size() == layout_.states();
+    if (!fits || direction.parameters.empty())
+        throw InputError("the direction does not fit the orbit",
+                         "give what each segment's start and duration gains, and each parameter that varies");
+    Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(index(layout_.unknowns()));
+    for (std::size_t f = 0; f < std::min(layout_.free(), direction.parameters.size()); ++f)
+        unknowns[index(layout_.parameter(f))] = direction.parameters[f];
+    for (std::size_t s = 0; s < layout_.segments(); ++s) {
+        Eigen::VectorXd start = Eigen::Map<const Eigen::VectorXd>(direction.starts[s].data(), n);
+        for (std::size_t k = layout_.first_piece(s); k <= layout_.last_piece(s); ++k) {
+            unknowns.segment(index(layout_.start_of(k)), n) = start;
+            const Eigen::MatrixXd& flow = at.pieces[k].flow;
+            start = Eigen::VectorXd(flow.leftCols(n) * start) + flow.rightCols(q) * unknowns.tail(q);
+        }
+        unknowns[index(layout_.duration_of(layout_.last_piece(s)))] = direction.durations[s];
+    }
+    return unknowns;
+}
+
+void OrbitEquations::set_parameters(const Eigen::VectorXd& unknowns, std::vector<double>& parameters) {
+    parameters = parameters_;
+    for (std::size_t f = 0; f < layout_.free(); ++f)
+        parameters[free()[f]] = unknowns[index(layout_.parameter(f))];
+    flow_.set_parameters(parameters);
+    ends_.set_parameters(parameters);
+}
+
+void OrbitEquations::set_scales(const Eigen::VectorXd& unknowns) {
+    std::vector<double> parameters;
+    set_parameters(unknowns, parameters);
+    scales_ = orbit_scales_.choose(layout_, unknowns, modes_, flow_, ends_.periods());
+}
+
+ModeFlow& OrbitEquations::flow_at(const OrbitEvaluation& at) {
+    flow_.set_parameters(at.parameters);
+    return flow_;
+}
+
+bool OrbitEquations::evaluate(const Eigen::VectorXd& unknowns, OrbitEvaluation& at) {
+    at.unknowns.resize(0);
+    at.problem.clear();
+    at.took_too_long = false;
+    if (!unknowns.allFinite()) {
+        at.problem = "an unknown is not finite";
+        return false;
+    }
+    set_parameters(unknowns, at.parameters);
+    at.periods = ends_.periods();
+    at.scales = scales_;
+    at.pieces.resize(layout_.pieces());
+    at.system.resize(layout_.pieces());
+    for (std::size_t k = 0; k < layout_.pieces(); ++k)
+        if (!evaluate_piece(k, unknowns, at))
+            return false;
+    assemble(unknowns, at);
+    orbit_scales_.note_effects(at.effects);
+    at.residual = 0;
+    for (std::size_t k = 0; k < layout_.pieces(); ++k)
+        at.residual = std::max(at.residual, at.system.block(k).right.cwiseAbs().maxCoeff());
+    if (!std::isfinite(at.residual) || !at.system.factor()) {
+        at.problem = "an equation is not finite";
+        return false;
+    }
+    at.unknowns = unknowns;
+    return true;
+}
+
+bool OrbitEquations::evaluate_piece(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at) {
+    if (!follow(k, unknowns, at))
+        return false;
+    OrbitEvaluation::Piece& piece = at.pieces[k];
+    const std::size_t segment = layout_.segment_of(k);
+    ends_.field(segment, piece.end, piece.field);
+    const auto n = index(layout_.states());
+    piece.jump.setZero(n, n + index(layout_.free()));
+    piece.jump.leftCols(n).setIdentity();
+    piece.after = piece.end;
+    if (!layout_.is_last(k) || ends_.pass(segment, piece))
+        return true;
+    at.problem = fmt::format("the jump after segment {} is not defined", segment + 1);
+    return false;
+}
+
+/// Fills the linear system, in units of the scales.
+void OrbitEquations::assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& at) const {
+    std::vector<bool> neutral(layout_.states(), true);
+    at.effects.setZero(index(layout_.free()));
+    for (std::size_t k = 0; k < layout_.pieces(); ++k) {
+        CyclicSystem::Block& block = at.system.block(k);
+        block.own.setZero();
+        block.next.setZero();
+        if (layout_.is_last(k)) {
+            assemble_end(k, at);
+        } else {
+            const Eigen::Index duration = index(layout_.duration_of(k));
+            block.own(0, index(layout_.states())) = 1;
+            block.parameters.row(0).setZero();
+            block.right[0] = (fixed_durations_[k] - unknowns[duration]) / scales_[duration];
+        }
+        assemble_closure(k, unknowns, at, neutral);
+    }
+    pin(unknowns, neutral, at);
+}
+
+/// The condition that ends a segment. Event functions have units of their own: measured by how much they change along
+/// the scales.
+void OrbitEquations::assemble_end(std::size_t k, OrbitEvaluation& at) const {
+    const auto n = index(layout_.states()), q = index(layout_.free());
+    const OrbitEvaluation::Piece& piece = at.pieces[k];
+    CyclicSystem::Block& block = at.system.block(k);
+    const Eigen::VectorXd state_scales = scales_.head(n), parameter_scales = scales_.tail(q);
+    const Eigen::RowVectorXd gradient = piece.condition.head(n).transpose();
+    const double size = gradient.cwiseAbs() * state_scales;
+    const double unit = size > 0 ? size : 1;
+    const Eigen::RowVectorXd by_start = gradient * piece.flow.leftCols(n) * state_scales.asDiagonal();
+    const Eigen::RowVectorXd by_parameters = gradient * piece.flow.rightCols(q) + piece.condition.tail(q).transpose();
+    at.effects = at.effects.cwiseMax(by_parameters.transpose().cwiseAbs() / unit);
+    block.own.row(0).head(n) = by_start / unit;
+    block.own(0, n) = gradient.dot(piece.field) * scales_[index(layout_.duration_of(k))] / unit;
+    block.parameters.row(0) = by_parameters * parameter_scales.asDiagonal() / unit;
+    block.right[0] = -piece.condition_value / unit;
+}
+
+/// What follows a piece begins where its jump leads: (x, T, p) -> end -> after.
+/// @param neutral states that all pieces so far have left exactly as they are
+void OrbitEquations::assemble_closure(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at,
+                                      std::vector<bool>& neutral) const {
+    const auto n = index(layout_.states()), q = index(layout_.free());
+    const OrbitEvaluation::Piece& piece = at.pieces[k];
+    CyclicSystem::Block& block = at.system.block(k);
+    const Eigen::VectorXd state_scales = scales_.head(n), units = state_scales.cwiseInverse();
+    const Eigen::MatrixXd jump = piece.jump.leftCols(n);
+    const Eigen::MatrixXd by_start = jump * piece.flow.leftCols(n);
+    const Eigen::VectorXd by_time = jump * piece.field;
+    Eigen::MatrixXd by_parameters = jump * piece.flow.rightCols(q) + piece.jump.rightCols(q);
+    const std::size_t following = k + 1 < layout_.pieces() ? k + 1 : 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const auto state = static_cast<std::size_t>(i);
+        double difference = unknowns[index(layout_.start_of(following)) + i] - piece.after[state];
+        if (at.periods[state] > 0) {
+            const double turns = std::round(difference / at.periods[state]);
+            difference -= turns * at.periods[state];
+            by_parameters.row(i) += turns * ends_.period_rates().row(i);
+        }
+        block.right[1 + i] = -difference / state_scales[i];
+        bool unchanged = by_time[i] == 0 && difference == 0 && by_parameters.row(i).isZero(0);
+        for (Eigen::Index j = 0; j < n && unchanged; ++j)
+            unchanged = by_start(i, j) == (i == j ? 1 : 0);
+        neutral[state] = neutral[state] && unchanged;
+    }
+    if (n > 0)
+        at.effects =
+            at.effects.cwiseMax((units.asDiagonal() * by_parameters).cwiseAbs().colwise().maxCoeff().transpose());
+    block.own.block(1, 0, n, n) = -(units.asDiagonal() * by_start * state_scales.asDiagonal());
+    block.own.block(1, n, n, 1) = -units.cwiseProduct(by_time) * scales_[index(layout_.duration_of(k))];
+    block.parameters.bottomRows(n) = -(units.asDiagonal() * by_parameters * scales_.tail(q).asDiagonal());
+    block.next.bottomRows(n).setIdentity();
+}
+
+/// Instead of being closed, pinned states are held at their first value.
+void OrbitEquations::pin(const Eigen::VectorXd& unknowns, const std::vector<bool>& neutral, OrbitEvaluation& at) const {
+    CyclicSystem::Block& block = at.system.block(layout_.pieces() - 1);
+    at.active.clear();
+    for (std::size_t i = 0; i < layout_.states(); ++i) {
+        if (!neutral[i] && !model().states[i].drifting) {
+            at.active.push_back(i);
+            continue;
+        }
+        const auto row = index(i) + 1;
+        block.own.row(row).setZero();
+        block.parameters.row(row).setZero();
+        block.next.row(row).setZero();
+        block.next(row, index(i)) = 1;
+        block.right[row] = (reference_[i] - unknowns[index(i)]) / scales_[index(i)];
+    }
+}
+
+bool OrbitEquations::solve(const OrbitEvaluation& at, const Eigen::MatrixXd& borders, const Eigen::VectorXd& right,
+                           bool homogeneous, Eigen::VectorXd& step, double* determinant) const {
+    const Eigen::MatrixXd scaled = borders * at.scales.asDiagonal();
+    if (!at.system.solve(scaled, right, homogeneous, step, determinant))
+        return false;
+    step = step.cwiseProduct(at.scales);
+    return true;
+}
+
+bool OrbitEquations::null_vector(const OrbitEvaluation& at, const Eigen::RowVectorXd& row,
+                                 Eigen::VectorXd& vector) const {
+    const Eigen::MatrixXd borders = row * at.scales.asDiagonal();
+    if (!at.system.null_vector(borders / borders.norm(), vector))
+        return false;
+    const double size = vector.norm();
+    if (!(size > 0))
+        return false;
+    vector = vector.cwiseProduct(at.scales) / size;
+    return true;
+}
+
+Eigen::RowVectorXd OrbitEquations::row_at_end(const OrbitEvaluation& at, std::size_t k,
+                                              const Eigen::VectorXd& gradient) const {
+    const auto n = index(layout_.states()), q = index(layout_.free());
+    const OrbitEvaluation::Piece& piece = at.pieces[k];
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(index(layout_.unknowns()));
+    const Eigen::RowVectorXd by_state = gradient.head(n).transpose();
+    row.segment(index(layout_.start_of(k)), n) = by_state * piece.flow.leftCols(n);
+    row[index(layout_.duration_of(k))] = by_state.dot(piece.field);
+    row.tail(q) = by_state * piece.flow.rightCols(q) + gradient.tail(q).transpose();
+    return row;
+}
+
+double OrbitEquations::rate_at_end(const OrbitEvaluation& at, std::size_t segment) const {
+    const OrbitEvaluation::Piece& piece = at.pieces[layout_.last_piece(segment)];
+    return piece.condition.head(index(layout_.states())).dot(piece.field);
+}
+
+double OrbitEquations::usual_rate(const OrbitEvaluation& at, std::size_t segment) const {
+    const std::size_t k = layout_.last_piece(segment);
+    double change = 0;
+    for (const std::size_t i : at.active)
+        change += std::abs(at.pieces[k].condition[index(i)]) * at.scales[index(i)];
+    return change / at.scales[index(layout_.duration_of(k))];
+}
+
+} // namespace graze

@@ -1,0 +1,100 @@
+#include "orbit/segment_ends.hpp"
+
+#include "orbit/eigen_index.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+SegmentEnds::SegmentEnds(const System& system, const Orbit& orbit, std::vector<std::size_t> free)
+    : system_(system), signature_(orbit.signature), symmetry_(orbit.symmetry), free_(std::move(free)),
+      n_(system.states()), periods_(n_), inputs_(n_ + system.parameters()), work_(system.workspace()),
+      values_(std::max(n_, std::size_t{1}) * (1 + n_ + system.parameters())),
+      period_rates_(Eigen::MatrixXd::Zero(index(n_), index(free_.size()))) {
+    for (std::size_t k = 0; k < signature_.size(); ++k) {
+        const Segment& segment = signature_[k];
+        EndFunction end;
+        if (segment.end == SegmentEnd::event) {
+            end.value = &system_.event(system_.model().transitions[segment.index].event);
+        } else {
+            const Section& section = system_.model().sections[segment.index];
+            end.cyclic = section.state.has_value();
+            end.state = section.state.value_or(0);
+            // A half orbit ends where its image passes the section.
+            const bool at_image = symmetry_ && k + 1 == signature_.size();
+            end.value = &system_.section(segment.index, at_image ? symmetry_ : std::nullopt);
+        }
+        ends_.push_back(end);
+    }
+    set_parameters(orbit.parameters);
+}
+
+void SegmentEnds::set_parameters(std::span<const double> parameters) {
+    parameters_.assign(parameters.begin(), parameters.end());
+    std::copy(parameters.begin(), parameters.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(n_));
+    system_.periods().evaluate(parameters_, periods_, work_);
+    const std::size_t count = parameters_.size();
+    system_.period_gradients().evaluate(parameters_, std::span(values_).first(n_ * count), work_);
+    for (std::size_t i = 0; i < n_; ++i)
+        for (std::size_t f = 0; f < free_.size(); ++f)
+            period_rates_(index(i), index(f)) = values_[i * count + free_[f]];
+}
+
+Eigen::VectorXd SegmentEnds::gradient_of(std::span<const double> values) const {
+    Eigen::VectorXd gradient(index(n_ + free_.size()));
+    for (std::size_t i = 0; i < n_; ++i)
+        gradient[index(i)] = values[1 + i];
+    for (std::size_t f = 0; f < free_.size(); ++f)
+        gradient[index(n_ + f)] = values[1 + n_ + free_[f]];
+    return gradient;
+}
+
+void SegmentEnds::field(std::size_t segment, std::span<const double> state, Eigen::VectorXd& result) {
+    std::copy(state.begin(), state.end(), inputs_.begin());
+    result.resize(index(n_));
+    system_.mode(signature_[segment].mode).rates.evaluate(inputs_, {result.data(), n_}, work_);
+}
+
+bool SegmentEnds::pass(std::size_t k, OrbitEvaluation::Piece& piece) {
+    std::copy(piece.end.begin(), piece.end.end(), inputs_.begin());
+    const EndFunction& end = ends_[k];
+    const std::span<double> values = std::span(values_).first(end.value->outputs());
+    end.value->evaluate(inputs_, values, work_);
+    piece.condition_value = values[0];
+    piece.condition = gradient_of(values);
+    if (end.cyclic) {
+        const double turns = std::round(piece.condition_value / periods_[end.state]);
+        piece.condition_value -= turns * periods_[end.state];
+        piece.condition.tail(index(free_.size())) -= turns * period_rates_.row(index(end.state)).transpose();
+    }
+    const Segment& segment = signature_[k];
+    if (segment.end == SegmentEnd::event)
+        apply(system_.jump(system_.model().transitions[segment.index].jump), piece);
+    if (symmetry_ && k + 1 == signature_.size())
+        apply(system_.symmetry(*symmetry_), piece);
+    return std::all_of(piece.after.begin(), piece.after.end(), [](double value) { return std::isfinite(value); });
+}
+
+/// A map of states after those that have been applied, by the chain rule; parameters are handed through.
+void SegmentEnds::apply(const System::CompiledJump& map, OrbitEvaluation::Piece& piece) {
+    if (map.identity)
+        return;
+    const std::size_t width = n_ + parameters_.size();
+    std::copy(piece.after.begin(), piece.after.end(), inputs_.begin());
+    const std::span<double> entries = std::span(values_).first(n_ * width);
+    map.jacobian.evaluate(inputs_, entries, work_);
+    Eigen::MatrixXd by_states(index(n_), index(n_)), by_parameters(index(n_), index(free_.size()));
+    for (std::size_t i = 0; i < n_; ++i) {
+        for (std::size_t j = 0; j < n_; ++j)
+            by_states(index(i), index(j)) = entries[i * width + j];
+        for (std::size_t f = 0; f < free_.size(); ++f)
+            by_parameters(index(i), index(f)) = entries[i * width + n_ + free_[f]];
+    }
+    map.map.evaluate(inputs_, piece.after, work_);
+    Eigen::MatrixXd product = by_states * piece.jump;
+    product.rightCols(index(free_.size())) += by_parameters;
+    piece.jump = std::move(product);
+}
+
+} // namespace graze

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "graze/orbit/orbit.hpp"
+#include "orbit/orbit_evaluation.hpp"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace graze {
+
+/// What ends the segments of an orbit - event or section, jump, the symmetry's image after a half orbit's last one -
+/// with derivatives with respect to states and free parameters: the same for every discretisation.
+class SegmentEnds {
+public:
+    SegmentEnds(const System& system, const Orbit& orbit, std::vector<std::size_t> free);
+
+    const Signature& signature() const { return signature_; }
+    std::optional<std::size_t> symmetry() const { return symmetry_; }
+    const std::vector<std::size_t>& free() const { return free_; }
+
+    void set_parameters(std::span<const double> parameters);
+    /// Of cyclic states, 0 of others.
+    const std::vector<double>& periods() const { return periods_; }
+    /// Their derivatives, states x free.
+    const Eigen::MatrixXd& period_rates() const { return period_rates_; }
+
+    /// The vector field at a state.
+    void field(std::size_t segment, std::span<const double> state, Eigen::VectorXd& result);
+    /// Sets all but the flow of a segment's last piece from its end. @return false where the jump is not defined
+    bool pass(std::size_t segment, OrbitEvaluation::Piece& piece);
+    /// Of values as System::with_gradient gives them the gradient with respect to states and free parameters.
+    Eigen::VectorXd gradient_of(std::span<const double> values) const;
+
+private:
+    struct EndFunction {
+        const Function* value = nullptr; ///< and its gradient, of the system
+        bool cyclic = false;             ///< a phase section: holds up to whole periods of `state`
+        std::size_t state = 0;
+    };
+    void apply(const System::CompiledJump& map, OrbitEvaluation::Piece& piece);
+
+    System system_;
+    Signature signature_;
+    std::optional<std::size_t> symmetry_;
+    std::vector<std::size_t> free_;
+    std::size_t n_;
+    std::vector<EndFunction> ends_;
+    std::vector<double> parameters_, periods_, inputs_, work_, values_;
+    Eigen::MatrixXd period_rates_;
+};
+
+} // namespace graze
