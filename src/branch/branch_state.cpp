@@ -74,7 +74,7 @@ bool BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std
     result.arclength = arclength(at.arclength);
     result.stable = is_stable(result.solution);
     tests =
-        branch_tests(equations, evaluation, result.solution, at.tangent, at.determinant, result.monitors, settings_);
+        branch_tests({equations, evaluation, result.solution, at.tangent, at.determinant, result.monitors, settings_});
     return true;
 }
 

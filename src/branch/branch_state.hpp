@@ -1,7 +1,7 @@
 #pragma once
 
 #include "branch/orbit_problem.hpp"
-#include "branch/orbit_tests.hpp"
+#include "branch/point_kind.hpp"
 #include "graze/branch/orbit_branch.hpp"
 #include "graze/branch/switching.hpp"
 

@@ -1,5 +1,6 @@
 #include "branch/point_locator.hpp"
 
+#include "branch/point_kind.hpp"
 #include "branch/point_rules.hpp"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ std::vector<SpecialPoint> PointLocator::locate_all(const BranchPoint& before, co
                 special->bracket = std::minmax(before.parameter, point_->parameter);
                 special->step = point_->step;
                 accept_limit(*special, before.solution.certificate.admissible);
-                if (special->type != PointType::branch_point)
+                if (!tests[i].singular)
                     special->solution.error = state_->error_of(special->solution.orbit, special->tangent);
                 found.push_back(std::move(*special));
             }
@@ -54,10 +55,10 @@ void PointLocator::accept_limit(SpecialPoint& special, bool was_admissible) cons
 /// Parts of the last step in which a test changes its sign.
 std::vector<std::pair<TestValue, TestValue>> PointLocator::brackets_of(std::size_t test, double before) {
     const TestValue low{0, before}, high{1, (*tests_)[test].value};
-    const bool grazing = (*tests_)[test].type == PointType::grazing;
     const double noise = (*tests_)[test].noise;
-    const bool appeared = grazing && std::isnan(low.value) && high.value < -noise;
-    const bool vanished = grazing && std::isnan(high.value) && low.value < -noise;
+    const bool appears = (*tests_)[test].appears;
+    const bool appeared = appears && std::isnan(low.value) && high.value < -noise;
+    const bool vanished = appears && std::isnan(high.value) && low.value < -noise;
     if (std::abs(low.value) <= noise && std::abs(high.value) <= noise && noise > 0)
         return {};
     if (low.value * high.value < 0 || appeared || vanished || (high.value == 0 && low.value != 0))
@@ -147,11 +148,11 @@ std::optional<SpecialPoint> PointLocator::special_at(const BranchPoint& there, c
     special.event = here.event;
     special.time = here.time;
     special.at_end = here.at_end;
-    if (here.type == PointType::grazing && here.at_end) // their limits are infinite
-        special.solution.multipliers.clear();
     // A zero, not a jump: the value there must be small against those at the ends.
     special.located = std::abs(here.value) <= 1e-3 * size;
-    return is_what_it_seems(*state_, special, here) ? std::optional(special) : std::nullopt;
+    const auto confirm = rule_of(here.type).confirm;
+    const bool confirmed = confirm ? confirm(*state_, special, here) : special.located;
+    return confirmed ? std::optional(special) : std::nullopt;
 }
 
 } // namespace graze

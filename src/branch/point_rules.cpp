@@ -1,8 +1,7 @@
 #include "branch/point_rules.hpp"
 
+#include "branch/point_kind.hpp"
 #include "orbit/half_orbit.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,93 +9,8 @@
 namespace graze {
 
 int rank(const SpecialPoint& point) {
-    switch (point.type) {
-    case PointType::grazing: {
-        const Orbit& orbit = point.solution.orbit;
-        const double duration = std::abs(orbit.durations[point.segment]);
-        // An arc that vanishes has the contact before it to thank for that.
-        constexpr double almost_nothing = 1e-4;
-        if (point.at_end)
-            return duration > almost_nothing * orbit.period() ? 1 : 2;
-        // A minimum that comes or goes through an end of its arc does so because a contact has lost its speed.
-        constexpr double at_edge = 1e-6;
-        return point.time > at_edge * duration && point.time < (1 - at_edge) * duration ? 0 : 2;
-    }
-    case PointType::vanishing:
-        return 3;
-    case PointType::two_events:
-        return 4;
-    case PointType::guard:
-        return 5;
-    default:
-        return -1;
-    }
-}
-
-namespace {
-
-/// By how much the parameter changes over the last step.
-double length_of_step(BranchState& state) {
-    const std::size_t place = state.problem().parameter_place();
-    return std::abs(state.continuation().point().u[place] - state.continuation().previous().u[place]);
-}
-
-} // namespace
-
-bool is_what_it_seems(BranchState& state, SpecialPoint& special, const BranchTest& test) {
-    const Model& model = state.model();
-    const BranchSettings& settings = state.settings();
-    const auto& events = model.events;
-    switch (special.type) {
-    case PointType::torus: {
-        const auto& multipliers = special.solution.half_multipliers.empty() ? special.solution.multipliers
-                                                                            : special.solution.half_multipliers;
-        return special.located && std::any_of(multipliers.begin(), multipliers.end(), [](auto one) {
-                   return std::abs(one.imag()) > 1e-6 && std::abs(std::abs(one) - 1) < 1e-5;
-               });
-    }
-    case PointType::fold:
-    case PointType::flip:
-    case PointType::asymmetry:
-    case PointType::branch_point:
-        return special.located;
-    case PointType::grazing:
-        special.detail = fmt::format("{}{}", events[special.event].name, special.at_end ? ", no approach speed" : "");
-        return true;
-    case PointType::two_events: {
-        // Two events of which the other one does not fall is a touch at the very end of an arc.
-        const double speed = *std::max_element(special.solution.certificate.approach_speeds.begin(),
-                                               special.solution.certificate.approach_speeds.end());
-        if (std::abs(test.rate) < 1e-6 * std::max(speed, std::abs(test.rate) + 1e-300)) {
-            special.type = PointType::grazing;
-            special.time = special.solution.orbit.durations[special.segment];
-        }
-        special.detail = events[special.event].name;
-        return true;
-    }
-    case PointType::bound:
-    case PointType::crossing: {
-        // Round-off would leave the bound on the one side or the other.
-        for (const auto& bound : {settings.least, settings.greatest})
-            if (bound && !test.monitor && std::abs(special.parameter - *bound) < 1e-9 * length_of_step(state))
-                special.parameter = special.solution.orbit.parameters[settings.parameter] = *bound;
-        const std::string name =
-            test.monitor ? settings.monitors[*test.monitor].name : model.independent_parameters()[settings.parameter];
-        const double value = test.monitor ? special.monitors[*test.monitor] : special.parameter;
-        special.detail = fmt::format(
-            "{} = {:.10g}", name,
-            special.type == PointType::crossing ? settings.monitors[*test.monitor].crossings[test.crossing] : value);
-        return special.located;
-    }
-    case PointType::vanishing:
-        special.detail = fmt::format("segment {}", special.segment + 1);
-        return true;
-    case PointType::guard:
-        special.detail = fmt::format("after {}", end_name(model, special.solution.orbit.signature[special.segment]));
-        return true;
-    default:
-        return true;
-    }
+    const auto rank = rule_of(point.type).rank;
+    return rank ? rank(point) : -1;
 }
 
 bool is_degenerate(BranchState& state, const Orbit& orbit, double same) {

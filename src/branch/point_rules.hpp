@@ -1,7 +1,6 @@
 #pragma once
 
 #include "branch/branch_state.hpp"
-#include "branch/orbit_tests.hpp"
 
 #include <vector>
 
@@ -11,9 +10,6 @@ namespace graze {
 
 /// Of several things at one place, the one that tells most comes first. Negative for those that do not exclude others.
 int rank(const SpecialPoint& point);
-
-/// Whether a located zero means what its test stands for; puts it into words.
-bool is_what_it_seems(BranchState& state, SpecialPoint& special, const BranchTest& test);
 
 /// Whether an orbit is that of half the period twice over, or its own image under a symmetry.
 /// @param same differences below this, in units of the scales, do not count

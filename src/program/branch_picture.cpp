@@ -34,41 +34,6 @@ struct DrawnPoint {
     std::vector<double> y;
 };
 
-/// Points at which nothing changes: what is known of their orbits holds on both sides.
-bool is_ordinary(PointType type) {
-    return type == PointType::regular || type == PointType::end || type == PointType::bound ||
-           type == PointType::crossing;
-}
-
-int symbol_of(PointType type) {
-    switch (type) {
-    case PointType::fold:
-        return 7;
-    case PointType::flip:
-        return 9;
-    case PointType::torus:
-        return 13;
-    case PointType::branch_point:
-    case PointType::asymmetry:
-        return 5;
-    case PointType::grazing:
-        return 12;
-    case PointType::vanishing:
-        return 8;
-    case PointType::two_events:
-        return 4;
-    case PointType::guard:
-        return 10;
-    case PointType::crossing:
-        return 2;
-    case PointType::bound:
-    case PointType::end:
-    case PointType::regular:
-        break;
-    }
-    return 6;
-}
-
 FigureSeries::Style style_of(Look look) {
     return look == Look::unstable ? FigureSeries::Style::dashed : FigureSeries::Style::line;
 }
@@ -162,7 +127,7 @@ std::vector<Stretch> stretches_of(const std::vector<DrawnPoint>& points) {
         while (end < points.size() && points[end].part == points[i].part && points[end].step >= points[end - 1].step)
             ++end;
         const auto next_ordinary = [&](std::size_t at) {
-            while (at < end && !is_ordinary(points[at].type))
+            while (at < end && kind_of(points[at].type).changes)
                 ++at;
             return at;
         };
@@ -204,13 +169,13 @@ void add_branch(FigurePanel& panel, const std::vector<DrawnPoint>& points, std::
         }
     std::set<int> symbols;
     for (const DrawnPoint& point : points)
-        if (!is_ordinary(point.type) || point.type == PointType::crossing)
-            symbols.insert(symbol_of(point.type));
+        if (kind_of(point.type).mark != 0)
+            symbols.insert(kind_of(point.type).mark);
     for (const int symbol : symbols) {
         FigureSeries series{"", FigureSeries::Style::symbols, colour, {}};
         series.symbol = symbol;
         for (const DrawnPoint& point : points)
-            if ((!is_ordinary(point.type) || point.type == PointType::crossing) && symbol_of(point.type) == symbol) {
+            if (kind_of(point.type).mark == symbol) {
                 // Images under a symmetry often lie in one place, where one label does.
                 const PlanePoint here{point.x, point.y[value]};
                 const bool there = std::any_of(series.points.begin(), series.points.end(),

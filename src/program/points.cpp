@@ -33,8 +33,8 @@ struct PointList {
 
 std::vector<std::string> all_types() {
     std::vector<std::string> names;
-    for (int i = 0; i <= static_cast<int>(PointType::regular); ++i)
-        names.emplace_back(short_name(static_cast<PointType>(i)));
+    for (const PointKind& kind : point_kinds())
+        names.emplace_back(kind.short_name);
     return names;
 }
 

@@ -126,10 +126,7 @@ std::string multipliers_text(const OrbitSolution& solution, int digits) {
 }
 
 bool is_unphysical(const OrbitRecord& record) {
-    const PointType type = record.point.type;
-    const bool limit = type == PointType::grazing || type == PointType::vanishing || type == PointType::two_events ||
-                       type == PointType::guard;
-    return !record.point.solution.certificate.admissible && !limit;
+    return !record.point.solution.certificate.admissible && !kind_of(record.point.type).limits;
 }
 
 std::string followed_parameter(const RunRecord& run) {

@@ -60,11 +60,6 @@ private:
     int at_ = 1;
 };
 
-bool is_of_event(PointType type) {
-    return type == PointType::grazing || type == PointType::two_events || type == PointType::vanishing ||
-           type == PointType::guard;
-}
-
 /// Of each segment what its start and its duration gain, then what the parameters do.
 std::vector<double> numbers_of(const OrbitDirection& direction) {
     std::vector<double> numbers;
@@ -113,7 +108,7 @@ void write_row(Statement& row, const Model& model, const RunRecord& run, const O
     columns.add_text(point.detail).add(solution.residual).add(solution.error.value_or(nothing));
     columns.add(solution.iterations).add(point.arclength).add(std::int64_t{point.located});
     columns.add(point.bracket.first).add(point.bracket.second);
-    if (is_of_event(point.type))
+    if (kind_of(point.type).limits)
         columns.add(std::string_view(model.events[point.event].name))
             .add(point.segment + 1)
             .add(point.time)

@@ -96,11 +96,6 @@ Orbit taken_over(const StudyRun& run, Orbit orbit) {
     return orbit;
 }
 
-bool leads_on(PointType type) {
-    return type == PointType::flip || type == PointType::branch_point || type == PointType::asymmetry ||
-           type == PointType::grazing;
-}
-
 std::vector<Part> both_directions(const StudyRun& run, const Orbit& orbit) {
     std::vector<Part> parts;
     for (const std::string& name : direction_names(run))
@@ -135,7 +130,7 @@ std::vector<Part> parts_from_orbit(const StudyRun& run, const System& system, co
         parent.kind == RunKind::follow && parent.branch.settings.parameter == run.branch.settings.parameter;
     std::string onto = start.onto;
     if (onto.empty())
-        onto = leads_on(point.type) && same_parameter ? "other" : "same";
+        onto = kind_of(point.type).leads_on && same_parameter ? "other" : "same";
     if (onto == "twin")
         return both_directions(run,
                                at_place(start.place, run, [&] { return twin_of(run, system, point.solution.orbit); }));

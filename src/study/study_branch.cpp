@@ -50,9 +50,9 @@ void read_step(const StudyReader& reader, StudyRun& run, const TomlEntry& entry)
 
 void read_stop(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     std::vector<std::string> known;
-    for (int i = 0; i < static_cast<int>(PointType::bound); ++i)
-        known.emplace_back(short_name(static_cast<PointType>(i)));
-    known.emplace_back(short_name(PointType::crossing));
+    for (const PointKind& kind : point_kinds())
+        if (kind.may_stop)
+            known.emplace_back(kind.short_name);
     for (const std::string& name : reader.strings(entry)) {
         const auto type = point_type(name);
         if (!type || std::find(known.begin(), known.end(), name) == known.end())

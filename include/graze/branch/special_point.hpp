@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,7 +12,7 @@
 
 namespace graze {
 
-/// What happens at a point of a branch of periodic orbits.
+/// What happens at a point of a branch of periodic orbits. Each has an entry, of the same place, in the table of kinds.
 enum class PointType {
     fold,         ///< SN: the branch turns; a multiplier is 1
     flip,         ///< PD: a multiplier is -1
@@ -27,10 +28,31 @@ enum class PointType {
     end,          ///< EP: the first or last point of a branch
     regular,      ///< RG: nothing happens here
 };
+/// What everybody needs to know of points of one type.
+struct PointKind {
+    PointType type = PointType::regular;
+    std::string_view short_name; ///< the two letters above
+    std::string_view name;       ///< in words, such as "fold"
+    bool changes = false;        ///< orbits beyond it are of another kind: in stability, number, or contacts
+    bool limits = false;         ///< an event is about to happen or to fail: what is admissible ends or begins
+    bool leads_on = false;       ///< another branch leaves, which `branches_at` finds
+    bool may_stop = false;       ///< a branch may be told to end there
+    int mark = 0;                ///< which of gnuplot's point types shows it in pictures; 0: none
+};
+
+/// All kinds, in the order of the types.
+std::span<const PointKind> point_kinds();
+/// @throws InputError for what is none of the types
+const PointKind& kind_of(PointType type);
+
 /// The two letters above.
-std::string_view short_name(PointType type);
+inline std::string_view short_name(PointType type) {
+    return kind_of(type).short_name;
+}
 /// In words, such as "fold".
-std::string_view name_of(PointType type);
+inline std::string_view name_of(PointType type) {
+    return kind_of(type).name;
+}
 /// The type with these two letters, if there is one.
 std::optional<PointType> point_type(std::string_view short_name);
 

@@ -1,0 +1,421 @@
+#include "branch/point_kind.hpp"
+
+#include "branch/branch_state.hpp"
+#include "branch/grazing_switch.hpp"
+#include "branch/other_branch.hpp"
+#include "branch/reordering.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+#include "orbit/certify.hpp"
+#include "orbit/eigen_index.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+using Tests = std::vector<BranchTest>;
+
+/// The event that ends a segment; the first one for sections, where it is of no interest.
+std::size_t own_event(const TestedPoint& point, std::size_t segment) {
+    const Segment& one = point.equations.signature()[segment];
+    return one.end == SegmentEnd::event ? point.equations.model().transitions[one.index].event : 0;
+}
+
+// Folds: where monitors are held, the parameter may turn although no multiplier is 1.
+
+void test_fold(const TestedPoint& point, Tests& tests) {
+    constexpr double least_rise = 1e-8; // of the parameter's share in the direction of the branch: less is round-off
+    BranchTest test{.type = PointType::fold};
+    if (point.settings.free.empty()) {
+        const std::size_t place = point.equations.layout().parameter(0);
+        test.value = point.tangent[place];
+        test.noise = least_rise * point.at.scales[index(place)];
+    } else {
+        test.value = point.at.system.periodic_determinant();
+        test.noise = point.at.system.periodic_noise();
+    }
+    tests.push_back(test);
+}
+
+// Flips: the half of a symmetric orbit that changes into its image loses the symmetry instead of doubling its period.
+
+void test_flip(const TestedPoint& point, Tests& tests) {
+    tests.push_back({.type = PointType::flip,
+                     .value = point.equations.symmetry() ? nothing : point.at.system.antiperiodic_determinant()});
+}
+
+void test_asymmetry(const TestedPoint& point, Tests& tests) {
+    tests.push_back({.type = PointType::asymmetry,
+                     .value = point.equations.symmetry() ? point.at.system.antiperiodic_determinant() : nothing});
+}
+
+std::vector<BranchStart> leave_flip(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
+    return along_null_vector(system, twice(point.solution.orbit), settings, {}, "doubled", false);
+}
+
+std::vector<BranchStart> leave_asymmetry(const System& system, const SpecialPoint& point,
+                                         const BranchSettings& settings) {
+    return along_null_vector(system, whole_orbit(system, point.solution.orbit), settings, {}, "without the symmetry",
+                             true);
+}
+
+void test_branch_point(const TestedPoint& point, Tests& tests) {
+    tests.push_back({.type = PointType::branch_point, .value = point.determinant, .singular = true});
+}
+
+std::vector<BranchStart> leave_branch_point(const System& system, const SpecialPoint& point,
+                                            const BranchSettings& settings) {
+    return along_null_vector(system, point.solution.orbit, settings, point.tangent, "other branch", true);
+}
+
+/// Multipliers of the shortest orbit that is followed.
+const std::vector<std::complex<double>>& own_multipliers(const OrbitSolution& solution) {
+    return solution.half_multipliers.empty() ? solution.multipliers : solution.half_multipliers;
+}
+
+/// Product over pairs of multipliers of mu_i mu_j - 1, which vanishes where two of them are inverse to one another: on
+/// whole branches of conservative models.
+void test_torus(const TestedPoint& point, Tests& tests) {
+    constexpr double least_growth = 1e-9; // of the product of a pair less one: less is round-off
+    const auto& multipliers = own_multipliers(point.solution);
+    BranchTest test{.type = PointType::torus, .value = nothing};
+    std::complex<double> product = 1;
+    double smallest = 1, others = 1;
+    for (std::size_t i = 0; i < multipliers.size(); ++i)
+        for (std::size_t j = i + 1; j < multipliers.size(); ++j) {
+            const std::complex<double> both = multipliers[i] * multipliers[j],
+                                       factor = (both - 1.0) / (1 + std::abs(both));
+            product *= factor;
+            others *= std::max(std::abs(factor), smallest);
+            smallest = std::min(std::abs(factor), smallest);
+        }
+    if (multipliers.size() >= 2 && std::isfinite(product.real()))
+        test.value = product.real();
+    test.noise = least_growth * others;
+    tests.push_back(test);
+}
+
+bool confirm_torus(BranchState&, SpecialPoint& special, const BranchTest&) {
+    const auto& multipliers = own_multipliers(special.solution);
+    return special.located && std::any_of(multipliers.begin(), multipliers.end(), [](auto one) {
+               return std::abs(one.imag()) > 1e-6 && std::abs(std::abs(one) - 1) < 1e-5;
+           });
+}
+
+// Grazing: an event is met without speed at the end of its arc, or another touched inside of one.
+
+void test_grazing(const TestedPoint& point, Tests& tests) {
+    const Certificate& certificate = point.solution.certificate;
+    for (std::size_t s = 0; s < point.equations.signature().size(); ++s) {
+        const bool event = point.equations.signature()[s].end == SegmentEnd::event;
+        tests.push_back({.type = PointType::grazing,
+                         .segment = s,
+                         .event = own_event(point, s),
+                         .value = event ? certificate.approach_speeds[s] : nothing,
+                         .noise = least_rate * point.equations.usual_rate(point.at, s),
+                         .time = point.solution.orbit.durations[s],
+                         .at_end = true,
+                         .appears = true});
+    }
+    for (std::size_t s = 0; s < point.equations.signature().size(); ++s)
+        for (const std::size_t event : point.equations.system().mode(point.equations.signature()[s].mode).watched) {
+            BranchTest test{
+                .type = PointType::grazing, .segment = s, .event = event, .value = nothing, .appears = true};
+            for (const OrbitMinimum& minimum : certificate.minima)
+                if (minimum.segment == s && minimum.event == event && !(minimum.value >= test.value)) {
+                    test.value = minimum.value;
+                    test.noise = smallest_clearance * minimum.size;
+                    test.time = minimum.time;
+                }
+            tests.push_back(test);
+        }
+}
+
+bool confirm_grazing(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    if (special.at_end) // their limits are infinite
+        special.solution.multipliers.clear();
+    special.detail =
+        fmt::format("{}{}", state.model().events[special.event].name, special.at_end ? ", no approach speed" : "");
+    return true;
+}
+
+int rank_of_grazing(const SpecialPoint& point) {
+    const Orbit& orbit = point.solution.orbit;
+    const double duration = std::abs(orbit.durations[point.segment]);
+    // An arc that vanishes has the contact before it to thank for that.
+    constexpr double almost_nothing = 1e-4;
+    if (point.at_end)
+        return duration > almost_nothing * orbit.period() ? 1 : 2;
+    // A minimum that comes or goes through an end of its arc does so because a contact has lost its speed.
+    constexpr double at_edge = 1e-6;
+    return point.time > at_edge * duration && point.time < (1 - at_edge) * duration ? 0 : 2;
+}
+
+std::vector<BranchStart> leave_grazing(const System& system, const SpecialPoint& point,
+                                       const BranchSettings& settings) {
+    return {point.at_end ? with_one_contact_fewer(system, point, settings)
+                         : with_one_more_contact(system, point, settings)};
+}
+
+// Events that change their order.
+
+void test_vanishing(const TestedPoint& point, Tests& tests) {
+    for (std::size_t s = 0; s < point.equations.signature().size(); ++s)
+        tests.push_back({.type = PointType::vanishing,
+                         .segment = s,
+                         .event = own_event(point, s),
+                         .value = point.solution.orbit.durations[s]});
+}
+
+bool confirm_vanishing(BranchState&, SpecialPoint& special, const BranchTest&) {
+    special.detail = fmt::format("segment {}", special.segment + 1);
+    return true;
+}
+
+void test_two_events(const TestedPoint& point, Tests& tests) {
+    for (const EndValue& end : point.solution.certificate.end_values) {
+        const bool barrier = point.equations.model().events[end.event].kind == EventKind::barrier;
+        tests.push_back({.type = PointType::two_events,
+                         .segment = end.segment,
+                         .event = end.event,
+                         .value = barrier ? end.value : nothing,
+                         .rate = end.rate});
+    }
+}
+
+/// Two events of which the other one does not fall is a touch at the very end of an arc.
+bool confirm_two_events(BranchState& state, SpecialPoint& special, const BranchTest& test) {
+    const auto& speeds = special.solution.certificate.approach_speeds;
+    const double speed = *std::max_element(speeds.begin(), speeds.end());
+    if (std::abs(test.rate) < 1e-6 * std::max(speed, std::abs(test.rate) + 1e-300)) {
+        special.type = PointType::grazing;
+        special.time = special.solution.orbit.durations[special.segment];
+    }
+    special.detail = state.model().events[special.event].name;
+    return true;
+}
+
+void test_guard(const TestedPoint& point, Tests& tests) {
+    for (std::size_t s = 0; s < point.equations.signature().size(); ++s) {
+        const double margin = point.solution.certificate.guard_margins[s];
+        tests.push_back({.type = PointType::guard,
+                         .segment = s,
+                         .event = own_event(point, s),
+                         .value = std::isfinite(margin) ? margin : nothing});
+    }
+}
+
+bool confirm_guard(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    special.detail =
+        fmt::format("after {}", end_name(state.model(), special.solution.orbit.signature[special.segment]));
+    return true;
+}
+
+std::vector<BranchStart> leave_order(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
+    return {with_events_reordered(system, point, settings)};
+}
+
+// Bounds and values of the parameter and of monitors.
+
+void test_bounds(const TestedPoint& point, Tests& tests) {
+    const auto add = [&](std::optional<double> least, std::optional<double> greatest, double value,
+                         std::optional<std::size_t> monitor) {
+        if (least || !monitor)
+            tests.push_back({.type = PointType::bound, .value = least ? value - *least : nothing, .monitor = monitor});
+        if (greatest || !monitor)
+            tests.push_back(
+                {.type = PointType::bound, .value = greatest ? *greatest - value : nothing, .monitor = monitor});
+    };
+    const BranchSettings& settings = point.settings;
+    add(settings.least, settings.greatest, point.at.parameters[settings.parameter], std::nullopt);
+    for (std::size_t m = 0; m < settings.monitors.size(); ++m)
+        add(settings.monitors[m].least, settings.monitors[m].greatest, point.monitors[m], m);
+}
+
+void test_crossings(const TestedPoint& point, Tests& tests) {
+    for (std::size_t m = 0; m < point.settings.monitors.size(); ++m) {
+        const std::vector<double>& wanted = point.settings.monitors[m].crossings;
+        for (std::size_t c = 0; c < wanted.size(); ++c)
+            tests.push_back(
+                {.type = PointType::crossing, .value = point.monitors[m] - wanted[c], .monitor = m, .crossing = c});
+    }
+}
+
+/// By how much the parameter changes over the last step.
+double length_of_step(BranchState& state) {
+    const std::size_t place = state.problem().parameter_place();
+    return std::abs(state.continuation().point().u[place] - state.continuation().previous().u[place]);
+}
+
+bool confirm_bound(BranchState& state, SpecialPoint& special, const BranchTest& test) {
+    const BranchSettings& settings = state.settings();
+    // Round-off would leave the bound on the one side or the other.
+    for (const auto& bound : {settings.least, settings.greatest})
+        if (bound && !test.monitor && std::abs(special.parameter - *bound) < 1e-9 * length_of_step(state))
+            special.parameter = special.solution.orbit.parameters[settings.parameter] = *bound;
+    const std::string name = test.monitor ? settings.monitors[*test.monitor].name
+                                          : state.model().independent_parameters()[settings.parameter];
+    special.detail =
+        fmt::format("{} = {:.10g}", name, test.monitor ? special.monitors[*test.monitor] : special.parameter);
+    return special.located;
+}
+
+bool confirm_crossing(BranchState& state, SpecialPoint& special, const BranchTest& test) {
+    const Monitor& monitor = state.settings().monitors[*test.monitor];
+    special.detail = fmt::format("{} = {:.10g}", monitor.name, monitor.crossings[test.crossing]);
+    return special.located;
+}
+
+template <int Rank>
+int always(const SpecialPoint&) {
+    return Rank;
+}
+
+/// Entries that have no function are written without one.
+constexpr std::array table{
+    PointRule{
+        .kind =
+            {.type = PointType::fold, .short_name = "SN", .name = "fold", .changes = true, .may_stop = true, .mark = 7},
+        .test = test_fold},
+    PointRule{.kind = {.type = PointType::flip,
+                       .short_name = "PD",
+                       .name = "flip",
+                       .changes = true,
+                       .leads_on = true,
+                       .may_stop = true,
+                       .mark = 9},
+              .test = test_flip,
+              .leave = leave_flip},
+    PointRule{.kind = {.type = PointType::torus,
+                       .short_name = "NS",
+                       .name = "torus",
+                       .changes = true,
+                       .may_stop = true,
+                       .mark = 13},
+              .test = test_torus,
+              .confirm = confirm_torus},
+    PointRule{.kind = {.type = PointType::branch_point,
+                       .short_name = "BP",
+                       .name = "branch point",
+                       .changes = true,
+                       .leads_on = true,
+                       .may_stop = true,
+                       .mark = 5},
+              .test = test_branch_point,
+              .leave = leave_branch_point},
+    PointRule{.kind = {.type = PointType::asymmetry,
+                       .short_name = "SB",
+                       .name = "loss of symmetry",
+                       .changes = true,
+                       .leads_on = true,
+                       .may_stop = true,
+                       .mark = 5},
+              .test = test_asymmetry,
+              .leave = leave_asymmetry},
+    PointRule{.kind = {.type = PointType::grazing,
+                       .short_name = "GR",
+                       .name = "grazing",
+                       .changes = true,
+                       .limits = true,
+                       .leads_on = true,
+                       .may_stop = true,
+                       .mark = 12},
+              .test = test_grazing,
+              .confirm = confirm_grazing,
+              .rank = rank_of_grazing,
+              .leave = leave_grazing},
+    PointRule{.kind = {.type = PointType::vanishing,
+                       .short_name = "DZ",
+                       .name = "vanishing segment",
+                       .changes = true,
+                       .limits = true,
+                       .may_stop = true,
+                       .mark = 8},
+              .test = test_vanishing,
+              .confirm = confirm_vanishing,
+              .rank = always<3>,
+              .leave = leave_order},
+    PointRule{.kind = {.type = PointType::two_events,
+                       .short_name = "EE",
+                       .name = "two events at once",
+                       .changes = true,
+                       .limits = true,
+                       .may_stop = true,
+                       .mark = 4},
+              .test = test_two_events,
+              .confirm = confirm_two_events,
+              .rank = always<4>,
+              .leave = leave_order},
+    PointRule{.kind = {.type = PointType::guard,
+                       .short_name = "GU",
+                       .name = "guard",
+                       .changes = true,
+                       .limits = true,
+                       .may_stop = true,
+                       .mark = 10},
+              .test = test_guard,
+              .confirm = confirm_guard,
+              .rank = always<5>,
+              .leave = leave_order},
+    PointRule{.kind = {.type = PointType::bound, .short_name = "BD", .name = "bound"},
+              .test = test_bounds,
+              .confirm = confirm_bound},
+    PointRule{
+        .kind = {.type = PointType::crossing, .short_name = "UZ", .name = "crossing", .may_stop = true, .mark = 2},
+        .test = test_crossings,
+        .confirm = confirm_crossing},
+    PointRule{.kind = {.type = PointType::end, .short_name = "EP", .name = "end"}},
+    PointRule{.kind = {.type = PointType::regular, .short_name = "RG", .name = "regular"}},
+};
+
+constexpr auto kinds = [] {
+    std::array<PointKind, table.size()> result;
+    for (std::size_t i = 0; i < table.size(); ++i)
+        result[i] = table[i].kind;
+    return result;
+}();
+
+} // namespace
+
+std::span<const PointRule> point_rules() {
+    return table;
+}
+
+const PointRule& rule_of(PointType type) {
+    require_index(static_cast<std::size_t>(type), table.size(), "type of points");
+    return table[static_cast<std::size_t>(type)];
+}
+
+std::span<const PointKind> point_kinds() {
+    return kinds;
+}
+
+const PointKind& kind_of(PointType type) {
+    return rule_of(type).kind;
+}
+
+std::optional<PointType> point_type(std::string_view name) {
+    for (const PointRule& rule : table)
+        if (name == rule.kind.short_name)
+            return rule.kind.type;
+    return std::nullopt;
+}
+
+std::vector<BranchTest> branch_tests(const TestedPoint& point) {
+    Tests tests;
+    for (const PointRule& rule : table)
+        if (rule.test)
+            rule.test(point, tests);
+    return tests;
+}
+
+} // namespace graze
