@@ -224,6 +224,25 @@ std::vector<BranchStart> leave_order(const System& system, const SpecialPoint& p
     return {with_events_reordered(system, point, settings)};
 }
 
+// Extrema of the period. Where a parameter fixes it, as the frequency of a force, it turns with the parameter at each
+// fold, which says nothing more.
+
+void test_extremum(const TestedPoint& point, Tests& tests) {
+    constexpr double least_change = 1e-8; // in units of the period: less is round-off
+    const OrbitLayout& layout = point.equations.layout();
+    BranchTest test{.type = PointType::extremum, .noise = least_change * point.at.scales[index(layout.duration_of(0))]};
+    for (std::size_t k = 0; k < layout.pieces(); ++k)
+        test.value += point.tangent[layout.duration_of(k)];
+    tests.push_back(test);
+}
+
+bool confirm_extremum(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    constexpr double turning = 1e-5; // share of the parameter in the direction of a branch that turns
+    const double unit = state.problem().scales()[state.problem().parameter_place()];
+    special.detail = fmt::format("period = {:.10g}", special.solution.orbit.period());
+    return special.located && std::abs(special.tangent.parameters.front()) > turning * unit;
+}
+
 // Bounds and values of the parameter and of monitors.
 
 void test_bounds(const TestedPoint& point, Tests& tests) {
@@ -366,6 +385,13 @@ constexpr std::array table{
               .confirm = confirm_guard,
               .rank = always<5>,
               .leave = leave_order},
+    PointRule{.kind = {.type = PointType::extremum,
+                       .short_name = "EX",
+                       .name = "extremum of the period",
+                       .may_stop = true,
+                       .mark = 1},
+              .test = test_extremum,
+              .confirm = confirm_extremum},
     PointRule{.kind = {.type = PointType::bound, .short_name = "BD", .name = "bound"},
               .test = test_bounds,
               .confirm = confirm_bound},

@@ -1,16 +1,24 @@
 #include "program/branch_arguments.hpp"
 
+#include "graze/branch/special_point.hpp"
+
+#include <fmt/format.h>
+
 #include <map>
 
 namespace graze {
 
 namespace {
 
-constexpr const char* points_text = R"(List the special points of branches of periodic orbits.
+std::string points_text() {
+    std::string text = R"(List the special points of branches of periodic orbits.
 A branch is what a study's run of kind "continue" has followed: orbits over a parameter. Something happens at its
-special points: SN fold, PD period doubling, NS torus, BP branch point, GR grazing, DZ vanishing segment, EE two events
-at once, GU another guard, UZ value asked for, BD bound, EP end. Their labels, such as GR1, are names for other
-commands.)";
+special points:
+)";
+    for (const PointKind& kind : point_kinds())
+        text += fmt::format("  {}  {}\n", kind.short_name, kind.name);
+    return text + "Their labels, such as GR1, are names for other commands.";
+}
 
 constexpr const char* points_examples = R"(Examples:
   graze points results                             all special points of all branches
@@ -46,7 +54,7 @@ void declare_output(CLI::App& command, OutputArguments& output) {
 }
 
 void declare_points(CLI::App& app, PointsArguments& arguments) {
-    CLI::App& command = *app.add_subcommand("points", points_text);
+    CLI::App& command = *app.add_subcommand("points", points_text());
     command.footer(points_examples);
     command.add_option("FILE", arguments.file, "Result file, or the folder of a study")->type_name("")->required();
     const char* group = "What to show";

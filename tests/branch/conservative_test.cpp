@@ -98,6 +98,25 @@ direction = "falling"
                                   time, length, more));
 }
 
+/// Period of x'' + x + x^3 = push for an oscillation whose greatest x is 1, in units of time and length of its own:
+/// with x = c + r cos(angle) between the turning points the integrand is smooth and periodic, and sums converge like
+/// powers.
+double duffing_period(double push) {
+    // Half of the squared speed is (1 - x) q(x), and m the zero of q.
+    const auto q = [&](double x) { return 0.5 * (1 + x) + 0.25 * (1 + x) * (1 + x * x) - push; };
+    double m = -1;
+    for (int i = 0; i < 50; ++i)
+        m -= q(m) / (0.5 + 0.25 * (1 + 2 * m + 3 * m * m));
+    double sum = 0;
+    constexpr int parts = 200;
+    for (int i = 0; i < parts; ++i) {
+        const double x = 0.5 * (1 + m) + 0.5 * (1 - m) * std::cos(pi * (i + 0.5) / parts);
+        // q(x) / (x - m), q being a cubic.
+        sum += 1 / std::sqrt(2 * (0.75 + 0.25 * (x + m + x * x + x * m + m * m)));
+    }
+    return 2 * pi * sum / parts;
+}
+
 TEST(Conservative, damping_stays_zero_while_amplitude_is_held_and_the_push_passes_zero) {
     for (const auto& [time, length] : {std::pair{1.0, 1.0}, {1e-9, 1e-9}, {1e6, 1e3}}) {
         const Model model = duffing(time, length);
@@ -114,8 +133,17 @@ TEST(Conservative, damping_stays_zero_while_amplitude_is_held_and_the_push_passe
             settings.direction = direction;
             const Branch branch = follow_branch(model, start, settings);
             ASSERT_EQ(branch.outcome, BranchOutcome::bound) << branch.detail << ' ' << names(branch);
-            EXPECT_EQ(names(branch), "BD");
+            EXPECT_EQ(names(branch), direction > 0 ? "EX BD" : "BD");
+            for (const SpecialPoint& special : of_type(branch, PointType::extremum)) {
+                EXPECT_NEAR(special.solution.orbit.period() / time, duffing_period(special.parameter), 1e-10);
+                constexpr double step = 1e-3; // of differences, which are wrong by its fourth power
+                const auto rise = [&](double by) {
+                    return duffing_period(special.parameter + by) - duffing_period(special.parameter - by);
+                };
+                EXPECT_NEAR((8 * rise(step) - rise(2 * step)) / (12 * step), 0, 1e-9) << special.parameter;
+            }
             for (const BranchPoint& point : branch.points) {
+                EXPECT_NEAR(point.solution.orbit.period() / time, duffing_period(point.parameter), 1e-10);
                 EXPECT_LT(std::abs(point.solution.orbit.parameters[settings.free[0]] * time), 1e-11);
                 EXPECT_NEAR(point.solution.orbit.starts[0][0], length, 1e-11 * length);
             }

@@ -23,6 +23,7 @@ enum class PointType {
     vanishing,    ///< DZ: a segment's duration reaches zero
     two_events,   ///< EE: two events happen at once
     guard,        ///< GU: the guard after a jump is about to choose another mode
+    extremum,     ///< EX: the period, where it is free, is longest or shortest
     bound,        ///< BD: a bound that was given is reached
     crossing,     ///< UZ: a monitor takes a value that was asked for
     end,          ///< EP: the first or last point of a branch
