@@ -72,19 +72,19 @@ void Continuation::set_next_step(double length) {
 }
 
 double Continuation::product(std::span<const double> a, std::span<const double> b) const {
-    const auto scales = problem_->scales();
+    const auto scales = problem_->scales(), weights = problem_->weights();
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
-        sum += a[i] / scales[i] * (b[i] / scales[i]);
+        sum += a[i] / scales[i] * (b[i] / scales[i]) * (weights.empty() ? 1 : weights[i]);
     return sum;
 }
 
 /// The row whose product with a vector is the inner product, in units of the scales, with the direction.
 void Continuation::weigh(std::span<const double> direction, std::vector<double>& row) const {
-    const auto scales = problem_->scales();
+    const auto scales = problem_->scales(), weights = problem_->weights();
     row.resize(direction.size());
     for (std::size_t i = 0; i < direction.size(); ++i)
-        row[i] = direction[i] / (scales[i] * scales[i]);
+        row[i] = direction[i] / (scales[i] * scales[i]) * (weights.empty() ? 1 : weights[i]);
 }
 
 /// Newton's method in the hyperplane across a row. @param allowed distance from where it began

@@ -20,15 +20,26 @@ double range_of(const BranchSettings& settings) {
 
 } // namespace
 
-OrbitProblem::OrbitProblem(const Simulation& simulation, const Orbit& orbit, std::size_t parameter)
-    : equations_(std::make_unique<Shooting>(simulation, orbit, std::vector{parameter})), at_(equations_->evaluation()) {
+OrbitProblem::OrbitProblem(std::unique_ptr<OrbitEquations> equations)
+    : equations_(std::move(equations)), at_(equations_->evaluation()), weights_(equations_->unknowns(), 1.0) {
+    const OrbitLayout& layout = equations_->layout();
+    for (std::size_t k = 0; k < layout.pieces(); ++k) {
+        const std::size_t segment = layout.segment_of(k), next = layout.duration_of(k);
+        const auto count = static_cast<double>(1 + layout.last_piece(segment) - layout.first_piece(segment));
+        std::fill(weights_.begin() + static_cast<std::ptrdiff_t>(layout.start_of(k)),
+                  weights_.begin() + static_cast<std::ptrdiff_t>(next), 1 / count);
+        const auto inner = weights_.begin() + static_cast<std::ptrdiff_t>(layout.inner_of(k));
+        std::fill(inner, inner + static_cast<std::ptrdiff_t>(layout.inner()), 0.0);
+    }
 }
+
+OrbitProblem::OrbitProblem(const Simulation& simulation, const Orbit& orbit, std::size_t parameter)
+    : OrbitProblem(std::make_unique<Shooting>(simulation, orbit, std::vector{parameter})) {}
 
 OrbitProblem::OrbitProblem(const Simulation& simulation, const Orbit& orbit, const BranchSettings& settings,
                            const OrbitMonitors* monitors)
-    : equations_(std::make_unique<Shooting>(simulation, orbit, both(settings.parameter, settings.free),
-                                            std::vector{range_of(settings)})),
-      at_(equations_->evaluation()) {
+    : OrbitProblem(std::make_unique<Shooting>(simulation, orbit, both(settings.parameter, settings.free),
+                                              std::vector{range_of(settings)})) {
     if (!monitors)
         return;
     for (std::size_t m = 0; m < monitors->monitors().size(); ++m) {
@@ -42,7 +53,7 @@ OrbitProblem::OrbitProblem(const Simulation& simulation, const Orbit& orbit, con
 std::vector<double> OrbitProblem::row_of(std::span<const double> direction) const {
     std::vector<double> row(direction.begin(), direction.end());
     for (std::size_t i = 0; i < row.size(); ++i)
-        row[i] /= scales()[i] * scales()[i];
+        row[i] *= weights_[i] / (scales()[i] * scales()[i]);
     return row;
 }
 

@@ -21,6 +21,8 @@ namespace graze {
 class OrbitProblem : public ContinuationProblem {
 public:
     OrbitProblem(const Simulation& simulation, const Orbit& orbit, std::size_t parameter);
+    /// By any discretisation. @param equations with one free parameter
+    explicit OrbitProblem(std::unique_ptr<OrbitEquations> equations);
     /// @param monitors those that are fixed count, and say at which value; may be null
     OrbitProblem(const Simulation& simulation, const Orbit& orbit, const BranchSettings& settings,
                  const OrbitMonitors* monitors);
@@ -42,6 +44,9 @@ public:
     std::span<const double> scales() const override {
         return {equations_->scales().data(), static_cast<std::size_t>(equations_->scales().size())};
     }
+    /// Pieces of a segment count together as much as one, and inner unknowns nothing: lengths are those of the orbit,
+    /// however it is laid out.
+    std::span<const double> weights() const override { return weights_; }
     /// The row whose product with vectors is that with a direction, in units of the scales.
     std::vector<double> row_of(std::span<const double> direction) const;
     /// Asked again for where it has been evaluated last, as after Newton's method, it does nothing.
@@ -79,6 +84,7 @@ private:
 
     std::unique_ptr<OrbitEquations> equations_;
     OrbitEvaluation at_;
+    std::vector<double> weights_;
     std::vector<Held> held_;
     Eigen::MatrixXd rows_;      ///< gradients of the monitors that are held
     Eigen::VectorXd residuals_; ///< how far they are off

@@ -144,7 +144,13 @@ Eigen::VectorXd OrbitEquations::unknowns_of(const OrbitDirection& direction, con
         }
         unknowns[index(layout_.duration_of(layout_.last_piece(s)))] = direction.durations[s];
     }
-    return unknowns;
+    if (layout_.inner() == 0)
+        return unknowns;
+    Eigen::VectorXd outer(index(layout_.inner_of(0)) + q);
+    outer << unknowns.head(outer.size() - q), unknowns.tail(q);
+    Eigen::VectorXd units(outer.size());
+    units << at.scales.head(outer.size() - q), at.scales.tail(q);
+    return expanded(at, outer.cwiseQuotient(units), true);
 }
 
 void OrbitEquations::set_parameters(const Eigen::VectorXd& unknowns, std::vector<double>& parameters) {
@@ -187,6 +193,12 @@ bool OrbitEquations::evaluate(const Eigen::VectorXd& unknowns, OrbitEvaluation& 
     at.residual = 0;
     for (std::size_t k = 0; k < layout_.pieces(); ++k)
         at.residual = std::max(at.residual, at.system.block(k).right.cwiseAbs().maxCoeff());
+    const Eigen::Index inner = index(layout_.inner());
+    for (std::size_t k = 0; k < layout_.pieces() && inner > 0; ++k) {
+        const auto units = scales_.segment(index(layout_.inner_of(k)), inner);
+        const double lack = at.pieces[k].inner.rightCols(1).cwiseQuotient(units).cwiseAbs().maxCoeff();
+        at.residual = std::max(at.residual, lack);
+    }
     if (!std::isfinite(at.residual) || !at.system.factor()) {
         at.problem = "an equation is not finite";
         return false;
@@ -200,7 +212,6 @@ bool OrbitEquations::evaluate_piece(std::size_t k, const Eigen::VectorXd& unknow
         return false;
     OrbitEvaluation::Piece& piece = at.pieces[k];
     const std::size_t segment = layout_.segment_of(k);
-    ends_.field(segment, piece.end, piece.field);
     const auto n = index(layout_.states());
     piece.jump.setZero(n, n + index(layout_.free()));
     piece.jump.leftCols(n).setIdentity();
@@ -246,7 +257,7 @@ void OrbitEquations::assemble_end(std::size_t k, OrbitEvaluation& at) const {
     const Eigen::RowVectorXd by_parameters = gradient * piece.flow.rightCols(q) + piece.condition.tail(q).transpose();
     at.effects = at.effects.cwiseMax(by_parameters.transpose().cwiseAbs() / unit);
     block.own.row(0).head(n) = by_start / unit;
-    block.own(0, n) = gradient.dot(piece.field) * scales_[index(layout_.duration_of(k))] / unit;
+    block.own(0, n) = gradient.dot(piece.by_time) * scales_[index(layout_.duration_of(k))] / unit;
     block.parameters.row(0) = by_parameters * parameter_scales.asDiagonal() / unit;
     block.right[0] = -piece.condition_value / unit;
 }
@@ -261,7 +272,7 @@ void OrbitEquations::assemble_closure(std::size_t k, const Eigen::VectorXd& unkn
     const Eigen::VectorXd state_scales = scales_.head(n), units = state_scales.cwiseInverse();
     const Eigen::MatrixXd jump = piece.jump.leftCols(n);
     const Eigen::MatrixXd by_start = jump * piece.flow.leftCols(n);
-    const Eigen::VectorXd by_time = jump * piece.field;
+    const Eigen::VectorXd by_time = jump * piece.by_time;
     Eigen::MatrixXd by_parameters = jump * piece.flow.rightCols(q) + piece.jump.rightCols(q);
     const std::size_t following = k + 1 < layout_.pieces() ? k + 1 : 0;
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -305,24 +316,62 @@ void OrbitEquations::pin(const Eigen::VectorXd& unknowns, const std::vector<bool
     }
 }
 
+/// Borders in which inner unknowns are replaced by what they follow from, in units of the scales: starts and durations,
+/// then parameters.
+Eigen::MatrixXd OrbitEquations::condensed(const OrbitEvaluation& at, const Eigen::MatrixXd& borders,
+                                          Eigen::VectorXd& right, bool homogeneous) const {
+    const Eigen::Index width = index(layout_.states()) + 1, q = index(layout_.free()), inner = index(layout_.inner()),
+                       outer = index(layout_.inner_of(0));
+    Eigen::MatrixXd result(borders.rows(), outer + q);
+    result << borders.leftCols(outer), borders.rightCols(q);
+    for (std::size_t k = 0; k < layout_.pieces() && inner > 0; ++k) {
+        const Eigen::MatrixXd changes = borders.middleCols(index(layout_.inner_of(k)), inner) * at.pieces[k].inner;
+        result.middleCols(index(layout_.start_of(k)), width) += changes.leftCols(width);
+        result.rightCols(q) += changes.middleCols(width, q);
+        if (!homogeneous)
+            right -= changes.rightCols(1);
+    }
+    result.leftCols(outer) *= at.scales.head(outer).asDiagonal();
+    result.rightCols(q) *= at.scales.tail(q).asDiagonal();
+    return result;
+}
+
+/// All unknowns, from those in units of the scales that are left without the inner ones.
+Eigen::VectorXd OrbitEquations::expanded(const OrbitEvaluation& at, const Eigen::VectorXd& outer,
+                                         bool homogeneous) const {
+    const Eigen::Index width = index(layout_.states()) + 1, q = index(layout_.free()), inner = index(layout_.inner()),
+                       count = index(layout_.inner_of(0));
+    Eigen::VectorXd unknowns(index(layout_.unknowns()));
+    unknowns.head(count) = outer.head(count).cwiseProduct(at.scales.head(count));
+    unknowns.tail(q) = outer.tail(q).cwiseProduct(at.scales.tail(q));
+    for (std::size_t k = 0; k < layout_.pieces() && inner > 0; ++k) {
+        Eigen::VectorXd changes(width + q + 1);
+        changes << unknowns.segment(index(layout_.start_of(k)), width), unknowns.tail(q), homogeneous ? 0.0 : 1.0;
+        unknowns.segment(index(layout_.inner_of(k)), inner) = at.pieces[k].inner * changes;
+    }
+    return unknowns;
+}
+
 bool OrbitEquations::solve(const OrbitEvaluation& at, const Eigen::MatrixXd& borders, const Eigen::VectorXd& right,
                            bool homogeneous, Eigen::VectorXd& step, double* determinant) const {
-    const Eigen::MatrixXd scaled = borders * at.scales.asDiagonal();
-    if (!at.system.solve(scaled, right, homogeneous, step, determinant))
+    Eigen::VectorXd values = right, outer;
+    const Eigen::MatrixXd scaled = condensed(at, borders, values, homogeneous);
+    if (!at.system.solve(scaled, values, homogeneous, outer, determinant))
         return false;
-    step = step.cwiseProduct(at.scales);
+    step = expanded(at, outer, homogeneous);
     return true;
 }
 
 bool OrbitEquations::null_vector(const OrbitEvaluation& at, const Eigen::RowVectorXd& row,
                                  Eigen::VectorXd& vector) const {
-    const Eigen::MatrixXd borders = row * at.scales.asDiagonal();
-    if (!at.system.null_vector(borders / borders.norm(), vector))
+    Eigen::VectorXd zero = Eigen::VectorXd::Zero(1), outer;
+    const Eigen::MatrixXd borders = condensed(at, row, zero, true);
+    if (!at.system.null_vector(borders / borders.norm(), outer))
         return false;
-    const double size = vector.norm();
+    const double size = outer.norm();
     if (!(size > 0))
         return false;
-    vector = vector.cwiseProduct(at.scales) / size;
+    vector = expanded(at, outer / size, true);
     return true;
 }
 
@@ -333,7 +382,7 @@ Eigen::RowVectorXd OrbitEquations::row_at_end(const OrbitEvaluation& at, std::si
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(index(layout_.unknowns()));
     const Eigen::RowVectorXd by_state = gradient.head(n).transpose();
     row.segment(index(layout_.start_of(k)), n) = by_state * piece.flow.leftCols(n);
-    row[index(layout_.duration_of(k))] = by_state.dot(piece.field);
+    row[index(layout_.duration_of(k))] = by_state.dot(piece.by_time);
     row.tail(q) = by_state * piece.flow.rightCols(q) + gradient.tail(q).transpose();
     return row;
 }

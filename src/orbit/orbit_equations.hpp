@@ -62,8 +62,8 @@ public:
     bool evaluate(const Eigen::VectorXd& unknowns, OrbitEvaluation& result);
 
     /// Solves derivatives * step = -equations (or 0), borders * step = right. See CyclicSystem.
-    virtual bool solve(const OrbitEvaluation& at, const Eigen::MatrixXd& borders, const Eigen::VectorXd& right,
-                       bool homogeneous, Eigen::VectorXd& step, double* determinant = nullptr) const;
+    bool solve(const OrbitEvaluation& at, const Eigen::MatrixXd& borders, const Eigen::VectorXd& right,
+               bool homogeneous, Eigen::VectorXd& step, double* determinant = nullptr) const;
     /// A vector that the derivatives map to (nearly) zero and whose product with the row is zero: where the equations
     /// are singular beyond their one branch, the direction of another. For one free parameter.
     bool null_vector(const OrbitEvaluation& at, const Eigen::RowVectorXd& row, Eigen::VectorXd& vector) const;
@@ -84,16 +84,18 @@ protected:
     OrbitEquations(const Simulation& simulation, const Orbit& orbit, std::vector<std::size_t> free,
                    std::vector<double> ranges);
     /// To be called at the end of the constructor of a discretisation.
-    /// @param counts of the pieces of each segment; @param inner number of inner unknowns
+    /// @param counts of the pieces of each segment; @param inner unknowns of each piece
     void lay_out(const Orbit& orbit, const std::vector<std::size_t>& counts, std::size_t inner = 0);
 
     ModeFlow& flow() { return flow_; }
+    SegmentEnds& ends() { return ends_; }
     OrbitScales& orbit_scales() { return orbit_scales_; }
 
 private:
-    /// Sets the end of a piece and its flow. @return false, with the problem said, where it cannot be followed
+    /// Sets the end of a piece with its derivatives, and its field. @return false, with the problem said, where it
+    /// cannot be followed
     virtual bool follow(std::size_t piece, const Eigen::VectorXd& unknowns, OrbitEvaluation& at) = 0;
-    /// Sets the inner unknowns of an orbit: those that stand for its flow.
+    /// Sets the inner unknowns of an orbit, from its flow.
     virtual void set_inner(const Orbit&, Eigen::VectorXd&) {}
 
     void set_parameters(const Eigen::VectorXd& unknowns, std::vector<double>& parameters);
@@ -103,6 +105,9 @@ private:
     void assemble_closure(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at,
                           std::vector<bool>& neutral) const;
     void pin(const Eigen::VectorXd& unknowns, const std::vector<bool>& neutral, OrbitEvaluation& at) const;
+    Eigen::MatrixXd condensed(const OrbitEvaluation& at, const Eigen::MatrixXd& borders, Eigen::VectorXd& right,
+                              bool homogeneous) const;
+    Eigen::VectorXd expanded(const OrbitEvaluation& at, const Eigen::VectorXd& outer, bool homogeneous) const;
     void clear_remnants(Eigen::VectorXd& unknowns) const;
 
     Simulation simulation_;

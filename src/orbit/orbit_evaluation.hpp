@@ -21,6 +21,9 @@ struct OrbitEvaluation {
         std::vector<double> after;  ///< and after
         Eigen::MatrixXd flow;       ///< derivatives of `end`, states x (states + free)
         Eigen::VectorXd field;      ///< rates at its end
+        Eigen::VectorXd by_time;    ///< derivatives of `end` with respect to the duration: `field`, if followed exactly
+        Eigen::MatrixXd inner;      ///< of inner unknowns with respect to start, duration, free parameters; last, what
+                                    ///< they lack
         Eigen::MatrixXd jump;       ///< derivatives of `after`, states x (states + free)
         Eigen::VectorXd condition;  ///< gradient of the end condition, if it is its segment's last: states + free
         double condition_value = 0; ///< zero on the orbit

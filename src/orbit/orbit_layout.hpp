@@ -10,10 +10,10 @@ namespace graze {
 ///
 ///     (x_0, T_0, x_1, T_1, ..., inner unknowns, free parameters).
 ///
-/// Inner unknowns are those that a discretisation has besides; shooting has none.
+/// Inner unknowns are states within the pieces that a discretisation has besides; shooting has none.
 class OrbitLayout {
 public:
-    /// @param counts of the pieces of each segment, at least one
+    /// @param counts of the pieces of each segment, at least one; @param inner unknowns of each piece
     OrbitLayout(std::size_t states, const std::vector<std::size_t>& counts, std::size_t inner, std::size_t free)
         : states_(states), inner_(inner), free_(free) {
         for (const std::size_t count : counts) {
@@ -25,14 +25,14 @@ public:
     std::size_t states() const { return states_; }
     std::size_t segments() const { return first_.size(); }
     std::size_t pieces() const { return segments_.size(); }
-    std::size_t inner() const { return inner_; }
+    std::size_t inner() const { return inner_; } ///< of each piece
     std::size_t free() const { return free_; }
-    std::size_t unknowns() const { return first_inner() + inner_ + free_; }
+    std::size_t unknowns() const { return parameter(free_); }
 
     std::size_t start_of(std::size_t piece) const { return piece * (states_ + 1); }
     std::size_t duration_of(std::size_t piece) const { return start_of(piece) + states_; }
-    std::size_t first_inner() const { return start_of(pieces()); }
-    std::size_t parameter(std::size_t index) const { return first_inner() + inner_ + index; }
+    std::size_t inner_of(std::size_t piece) const { return start_of(pieces()) + piece * inner_; }
+    std::size_t parameter(std::size_t index) const { return inner_of(pieces()) + index; }
 
     std::size_t segment_of(std::size_t piece) const { return segments_[piece]; }
     std::size_t first_piece(std::size_t segment) const { return first_[segment]; }

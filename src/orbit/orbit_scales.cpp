@@ -38,6 +38,8 @@ Eigen::VectorXd OrbitScales::choose(const OrbitLayout& layout, const Eigen::Vect
     for (std::size_t k = 0; k < layout.pieces(); ++k) {
         std::copy(chosen.begin(), chosen.end(), scales.data() + layout.start_of(k));
         scales[index(layout.duration_of(k))] = time > 0 ? time : 1;
+        for (std::size_t j = 0; j < layout.inner(); ++j)
+            scales[index(layout.inner_of(k) + j)] = chosen[j % layout.states()];
     }
     for (std::size_t f = 0; f < layout.free(); ++f)
         scales[index(layout.parameter(f))] = parameter_scale(f, unknowns[index(layout.parameter(f))]);

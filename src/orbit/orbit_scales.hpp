@@ -26,7 +26,7 @@ public:
     /// What the free parameters do to the equations, in units of the states' scales.
     void note_effects(const Eigen::VectorXd& effects) { effects_ = effects; }
 
-    /// Scales at some unknowns: of starts, durations and parameters; 1 for inner unknowns.
+    /// Scales at some unknowns. Inner ones are states, one after the other.
     /// @param modes of the segments; @param flow with the parameters set; @param periods of cyclic states
     Eigen::VectorXd choose(const OrbitLayout& layout, const Eigen::VectorXd& unknowns,
                            std::span<const std::size_t> modes, ModeFlow& flow, std::span<const double> periods);

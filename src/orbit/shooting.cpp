@@ -68,6 +68,8 @@ bool Shooting::follow(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvalu
     const std::size_t segment = layout().segment_of(k) + 1;
     switch (run(flow(), mode_of(k), piece.end, unknowns[index(layout().duration_of(k))], piece.flow)) {
     case ModeFlow::Ending::done:
+        ends().field(segment - 1, piece.end, piece.field);
+        piece.by_time = piece.field;
         return true;
     case ModeFlow::Ending::singular:
         at.problem = fmt::format("the solution ceases to exist within segment {}", segment);

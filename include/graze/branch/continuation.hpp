@@ -16,6 +16,9 @@ public:
     virtual std::size_t unknowns() const = 0;
     /// Sizes by which unknowns are measured; constant between calls of `evaluate` that belong to one step.
     virtual std::span<const double> scales() const = 0;
+    /// How much unknowns count in lengths and angles: 0 for those that only repeat what others say. 1 for all, if
+    /// empty.
+    virtual std::span<const double> weights() const { return {}; }
     /// Evaluates F and its derivatives at u, which are kept for `solve`. @return false where F is not defined
     virtual bool evaluate(std::span<const double> u) = 0;
     /// Solves derivatives * step = -F (0 if homogeneous) together with row . step = right.

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "orbit/orbit_equations.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace graze {
+
+/// The equations of an orbit by collocation: on each of equal intervals of a segment the motion is a polynomial that
+/// satisfies the differential equations at Gauss's four points (C. de Boor and B. Swartz, "Collocation at Gaussian
+/// points", SIAM J. Numer. Anal. 10, 1973), where its values are inner unknowns. Errors at the ends of intervals fall
+/// with the eighth power of their lengths. A method that has nothing in common with Shooting but the ends of segments:
+/// what both find is right.
+///
+/// Inner unknowns are eliminated within their segment, as in AUTO (E. J. Doedel, H. B. Keller and J. P. Kernevez 1991).
+class Collocation : public OrbitEquations {
+public:
+    static constexpr std::size_t points = 4;
+
+    /// @param intervals of each segment; fixed, and equal
+    /// @throws InputError when the orbit does not fit the model, or there are no intervals
+    Collocation(const Simulation& simulation, const Orbit& orbit, std::vector<std::size_t> free, std::size_t intervals,
+                std::vector<double> ranges = {});
+
+private:
+    /// Of a mode: for each state its rate and the derivatives of that.
+    using Rates = std::vector<Function>;
+
+    bool follow(std::size_t piece, const Eigen::VectorXd& unknowns, OrbitEvaluation& at) override;
+    void set_inner(const Orbit& orbit, Eigen::VectorXd& unknowns) override;
+    void rates_at(const Rates& rates, const double* state, const OrbitEvaluation& at, Eigen::VectorXd& values,
+                  Eigen::MatrixXd& derivatives);
+
+    std::size_t intervals_;
+    std::vector<Rates> rates_; ///< of each segment
+    std::vector<double> inputs_, work_, values_;
+};
+
+} // namespace graze
