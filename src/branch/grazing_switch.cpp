@@ -1,9 +1,9 @@
 #include "branch/grazing_switch.hpp"
 
 #include "branch/inserted_contact.hpp"
+#include "branch/orbit_condition.hpp"
 #include "branch/orbit_problem.hpp"
 #include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/transform.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/close_at_section.hpp"
 #include "orbit/drift.hpp"
@@ -28,18 +28,6 @@ constexpr double speeds[] = {1e-3, 1e-4, 1e-2, 1e-5};
 /// Share of the period at whose end the touch comes again: what happens there is the new contact itself.
 constexpr double before_next_touch = 1e-4;
 constexpr int most_iterations = 20;
-
-/// Rate of an event's function along the flow of a mode.
-Expression rate_of(const System& system, std::size_t mode, std::size_t event) {
-    Model model = system.model();
-    const auto states = model.state_symbols();
-    const Expression function = model.expand(model.events[event].function);
-    const auto rates = model.expand(model.modes[mode].rates);
-    Expression rate = model.graph->number(0);
-    for (std::size_t i = 0; i < states.size(); ++i)
-        rate = rate + differentiate(function, states[i]) * rates[i];
-    return rate;
-}
 
 /// The touch: its state, and the event's function and rate there.
 class Touch {
@@ -127,30 +115,27 @@ double sum(const std::vector<double>& values) {
 
 /// Moves an orbit, with the parameter, to where the last segment's event is met at a given speed.
 /// @return direction of the branch there, towards higher speeds; empty when Newton's method fails
-OrbitDirection meet_at_speed(const Simulation& simulation, Orbit& orbit, const Expression& rate, double speed,
-                             const BranchSettings& settings) {
+OrbitDirection meet_at_speed(const Simulation& simulation, Orbit& orbit, double speed, const BranchSettings& settings) {
+    constexpr double far = 1e3; // in units of the scales: Newton's method has lost its way
     Shooting shooting(simulation, orbit, {settings.parameter});
-    const Function rate_function = shooting.system().with_gradient(rate);
-    Eigen::VectorXd unknowns = shooting.unknowns_of(orbit);
+    OrbitCondition condition = OrbitCondition::of_speed(shooting, orbit.segments() - 1, speed);
+    Eigen::VectorXd unknowns = shooting.unknowns_of(orbit), step;
     OrbitEvaluation at = shooting.evaluation();
-    const std::size_t last = shooting.layout().pieces() - 1;
+    const auto solve = [&](double right, bool homogeneous) {
+        return shooting.evaluate(unknowns, at) && condition.evaluate(shooting, at) &&
+               shooting.solve(at, condition.gradient(),
+                              Eigen::VectorXd::Constant(1, homogeneous ? right : -condition.value()), homogeneous,
+                              step);
+    };
     for (int i = 0; i < most_iterations; ++i) {
-        if (!shooting.evaluate(unknowns, at))
-            return {};
-        std::vector<double> inputs = at.pieces[last].end;
-        inputs.insert(inputs.end(), at.parameters.begin(), at.parameters.end());
-        const std::vector<double> values = rate_function(inputs);
-        const Eigen::RowVectorXd row = shooting.row_at_end(at, last, shooting.gradient_of(values));
-        Eigen::VectorXd step;
-        if (!shooting.solve(at, row, Eigen::VectorXd::Constant(1, -speed - values[0]), false, step))
+        if (!solve(0, false))
             return {};
         unknowns += step;
         const double size = step.cwiseQuotient(shooting.scales()).cwiseAbs().maxCoeff();
-        if (!(size < 1e3))
+        if (!(size < far))
             return {};
         if (size < settings.orbit.accuracy) {
-            if (!shooting.evaluate(unknowns, at) ||
-                !shooting.solve(at, row, Eigen::VectorXd::Constant(1, -1), true, step))
+            if (!solve(-1, true))
                 return {};
             orbit = shooting.orbit_of(unknowns);
             return shooting.direction_of(step);
@@ -198,7 +183,6 @@ BranchStart with_one_more_contact(const System& system, const SpecialPoint& poin
     Segment last{touch.mode(), SegmentEnd::event, transition_index};
     if (grazing.symmetry)
         last = image_of(system, *grazing.symmetry, last, grazing);
-    const Expression rate = rate_of(system, last.mode, model.transitions[last.index].event);
     std::string why = "Newton's method does not find it";
     for (const double share : speeds) {
         const double speed = share * touch.greatest_speed();
@@ -216,7 +200,7 @@ BranchStart with_one_more_contact(const System& system, const SpecialPoint& poin
             if (!orbit)
                 continue;
             join_drifts(simulation, *orbit);
-            const OrbitDirection direction = meet_at_speed(simulation, *orbit, rate, speed, settings);
+            const OrbitDirection direction = meet_at_speed(simulation, *orbit, speed, settings);
             if (!direction.is_empty() && is_admissible(simulation, *orbit, why))
                 return {*orbit, direction, 0, fmt::format("with one more contact at '{}'", name)};
         }

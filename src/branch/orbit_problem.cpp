@@ -46,7 +46,7 @@ OrbitProblem::OrbitProblem(const Simulation& simulation, const Orbit& orbit, con
         const Monitor& monitor = monitors->monitors()[m];
         if (monitor.fixed)
             held_.push_back(
-                {monitor.held.value(), std::make_unique<MonitorFunction>(*equations_, monitor, monitors->segment(m))});
+                OrbitCondition::of_monitor(*equations_, monitor, monitors->segment(m), monitor.held.value()));
     }
 }
 
@@ -81,14 +81,14 @@ bool OrbitProblem::evaluate_held() {
     rows_.resize(index(held_.size()), index(unknowns()));
     residuals_.resize(index(held_.size()));
     for (std::size_t h = 0; h < held_.size(); ++h) {
-        MonitorFunction& function = *held_[h].function;
-        if (!function.evaluate(*equations_, at_))
+        OrbitCondition& condition = held_[h];
+        if (!condition.evaluate(*equations_, at_))
             return false;
-        const double unit = function.gradient().transpose().cwiseProduct(at_.scales).norm();
+        const double unit = condition.gradient().transpose().cwiseProduct(at_.scales).norm();
         if (!std::isfinite(unit) || unit == 0)
             return false;
-        rows_.row(index(h)) = function.gradient() / unit;
-        residuals_[index(h)] = (function.value() - held_[h].value) / unit;
+        rows_.row(index(h)) = condition.gradient() / unit;
+        residuals_[index(h)] = condition.value() / unit;
     }
     return true;
 }

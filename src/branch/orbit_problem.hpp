@@ -1,6 +1,6 @@
 #pragma once
 
-#include "branch/monitor_function.hpp"
+#include "branch/orbit_condition.hpp"
 #include "graze/branch/continuation.hpp"
 #include "graze/branch/monitor.hpp"
 #include "graze/branch/orbit_branch.hpp"
@@ -75,18 +75,13 @@ public:
     }
 
 private:
-    /// A monitor that is held, and the value at which it is.
-    struct Held {
-        double value;
-        std::unique_ptr<MonitorFunction> function;
-    };
     bool evaluate_held();
 
     std::unique_ptr<OrbitEquations> equations_;
     OrbitEvaluation at_;
     std::vector<double> weights_;
-    std::vector<Held> held_;
-    Eigen::MatrixXd rows_;      ///< gradients of the monitors that are held
+    std::vector<OrbitCondition> held_;
+    Eigen::MatrixXd rows_;      ///< gradients of the conditions that are held
     Eigen::VectorXd residuals_; ///< how far they are off
     std::size_t accepted_ = 0;
 };

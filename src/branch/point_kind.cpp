@@ -160,6 +160,14 @@ int rank_of_grazing(const SpecialPoint& point) {
     return point.time > at_edge * duration && point.time < (1 - at_edge) * duration ? 0 : 2;
 }
 
+std::optional<OrbitCondition> condition_of_grazing(const OrbitEquations& equations, const OrbitEvaluation&,
+                                                   const SpecialPoint& point) {
+    if (point.at_end)
+        return OrbitCondition::of_speed(equations, point.segment, 0);
+    const double duration = point.solution.orbit.durations[point.segment];
+    return OrbitCondition::of_touch(equations, point.segment, point.event, point.time / duration);
+}
+
 std::vector<BranchStart> leave_grazing(const System& system, const SpecialPoint& point,
                                        const BranchSettings& settings) {
     return {point.at_end ? with_one_contact_fewer(system, point, settings)
@@ -179,6 +187,11 @@ void test_vanishing(const TestedPoint& point, Tests& tests) {
 bool confirm_vanishing(BranchState&, SpecialPoint& special, const BranchTest&) {
     special.detail = fmt::format("segment {}", special.segment + 1);
     return true;
+}
+
+std::optional<OrbitCondition> condition_of_vanishing(const OrbitEquations& equations, const OrbitEvaluation&,
+                                                     const SpecialPoint& point) {
+    return OrbitCondition::of_vanishing(equations, point.segment);
 }
 
 void test_two_events(const TestedPoint& point, Tests& tests) {
@@ -204,6 +217,11 @@ bool confirm_two_events(BranchState& state, SpecialPoint& special, const BranchT
     return true;
 }
 
+std::optional<OrbitCondition> condition_of_two_events(const OrbitEquations& equations, const OrbitEvaluation&,
+                                                      const SpecialPoint& point) {
+    return OrbitCondition::of_two_events(equations, point.segment, point.event);
+}
+
 void test_guard(const TestedPoint& point, Tests& tests) {
     for (std::size_t s = 0; s < point.equations.signature().size(); ++s) {
         const double margin = point.solution.certificate.guard_margins[s];
@@ -218,6 +236,11 @@ bool confirm_guard(BranchState& state, SpecialPoint& special, const BranchTest&)
     special.detail =
         fmt::format("after {}", end_name(state.model(), special.solution.orbit.signature[special.segment]));
     return true;
+}
+
+std::optional<OrbitCondition> condition_of_guard(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                 const SpecialPoint& point) {
+    return OrbitCondition::of_guard(equations, at, point.segment);
 }
 
 std::vector<BranchStart> leave_order(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
@@ -351,6 +374,7 @@ constexpr std::array table{
               .test = test_grazing,
               .confirm = confirm_grazing,
               .rank = rank_of_grazing,
+              .condition = condition_of_grazing,
               .leave = leave_grazing},
     PointRule{.kind = {.type = PointType::vanishing,
                        .short_name = "DZ",
@@ -362,6 +386,7 @@ constexpr std::array table{
               .test = test_vanishing,
               .confirm = confirm_vanishing,
               .rank = always<3>,
+              .condition = condition_of_vanishing,
               .leave = leave_order},
     PointRule{.kind = {.type = PointType::two_events,
                        .short_name = "EE",
@@ -373,6 +398,7 @@ constexpr std::array table{
               .test = test_two_events,
               .confirm = confirm_two_events,
               .rank = always<4>,
+              .condition = condition_of_two_events,
               .leave = leave_order},
     PointRule{.kind = {.type = PointType::guard,
                        .short_name = "GU",
@@ -384,6 +410,7 @@ constexpr std::array table{
               .test = test_guard,
               .confirm = confirm_guard,
               .rank = always<5>,
+              .condition = condition_of_guard,
               .leave = leave_order},
     PointRule{.kind = {.type = PointType::extremum,
                        .short_name = "EX",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "branch/orbit_condition.hpp"
 #include "graze/branch/orbit_branch.hpp"
 #include "graze/branch/switching.hpp"
 #include "orbit/orbit_equations.hpp"
@@ -49,6 +50,10 @@ struct PointRule {
     bool (*confirm)(BranchState& state, SpecialPoint& special, const BranchTest& test) = nullptr;
     /// Of several things at one place, the one that tells most has the lowest rank. Null: it excludes no other.
     int (*rank)(const SpecialPoint& point) = nullptr;
+    /// What is zero at it, as a condition that can be held: the same thing in the other role. Null: not known yet, as
+    /// for those that determinants find; none: not for this point.
+    std::optional<OrbitCondition> (*condition)(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                               const SpecialPoint& point) = nullptr;
     /// Where one can go on from it. Null: nowhere.
     std::vector<BranchStart> (*leave)(const System& system, const SpecialPoint& point,
                                       const BranchSettings& settings) = nullptr;

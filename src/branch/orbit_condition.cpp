@@ -1,0 +1,359 @@
+#include "branch/orbit_condition.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+#include "graze/symbolic/transform.hpp"
+#include "orbit/eigen_index.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+/// Nodes and weights of Gauss's rule with eight points on [0, 1].
+constexpr std::array<std::pair<double, double>, 8> gauss{{{0.019855071751231884, 0.05061426814518813},
+                                                          {0.10166676129318664, 0.11119051722668724},
+                                                          {0.2372337950418355, 0.15685332293894363},
+                                                          {0.4082826787521751, 0.1813418916891810},
+                                                          {0.5917173212478249, 0.1813418916891810},
+                                                          {0.7627662049581645, 0.15685332293894363},
+                                                          {0.8983332387068134, 0.11119051722668724},
+                                                          {0.9801449282487681, 0.05061426814518813}}};
+
+/// An expression after a map of the states: of the map's image.
+Expression composed(Model& model, const Expression& expression, const std::vector<Expression>& map) {
+    const auto states = model.state_symbols();
+    const auto images = model.expand(map);
+    std::vector<Replacement> replacements;
+    for (std::size_t i = 0; i < std::min(states.size(), images.size()); ++i)
+        replacements.emplace_back(states[i], images[i]);
+    return substitute(expression, replacements);
+}
+
+const Transition& transition_of(const OrbitEquations& equations, std::size_t segment) {
+    require_index(segment, equations.signature().size(), "segment");
+    if (equations.signature()[segment].end != SegmentEnd::event)
+        throw InputError(fmt::format("segment {} ends at a section", segment + 1), "choose one that an event ends");
+    return equations.model().transitions[equations.signature()[segment].index];
+}
+
+} // namespace
+
+Expression rate_of(const System& system, std::size_t mode, std::size_t event) {
+    Model model = system.model();
+    const auto states = model.state_symbols();
+    const Expression function = model.expand(model.events[event].function);
+    const auto rates = model.expand(model.modes[mode].rates);
+    Expression rate = model.graph->number(0);
+    for (std::size_t i = 0; i < states.size(); ++i)
+        rate = rate + differentiate(function, states[i]) * rates[i];
+    return rate;
+}
+
+OrbitCondition OrbitCondition::of_monitor(const OrbitEquations& equations, const Monitor& monitor,
+                                          std::optional<std::size_t> segment, double value) {
+    const auto quantity = [&] {
+        switch (monitor.kind) {
+        case Monitor::Kind::value:
+            return Quantity::end;
+        case Monitor::Kind::start:
+            return Quantity::start;
+        case Monitor::Kind::duration:
+            return Quantity::duration;
+        case Monitor::Kind::maximum:
+            return Quantity::maximum;
+        case Monitor::Kind::minimum:
+            return Quantity::minimum;
+        case Monitor::Kind::mean:
+            return Quantity::mean;
+        case Monitor::Kind::norm:
+            return Quantity::norm;
+        case Monitor::Kind::multiplier:
+            break;
+        }
+        throw InputError(fmt::format("monitor '{}' is a multiplier, which cannot be held", monitor.name),
+                         "report values of it, or give bounds at which the branch ends");
+    }();
+    return {equations, {quantity, monitor.expression, segment, value, 0}};
+}
+
+OrbitCondition OrbitCondition::of_speed(const OrbitEquations& equations, std::size_t segment, double speed) {
+    const Transition& transition = transition_of(equations, segment);
+    return {equations,
+            {Quantity::end, rate_of(equations.system(), transition.mode, transition.event), segment, -speed, 0}};
+}
+
+OrbitCondition OrbitCondition::of_touch(const OrbitEquations& equations, std::size_t segment, std::size_t event,
+                                        double share) {
+    require_index(segment, equations.signature().size(), "segment");
+    require_index(event, equations.model().events.size(), "event");
+    return {equations, {Quantity::touch, equations.model().events[event].function, segment, 0, share}};
+}
+
+OrbitCondition OrbitCondition::of_two_events(const OrbitEquations& equations, std::size_t segment, std::size_t event) {
+    require_index(segment, equations.signature().size(), "segment");
+    require_index(event, equations.model().events.size(), "event");
+    return {equations, {Quantity::end, equations.model().events[event].function, segment, 0, 0}};
+}
+
+OrbitCondition OrbitCondition::of_vanishing(const OrbitEquations& equations, std::size_t segment) {
+    require_index(segment, equations.signature().size(), "segment");
+    return {equations, {Quantity::duration, {}, segment, 0, 0}};
+}
+
+std::optional<OrbitCondition> OrbitCondition::of_guard(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                       std::size_t segment) {
+    const Transition& transition = transition_of(equations, segment);
+    Model model = equations.model();
+    std::vector<double> inputs = at.pieces[equations.layout().last_piece(segment)].end;
+    inputs.insert(inputs.end(), at.parameters.begin(), at.parameters.end());
+    std::optional<Expression> nearest;
+    double least = 0;
+    for (const Alternative& alternative : transition.next)
+        for (const auto& condition : alternative.when) {
+            // The guard sees the state after the jump.
+            const std::vector<Expression>& map = model.jumps[transition.jump].map;
+            const Expression own = model.expand(condition.function);
+            const Expression before = map.empty() ? own : composed(model, own, map);
+            const double value = std::abs(equations.system().function_of({&before, 1})(inputs)[0]);
+            if (nearest && !(value < least))
+                continue;
+            least = value;
+            nearest = before;
+        }
+    if (!nearest)
+        return std::nullopt;
+    return OrbitCondition(equations, {Quantity::end, *nearest, segment, 0, 0});
+}
+
+/// The quantity's expression and, for the second half of a symmetric orbit, the same of the image.
+std::vector<Expression> OrbitCondition::expressions_of(const OrbitEquations& equations,
+                                                       const Description& description) {
+    if (description.quantity == Quantity::duration)
+        return {};
+    Model model = equations.model();
+    const Expression& given = description.expression;
+    const Expression own = model.expand(description.quantity == Quantity::norm ? given * given : given);
+    std::vector<Expression> result{own};
+    if (!description.segment && equations.symmetry())
+        result.push_back(composed(model, own, model.symmetries[*equations.symmetry()].map));
+    return result;
+}
+
+OrbitCondition::OrbitCondition(const OrbitEquations& equations, const Description& description)
+    : quantity_(description.quantity), segment_(description.segment), target_(description.target),
+      share_(description.share),
+      simulation_(equations.system(), {}, expressions_of(equations, description), equations.simulation().options()),
+      flow_(flow_of(simulation_, equations.free())), roots_(simulation_.order()) {
+    for (const Expression& expression : expressions_of(equations, description))
+        watched_.push_back({simulation_.system().with_gradient(expression), watched_.size()});
+}
+
+bool OrbitCondition::evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    gradient_ = Eigen::RowVectorXd::Zero(at.unknowns.size());
+    flow_.set_parameters(at.parameters);
+    bool defined = false;
+    switch (quantity_) {
+    case Quantity::end:
+        defined = at_end(equations, at);
+        break;
+    case Quantity::start:
+        defined = at_start(equations, at);
+        break;
+    case Quantity::duration:
+        defined = duration(equations, at);
+        break;
+    case Quantity::maximum:
+    case Quantity::minimum:
+    case Quantity::touch:
+        defined = extremum(equations, at);
+        break;
+    case Quantity::mean:
+    case Quantity::norm:
+        defined = mean(equations, at);
+        break;
+    }
+    return defined && std::isfinite(value_) && gradient_.allFinite();
+}
+
+std::vector<std::size_t> OrbitCondition::pieces(const OrbitLayout& layout) const {
+    std::vector<std::size_t> result;
+    for (std::size_t s = 0; s < layout.segments(); ++s)
+        if (!segment_ || *segment_ == s)
+            for (std::size_t k = layout.first_piece(s); k <= layout.last_piece(s); ++k)
+                result.push_back(k);
+    return result;
+}
+
+/// With respect to states, then free parameters.
+Eigen::VectorXd OrbitCondition::gradient_at(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                            const Watched& watched, std::vector<double> state, double& value) const {
+    state.insert(state.end(), at.parameters.begin(), at.parameters.end());
+    const std::vector<double> all = watched.function(state);
+    value = all[0];
+    return equations.gradient_of(all);
+}
+
+bool OrbitCondition::at_end(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    const std::size_t piece = equations.layout().last_piece(segment_.value_or(0));
+    const Eigen::VectorXd by_all = gradient_at(equations, at, watched_[0], at.pieces[piece].end, value_);
+    gradient_ = equations.row_at_end(at, piece, by_all);
+    return true;
+}
+
+bool OrbitCondition::at_start(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    const auto n = index(equations.layout().states());
+    const Eigen::Index place = index(equations.layout().start_of(equations.layout().first_piece(segment_.value_or(0))));
+    const std::vector<double> state(at.unknowns.data() + place, at.unknowns.data() + place + n);
+    const Eigen::VectorXd by_all = gradient_at(equations, at, watched_[0], state, value_);
+    gradient_.segment(place, n) = by_all.head(n).transpose();
+    gradient_.tail(by_all.size() - n) = by_all.tail(by_all.size() - n).transpose();
+    return true;
+}
+
+bool OrbitCondition::duration(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    value_ = 0;
+    const double times = !segment_ && equations.symmetry() ? 2 : 1;
+    for (const std::size_t k : pieces(equations.layout())) {
+        value_ += times * at.unknowns[index(equations.layout().duration_of(k))];
+        gradient_[index(equations.layout().duration_of(k))] = times;
+    }
+    return true;
+}
+
+std::optional<OrbitCondition::Place> OrbitCondition::find_extremum(const OrbitEquations& equations,
+                                                                   const OrbitEvaluation& at) {
+    const bool touch = quantity_ == Quantity::touch;
+    const double sign = quantity_ == Quantity::maximum ? 1 : -1;
+    double whole = 0, before = 0; // durations: of all pieces, of those that have been looked at
+    for (const std::size_t k : pieces(equations.layout()))
+        whole += at.unknowns[index(equations.layout().duration_of(k))];
+    const std::size_t n = equations.layout().states();
+    std::optional<Place> best;
+    std::vector<double> coefficients, derivative;
+    std::vector<Root> found;
+    for (const std::size_t k : pieces(equations.layout())) {
+        const auto note = [&](std::size_t watched, double time, bool at_end, double value) {
+            // A touch is the one that is nearest in time.
+            const double preference = touch ? -std::abs((before + time) / whole - share_) : sign * value;
+            if (std::isfinite(preference) && (!best || preference > best->preference))
+                best = Place{watched, k, time, at_end, value, preference};
+        };
+        const double* start = at.unknowns.data() + equations.layout().start_of(k);
+        std::vector<double> state(start, start + n);
+        const std::size_t mode = equations.mode_of(k);
+        const std::size_t events = simulation_.system().mode(mode).watched.size();
+        const double duration = at.unknowns[index(equations.layout().duration_of(k))];
+        flow_.run(mode, state, duration, [&](const Jet& jet, double time, double length) {
+            for (const Watched& watched : watched_) {
+                const double* series = jet.output(events + watched.series);
+                coefficients.assign(series, series + simulation_.order() + 1);
+                derivative.clear();
+                for (std::size_t i = 1; i < coefficients.size(); ++i)
+                    derivative.push_back(static_cast<double>(i) * coefficients[i]);
+                if (!touch)
+                    note(watched.series, time, false, coefficients[0]);
+                if (length < 0)
+                    continue; // of a segment that has no meaning, the ends are enough
+                roots_.crossings(derivative, length, RootStart::as_is, found);
+                for (const Root& root : found)
+                    note(watched.series, time + root.at, false, evaluate_polynomial(coefficients, root.at));
+            }
+        });
+        if (!touch) // not by the last step's end, which round-off may put beside it
+            for (const Watched& watched : watched_) {
+                double value = 0;
+                gradient_at(equations, at, watched, state, value);
+                note(watched.series, duration, true, value);
+            }
+        before += duration;
+    }
+    return best;
+}
+
+bool OrbitCondition::extremum(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    const auto place = find_extremum(equations, at);
+    if (!place)
+        return false;
+    const auto n = index(equations.layout().states()), q = index(equations.free().size());
+    const Watched& watched = watched_[place->watched];
+    if (place->at_end) { // ends with its segment, however long that takes
+        const Eigen::VectorXd by_all = gradient_at(equations, at, watched, at.pieces[place->piece].end, value_);
+        gradient_ = equations.row_at_end(at, place->piece, by_all);
+        return true;
+    }
+    const double* start = at.unknowns.data() + equations.layout().start_of(place->piece);
+    std::vector<double> state(start, start + n);
+    Eigen::MatrixXd flow;
+    if (run(flow_, equations.mode_of(place->piece), state, place->time, flow) != ModeFlow::Ending::done)
+        return false;
+    const Eigen::VectorXd by_all = gradient_at(equations, at, watched, state, value_);
+    value_ = place->value;
+    const Eigen::RowVectorXd by_state = by_all.head(n).transpose();
+    gradient_.segment(index(equations.layout().start_of(place->piece)), n) = by_state * flow.leftCols(n);
+    gradient_.tail(q) = by_state * flow.rightCols(q) + by_all.tail(q).transpose();
+    return true;
+}
+
+/// Integrals of the function and of its changes, by Gauss's rule on each Taylor step.
+bool OrbitCondition::mean(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    const auto n = index(equations.layout().states()), q = index(equations.free().size());
+    double integral = 0, time = 0;
+    const double share = 1.0 / static_cast<double>(watched_.size());
+    for (const std::size_t k : pieces(equations.layout())) {
+        const double* start = at.unknowns.data() + equations.layout().start_of(k);
+        const std::size_t mode = equations.mode_of(k);
+        const double duration = at.unknowns[index(equations.layout().duration_of(k))];
+        std::vector<double> state(start, start + n);
+        std::vector<std::pair<double, double>> steps;
+        flow_.run(mode, state, duration,
+                  [&](const Jet&, double begin, double length) { steps.emplace_back(begin, length); });
+        state.assign(start, start + n);
+        double now = 0;
+        Eigen::MatrixXd flow = Eigen::MatrixXd::Identity(n, n + q), part;
+        for (const auto& [begin, length] : steps)
+            for (const auto& [node, weight] : gauss) {
+                const double next = begin + node * length;
+                if (run(flow_, mode, state, next - now, part) != ModeFlow::Ending::done)
+                    return false;
+                now = next;
+                flow = Eigen::MatrixXd(part.leftCols(n) * flow);
+                flow.rightCols(q) += part.rightCols(q);
+                for (const Watched& watched : watched_) {
+                    double value = 0;
+                    const Eigen::VectorXd by_all = gradient_at(equations, at, watched, state, value);
+                    const Eigen::RowVectorXd by_state = by_all.head(n).transpose();
+                    const double here = share * weight * length;
+                    integral += here * value;
+                    gradient_.segment(index(equations.layout().start_of(k)), n) += here * (by_state * flow.leftCols(n));
+                    gradient_.tail(q) += here * (by_state * flow.rightCols(q) + by_all.tail(q).transpose());
+                }
+            }
+        for (const Watched& watched : watched_) {
+            double value = 0;
+            gradient_at(equations, at, watched, at.pieces[k].end, value);
+            gradient_[index(equations.layout().duration_of(k))] += share * value;
+        }
+        time += duration;
+    }
+    if (time == 0)
+        return false;
+    value_ = integral / time;
+    for (const std::size_t k : pieces(equations.layout()))
+        gradient_[index(equations.layout().duration_of(k))] -= value_;
+    gradient_ /= time;
+    if (quantity_ == Quantity::norm) {
+        if (!(value_ > 0))
+            return false;
+        value_ = std::sqrt(value_);
+        gradient_ /= 2 * value_;
+    }
+    return true;
+}
+
+} // namespace graze
