@@ -26,12 +26,13 @@ void Ensemble::run(std::span<Trajectory> trajectories) {
     run(all, [](std::size_t) { return nullptr; });
 }
 
-void Ensemble::require_own(const Trajectory& trajectory) const {
+/// Notes that a trajectory is in a slot.
+void Ensemble::admit(const Trajectory& trajectory) {
     if (!(trajectory.simulation() == simulation_))
         throw std::invalid_argument("a trajectory of one simulation cannot run in an ensemble of another");
     if (!trajectory.is_started())
         throw std::logic_error("a trajectory has to be started before it can run");
-    if (std::count(slots_.begin(), slots_.end(), &trajectory) > 1)
+    if (!present_.insert(&trajectory).second)
         throw std::invalid_argument("a trajectory cannot run in two slots at once");
 }
 
@@ -39,21 +40,22 @@ void Ensemble::run(std::span<Trajectory* const> slots, const Again& again) {
     if (!again)
         throw std::invalid_argument("an ensemble has to be told what comes after a trajectory: give a function");
     slots_.assign(slots.begin(), slots.end());
+    present_.clear();
     for (const Trajectory* trajectory : slots_)
         if (trajectory)
-            require_own(*trajectory);
+            admit(*trajectory);
     for (auto& seated : seated_)
         std::fill(seated.begin(), seated.end(), nobody);
     // With several modes, more than one laneful is kept at hand so that lanes of the mode in turn can be filled.
     const std::size_t capacity = lanes_ * std::min<std::size_t>(seated_.size(), 4);
     std::size_t next = 0;
     waiting_.clear();
-    const auto admit = [&] {
+    const auto fill_up = [&] {
         for (; waiting_.size() < capacity && next < slots_.size(); ++next)
             if (slots_[next] && (!slots_[next]->finished() || refill(next, again)))
                 waiting_.push_back(next);
     };
-    admit();
+    fill_up();
     while (!waiting_.empty()) {
         if (waiting_.size() == 1) {
             graze::run(*slots_[waiting_.front()], single_);
@@ -64,17 +66,18 @@ void Ensemble::run(std::span<Trajectory* const> slots, const Again& again) {
             }
         }
         std::erase_if(waiting_, [&](std::size_t slot) { return slots_[slot]->finished() && !refill(slot, again); });
-        admit();
+        fill_up();
     }
 }
 
 /// Puts what comes next into a slot whose trajectory has finished. @return false if nothing does
 bool Ensemble::refill(std::size_t slot, const Again& again) {
     do {
+        present_.erase(slots_[slot]);
         slots_[slot] = again(slot);
         if (!slots_[slot])
             return false;
-        require_own(*slots_[slot]);
+        admit(*slots_[slot]);
         // Lanes that hold the parameters of what was here before hold those of nobody now.
         for (auto& seated : seated_)
             std::replace(seated.begin(), seated.end(), slot, nobody);

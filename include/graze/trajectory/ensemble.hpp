@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <unordered_set>
 #include <vector>
 
 namespace graze {
@@ -33,7 +34,7 @@ public:
     int lanes() const { return static_cast<int>(lanes_); }
 
 private:
-    void require_own(const Trajectory& trajectory) const;
+    void admit(const Trajectory& trajectory);
     bool refill(std::size_t slot, const Again& again);
     bool step_lanes(std::size_t mode);
     std::size_t fullest_mode();
@@ -45,10 +46,11 @@ private:
     JetSet jets_, single_;
     Outlook outlook_;
     std::vector<Trajectory*> slots_;
-    std::vector<std::size_t> waiting_;             ///< slots of unfinished trajectories
-    std::vector<std::size_t> seats_;               ///< slot in each lane
-    std::vector<std::vector<std::size_t>> seated_; ///< for each mode, whose parameters its jet's lanes have
-    std::vector<std::size_t> crowd_;               ///< waiting trajectories in each mode
+    std::unordered_set<const Trajectory*> present_; ///< what is in the slots
+    std::vector<std::size_t> waiting_;              ///< slots of unfinished trajectories
+    std::vector<std::size_t> seats_;                ///< slot in each lane
+    std::vector<std::vector<std::size_t>> seated_;  ///< for each mode, whose parameters its jet's lanes have
+    std::vector<std::size_t> crowd_;                ///< waiting trajectories in each mode
     std::vector<double> states_, parameters_;
 };
 
