@@ -133,8 +133,7 @@ void Trajectory::enter(std::size_t jump, std::size_t mode) {
         if (periods_[i] > 0 && after_[i] != before_[i])
             probes_->relocate(i, before_[i], after_[i]);
     state_ = after_;
-    mode_ = mode;
-    compiled_mode_ = &simulation_.system().mode(mode);
+    set_mode(mode);
     wrap_cyclic_states(true);
     arc_start_ = true;
     ++contacts_now_;

@@ -30,7 +30,6 @@ Trajectory::Trajectory(const Simulation& simulation, std::span<const double> par
       longest_allowed_(simulation.options().largest_step) {
     const System& compiled = simulation.system();
     require_size(parameters_.size(), compiled.parameters(), "independent parameters");
-    compiled_mode_ = &compiled.mode(mode_);
     std::size_t most_watched = 0;
     for (std::size_t m = 0; m < compiled.model().modes.size(); ++m)
         most_watched = std::max(most_watched, compiled.mode(m).watched.size());
@@ -83,9 +82,7 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
                          "give an end that is not before the start");
     std::copy(state.begin(), state.end(), state_.begin());
     wrap_cyclic_states(true);
-    mode_ = mode;
-    compiled_mode_ = &simulation_.system().mode(mode);
-    started_ = true;
+    set_mode(mode);
     series_ = {};
     outcome_ = {};
     steps_ = 0;
@@ -113,8 +110,13 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
 }
 
 void Trajectory::require_started() const {
-    if (!started_)
+    if (!is_started())
         throw std::logic_error("a trajectory has no state before it is started: call start first");
+}
+
+void Trajectory::set_mode(std::size_t mode) {
+    mode_ = mode;
+    compiled_mode_ = &simulation_.system().mode(mode);
 }
 
 void Trajectory::limit_step(double longest) {

@@ -60,7 +60,7 @@ public:
     /// @throws InputError when there is no such state or direction
     double derivative(std::size_t state, std::size_t direction) const;
 
-    bool is_started() const { return started_; }
+    bool is_started() const { return compiled_mode_ != nullptr; }
     bool finished() const { return outcome_.ending != Ending::running; }
     const Outcome& outcome() const { return outcome_; }
     double time() const { return time_; }
@@ -124,6 +124,7 @@ private:
     };
     static constexpr std::size_t no_event = static_cast<std::size_t>(-1);
     void require_started() const;
+    void set_mode(std::size_t mode);
 
     // One step (trajectory.cpp)
     void find_series(const Jet& jet, std::size_t lane);
@@ -199,9 +200,8 @@ private:
     }
 
     Simulation simulation_;
-    const System::CompiledMode* compiled_mode_ = nullptr; ///< of mode_
+    const System::CompiledMode* compiled_mode_ = nullptr; ///< of mode_; null before the start
     Observer* observer_;
-    bool started_ = false;
     std::vector<double> parameters_;
     StepSize step_size_;
     StepCheck step_check_;
