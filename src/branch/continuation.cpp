@@ -234,17 +234,16 @@ bool Continuation::start_along(std::span<const double> u, std::span<const double
     return find_tangent(point, row) && begin(std::move(point));
 }
 
-void Continuation::require_point(std::span<const double> u) {
-    started_ = true;
+void Continuation::require_point(std::span<const double> u) const {
     require_size(u.size(), problem_->unknowns(), "unknowns");
     require_finite(u, "an unknown");
 }
 
 bool Continuation::step() {
-    if (!started_)
-        throw std::logic_error("a continuation has no point to step from before it is started");
     if (outcome_ != ContinuationOutcome::going)
         return false;
+    if (point_.u.empty())
+        throw std::logic_error("a continuation has no point to step from before it is started");
     double length = std::clamp(next_step_, options_.smallest_step, options_.largest_step);
     bool undefined = false;
     problem_->accept(point_.u);

@@ -102,6 +102,7 @@ public:
     bool start_at(std::span<const double> u, std::span<const double> row);
 
     /// Makes the next point. @return false when there is none; `outcome` says why
+    /// @throws std::logic_error before anything has been started
     bool step();
     const ContinuationPoint& point() const { return point_; }
     const ContinuationPoint& previous() const { return previous_; }
@@ -116,7 +117,7 @@ public:
     bool between(double fraction, ContinuationPoint& result);
 
 private:
-    void require_point(std::span<const double> u);
+    void require_point(std::span<const double> u) const;
     double product(std::span<const double> a, std::span<const double> b) const;
     bool correct(std::vector<double>& u, std::span<const double> row, double allowed, std::size_t& iterations);
     bool find_tangent(ContinuationPoint& point, std::span<const double> row);
@@ -133,7 +134,6 @@ private:
     ContinuationOutcome outcome_ = ContinuationOutcome::going;
     double next_step_;
     std::size_t steps_ = 0;
-    bool started_ = false;
     std::vector<double> row_, step_, trial_;
 };
 
