@@ -204,11 +204,11 @@ std::vector<Settings> samplings_of(const StudyRun& run) {
 
 std::vector<Settings> bounds_of(const StudyRun& run) {
     std::vector<Settings> bounds;
-    for (const auto& [state, range] : run.attractor.bounds)
+    for (const StateBounds& one : run.attractor.bounds)
         bounds.push_back(Settings()
-                             .add("state", run.model.states[state].name)
-                             .add("least", range.first)
-                             .add("greatest", range.second));
+                             .add("state", run.model.states[one.state].name)
+                             .add("least", one.least)
+                             .add("greatest", one.greatest));
     return bounds;
 }
 

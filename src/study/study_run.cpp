@@ -159,7 +159,8 @@ void read_bounds(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
         if (!state)
             throw InputError(item.place, fmt::format("the model has no state '{}'", item.name),
                              "give bounds of states: { q = [-1, 1] }");
-        run.attractor.bounds.emplace_back(*state, reader.range(run.model, item));
+        const auto [least, greatest] = reader.range(run.model, item);
+        run.attractor.bounds.push_back({*state, least, greatest});
     }
     run.transient.bounds = run.attractor.bounds;
 }

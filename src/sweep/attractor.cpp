@@ -1,5 +1,8 @@
 #include "graze/sweep/attractor.hpp"
 
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+
 namespace graze {
 
 std::string_view name_of(Label label) {
@@ -28,6 +31,14 @@ std::string_view name_of(Label label) {
         return "failed";
     }
     return "unsettled";
+}
+
+void validate_bounds(const Model& model, std::span<const StateBounds> bounds) {
+    for (const StateBounds& bound : bounds) {
+        require_index(bound.state, model.states.size(), "state");
+        if (!(bound.least < bound.greatest))
+            throw InputError("bounds of a state are not in order", "give the least value, then the greatest");
+    }
 }
 
 } // namespace graze

@@ -40,9 +40,7 @@ void AttractorOptions::validate(const Model& model) const {
         refuse(fmt::format("a disturbance of {} is out of range", disturbance), "give 0 to 0.1");
     if (!(longest_return >= 0))
         refuse("the longest time of a return is negative", "give a positive time, or 0 for no bound");
-    for (const auto& [state, range] : bounds)
-        if (state >= model.states.size() || !(range.first < range.second))
-            refuse("bounds of a state are not in order", "give the least value, then the greatest");
+    validate_bounds(model, bounds);
 }
 
 AttractorSetting::AttractorSetting(const System& system, const AttractorOptions& given,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace graze {
 
@@ -21,8 +22,7 @@ constexpr std::size_t first_look = 64;      ///< steps without a return after wh
 
 } // namespace
 
-ReturnWatcher::ReturnWatcher(const SectionMap& map, std::size_t kept,
-                             std::vector<std::pair<std::size_t, std::pair<double, double>>> bounds)
+ReturnWatcher::ReturnWatcher(const SectionMap& map, std::size_t kept, std::vector<StateBounds> bounds)
     : map_(&map), bounds_(std::move(bounds)), scale_(map.states(), 1), difference_(map.states()), least_(map.states()),
       greatest_(map.states()), widest_(map.states()), ring_(kept) {}
 
@@ -53,8 +53,8 @@ void ReturnWatcher::start_leg(double time, double shortest) {
 }
 
 void ReturnWatcher::check_bounds(std::span<const double> state) {
-    for (const auto& [index, range] : bounds_)
-        escaped_ = escaped_ || !(state[index] >= range.first && state[index] <= range.second);
+    for (const StateBounds& bounds : bounds_)
+        escaped_ = escaped_ || !bounds.contain(state[bounds.state]);
     stop_ = stop_ || escaped_;
 }
 
@@ -64,10 +64,8 @@ void ReturnWatcher::step(const Step& step) {
         least_[i] = std::min(least_[i], value);
         greatest_[i] = std::max(greatest_[i], value);
     }
-    for (const auto& [index, range] : bounds_) {
-        const double value = step.state(index, step.length);
-        escaped_ = escaped_ || !(value >= range.first && value <= range.second);
-    }
+    for (const StateBounds& bounds : bounds_)
+        escaped_ = escaped_ || !bounds.contain(step.state(bounds.state, step.length));
     stuck_ = ++steps_ > most_steps && !any_steps_;
     looking_ = rest_ && steps_ >= next_look_;
     if (looking_) {

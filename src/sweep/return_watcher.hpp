@@ -5,6 +5,7 @@
 #include "sweep/sample_recorder.hpp"
 #include "sweep/section_map.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -24,8 +25,7 @@ struct Return {
 class ReturnWatcher : public Observer {
 public:
     /// @param kept how many of the last returns are remembered; @param bounds of states, may be empty
-    ReturnWatcher(const SectionMap& map, std::size_t kept,
-                  std::vector<std::pair<std::size_t, std::pair<double, double>>> bounds);
+    ReturnWatcher(const SectionMap& map, std::size_t kept, std::vector<StateBounds> bounds);
 
     /// @param recorder also sees what happens; may be null
     void begin(std::span<const double> parameters, std::span<const double> periods, SampleRecorder* recorder);
@@ -79,7 +79,7 @@ private:
     void check_bounds(std::span<const double> state);
 
     const SectionMap* map_;
-    std::vector<std::pair<std::size_t, std::pair<double, double>>> bounds_;
+    std::vector<StateBounds> bounds_;
     SectionMap::Workspace workspace_;
     SampleRecorder* recorder_ = nullptr;
     std::vector<double> periods_, scale_, difference_, least_, greatest_, widest_, early_, lowest_, highest_;

@@ -1,11 +1,11 @@
 #include "sweep/transient_search.hpp"
+
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
 
 #include <fmt/format.h>
 
 #include <limits>
-
 #include <utility>
 
 namespace graze {
@@ -37,11 +37,7 @@ void TransientOptions::validate(const Model& model) const {
         section_probe(model, section);
     for (const std::size_t event : counted)
         require_index(event, model.events.size(), "event that is counted");
-    for (const auto& [state, range] : bounds) {
-        require_index(state, model.states.size(), "state");
-        if (!(range.first < range.second))
-            refuse("bounds of a state are not in order", "give the least value, then the greatest");
-    }
+    validate_bounds(model, bounds);
     if (!(greatest_speed >= 0))
         refuse("the greatest speed is negative", "give 0 for any, or a positive one");
     if (!(time > 0) && periods == 0 && contacts == 0 && !(greatest_speed > 0))
@@ -82,10 +78,8 @@ double TransientSearch::end_of(double time) const {
 }
 
 void TransientSearch::step(const Step& step) {
-    for (const auto& [index, range] : setting_->options.bounds) {
-        const double value = step.state(index, step.length);
-        escaped_ = escaped_ || !(value >= range.first && value <= range.second);
-    }
+    for (const StateBounds& bounds : setting_->options.bounds)
+        escaped_ = escaped_ || !bounds.contain(step.state(bounds.state, step.length));
     stop_ = stop_ || escaped_;
 }
 

@@ -1,8 +1,11 @@
 #pragma once
 
 #include "graze/sweep/point_search.hpp"
+#include "graze/trajectory/observer.hpp"
 #include "sweep/sample_recorder.hpp"
 
+#include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>

@@ -47,9 +47,9 @@ void attractor_options(WrongUses& wrong) {
         option("longest_return_" + kind, [value = value](AttractorOptions& o) { o.longest_return = value; });
     }
     for (const auto& [kind, index] : wrong_indices(3))
-        option("bounds_state_" + kind, [i = index](AttractorOptions& o) { o.bounds = {{i, {0, 1}}}; });
-    option("bounds_reversed", [](AttractorOptions& o) { o.bounds = {{0, {1, 0}}}; });
-    option("bounds_nan", [](AttractorOptions& o) { o.bounds = {{0, {not_a_number, 1}}}; });
+        option("bounds_state_" + kind, [i = index](AttractorOptions& o) { o.bounds = {{i, 0, 1}}; });
+    option("bounds_reversed", [](AttractorOptions& o) { o.bounds = {{0, 1, 0}}; });
+    option("bounds_nan", [](AttractorOptions& o) { o.bounds = {{0, not_a_number, 1}}; });
 }
 
 void transient_options(WrongUses& wrong) {
@@ -80,9 +80,9 @@ void transient_options(WrongUses& wrong) {
         option("greatest_speed_" + kind, [value = value](TransientOptions& o) { o.greatest_speed = value; });
     }
     for (const auto& [kind, index] : wrong_indices(3))
-        option("bounds_state_" + kind, [i = index](TransientOptions& o) { o.bounds = {{i, {0, 1}}}; });
-    option("bounds_reversed", [](TransientOptions& o) { o.bounds = {{0, {1, 0}}}; });
-    option("bounds_nan", [](TransientOptions& o) { o.bounds = {{0, {not_a_number, 1}}}; });
+        option("bounds_state_" + kind, [i = index](TransientOptions& o) { o.bounds = {{i, 0, 1}}; });
+    option("bounds_reversed", [](TransientOptions& o) { o.bounds = {{0, 1, 0}}; });
+    option("bounds_nan", [](TransientOptions& o) { o.bounds = {{0, not_a_number, 1}}; });
 }
 
 void samplings(WrongUses& wrong) {

@@ -6,9 +6,9 @@
 #include <complex>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace graze {
@@ -30,6 +30,16 @@ enum class Label {
 /// Stable name for tables and files, such as "quasi-periodic".
 std::string_view name_of(Label label);
 
+/// Values of a state beyond which a motion has escaped.
+struct StateBounds {
+    std::size_t state = 0;
+    double least = 0, greatest = 0;
+    /// NaN is beyond.
+    bool contain(double value) const { return value >= least && value <= greatest; }
+};
+/// @throws InputError for a state that the model does not have, and bounds that are not in order
+void validate_bounds(const Model& model, std::span<const StateBounds> bounds);
+
 /// How attractors are looked for. Returns are passages of `section`.
 struct AttractorOptions {
     std::string section;            ///< of the model
@@ -43,8 +53,7 @@ struct AttractorOptions {
     double disturbance = 1e-6;
     std::size_t lyapunov_cycles = 60; ///< the last of `cycles`, over which the exponent is averaged; 0: none
     double longest_return = 0;        ///< time without a return after which a point is given up as unsettled; 0: none
-    /// Bounds of states: (state, (least, greatest)); leaving them is an escape.
-    std::vector<std::pair<std::size_t, std::pair<double, double>>> bounds;
+    std::vector<StateBounds> bounds;  ///< leaving them is an escape
     /// @throws InputError naming the option that is out of range
     void validate(const Model& model) const;
 };
@@ -56,8 +65,8 @@ struct TransientOptions {
     std::size_t skip_periods = 0, periods = 0;
     std::size_t contacts = 0; ///< contacts at the events `counted`
     std::vector<std::size_t> counted;
-    std::vector<std::pair<std::size_t, std::pair<double, double>>> bounds;
-    double greatest_speed = 0; ///< of approach at a counted contact, after which the simulation ends; 0: any
+    std::vector<StateBounds> bounds; ///< leaving them ends it
+    double greatest_speed = 0;       ///< of approach at a counted contact, after which the simulation ends; 0: any
     /// @throws InputError naming the option that is out of range, or that the simulation need not end
     void validate(const Model& model) const;
 };
