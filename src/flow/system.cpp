@@ -11,9 +11,8 @@ namespace graze {
 class SystemCompiler {
 public:
     explicit SystemCompiler(const Model& model)
-        : model_(model), states_(model_.state_symbols()), parameters_(model_.parameter_symbols()), inputs_(states_) {
-        inputs_.insert(inputs_.end(), parameters_.begin(), parameters_.end());
-    }
+        : model_(model), states_(model_.state_symbols()), parameters_(model_.parameter_symbols()),
+          inputs_(model_.inputs()) {}
 
     void compile(System::Parts& parts) {
         compile_maps(parts);
@@ -77,30 +76,30 @@ System::System(const Model& model) {
     parts_ = std::move(parts);
 }
 
-System System::observing(std::span<const Expression> expressions) const {
+/// The same system with these modes, whose tapes are compiled anew.
+System System::with_tapes(std::vector<CompiledMode> modes, std::span<const Expression> observed) const {
     System result = *this;
     SystemCompiler compiler(model());
-    auto modes = *modes_;
-    compiler.observe(modes, expressions);
+    compiler.observe(modes, observed);
     result.modes_ = std::make_shared<const std::vector<CompiledMode>>(std::move(modes));
-    result.observed_ = expressions.size();
+    result.observed_ = observed.size();
     result.workspace_ = std::max(workspace_, compiler.workspace());
     return result;
 }
 
+System System::observing(std::span<const Expression> expressions) const {
+    return with_tapes(*modes_, expressions);
+}
+
 System System::without_events() const {
-    System result = *this;
-    SystemCompiler compiler(model());
     auto modes = *modes_;
+    const Function nothing = function_of({});
     for (CompiledMode& mode : modes) {
         mode.watched.clear();
         mode.transitions.clear();
-        mode.events = mode.event_gradients = compiler.function_of({});
+        mode.events = mode.event_gradients = nothing;
     }
-    compiler.observe(modes, {});
-    result.modes_ = std::make_shared<const std::vector<CompiledMode>>(std::move(modes));
-    result.observed_ = 0;
-    return result;
+    return with_tapes(std::move(modes), {});
 }
 
 Function System::function_of(std::span<const Expression> expressions) const {
@@ -108,7 +107,7 @@ Function System::function_of(std::span<const Expression> expressions) const {
 }
 
 Function System::function_of_parameters(std::span<const Expression> expressions) const {
-    return SystemCompiler(model()).function_of_parameters(expressions);
+    return model().function_of_parameters(expressions);
 }
 
 Function System::with_gradient(const Expression& expression) const {

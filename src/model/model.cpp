@@ -1,7 +1,7 @@
 #include "graze/model/model.hpp"
 
 #include "graze/symbolic/input_error.hpp"
-#include "graze/symbolic/parser.hpp"
+#include "graze/symbolic/require.hpp"
 #include "model/model_expand.hpp"
 #include "model/model_expressions.hpp"
 #include "model/model_validate.hpp"
@@ -32,12 +32,6 @@ std::size_t require_named(const std::vector<Item>& items, std::string_view name,
     for (const Item& item : items)
         names.push_back(item.name);
     throw InputError(fmt::format("there is no {} '{}'", kind, name), name_remedy(name, names));
-}
-
-void require_finite_number(double value, std::string_view what) {
-    if (!std::isfinite(value))
-        throw InputError(fmt::format("the value of {} must be a finite number, not {}", what, value),
-                         "give a finite number");
 }
 
 } // namespace
@@ -159,13 +153,13 @@ void Model::set_parameter(std::string_view item, double value) {
     if (parameter.expression)
         throw InputError(fmt::format("the parameter '{}' follows from others and cannot be set", item),
                          "set the parameters that it depends on");
-    require_finite_number(value, fmt::format("parameter '{}'", item));
+    require_finite(value, fmt::format("the value of parameter '{}'", item));
     parameter.value = value;
 }
 
 void Model::set_initial(std::string_view item, double value) {
     State& state = states[require_named(states, item, "state")];
-    require_finite_number(value, fmt::format("state '{}'", item));
+    require_finite(value, fmt::format("the value of state '{}'", item));
     state.initial = graph->number(value);
 }
 

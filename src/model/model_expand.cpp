@@ -175,11 +175,24 @@ std::vector<Expression> Model::expand(std::span<const Expression> given) {
     return replace(expressions);
 }
 
-Function Model::function_of(std::span<const Expression> expressions) const {
-    Model scratch = *this;
-    const std::vector<Expression> inputs = scratch.inputs(), outputs = scratch.expand(expressions);
-    scratch.require_known(inputs, outputs);
+namespace {
+
+/// Compiled in a copy of the model, since to expand them makes its graph grow.
+Function compiled(Model model, std::vector<Expression> (Model::*inputs_of)() const,
+                  std::span<const Expression> expressions) {
+    const std::vector<Expression> inputs = (model.*inputs_of)(), outputs = model.expand(expressions);
+    model.require_known(inputs, outputs);
     return {inputs, outputs};
+}
+
+} // namespace
+
+Function Model::function_of(std::span<const Expression> expressions) const {
+    return compiled(*this, &Model::inputs, expressions);
+}
+
+Function Model::function_of_parameters(std::span<const Expression> expressions) const {
+    return compiled(*this, &Model::parameter_symbols, expressions);
 }
 
 void Model::require_known(std::span<const Expression> inputs, std::span<const Expression> expressions) const {
@@ -195,10 +208,7 @@ void Model::require_known(std::span<const Expression> inputs, std::span<const Ex
 }
 
 std::vector<double> Model::values_of(std::span<const Expression> expressions) const {
-    Model scratch = *this;
-    const std::vector<Expression> inputs = scratch.parameter_symbols(), outputs = scratch.expand(expressions);
-    scratch.require_known(inputs, outputs);
-    return Function(inputs, outputs)(scratch.parameter_values());
+    return function_of_parameters(expressions)(parameter_values());
 }
 
 } // namespace graze

@@ -106,6 +106,7 @@ private:
         require_index(index, items.size(), what);
         return items[index];
     }
+    System with_tapes(std::vector<CompiledMode> modes, std::span<const Expression> observed) const;
     struct Parts {
         Model model;
         std::size_t states = 0, parameters = 0;

@@ -178,6 +178,8 @@ struct Model : ModelItems {
     /// Expressions in the model's symbols, of any graph, as functions of states and independent parameters.
     /// @throws InputError for a symbol that the model does not have
     Function function_of(std::span<const Expression> expressions) const;
+    /// The same of expressions in parameters, as functions of the independent ones.
+    Function function_of_parameters(std::span<const Expression> expressions) const;
     /// Values of expressions in parameters at the present ones; not finite where an operation is outside its domain.
     std::vector<double> values_of(std::span<const Expression> expressions) const;
     /// Periods of the states at the present parameters, 0 for those that are not cyclic.
