@@ -29,7 +29,7 @@ void require_tolerance(double tolerance) {
 void require_order(int order) {
     if (order < 4 || order > highest_order)
         throw InputError(fmt::format("the order {} is out of range", order),
-                         fmt::format("choose 4 to {}, or 0 where the tolerance may decide", highest_order));
+                         fmt::format("choose 4 to {}, or 0 to let the tolerance decide", highest_order));
 }
 
 int order_for_tolerance(double tolerance) {

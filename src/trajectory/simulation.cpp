@@ -14,9 +14,8 @@ void SimulationOptions::validate() const {
     if (!(tolerance >= smallest_tolerance && tolerance <= largest_tolerance))
         throw InputError(fmt::format("the tolerance {} is out of range", tolerance),
                          fmt::format("choose one from {} to {}", smallest_tolerance, largest_tolerance));
-    if (order != 0 && (order < 4 || order > highest_order))
-        throw InputError(fmt::format("the order {} is out of range", order),
-                         fmt::format("choose 4 to {}, or 0 to let the tolerance decide", highest_order));
+    if (order != 0)
+        require_order(order);
     if (!(largest_step >= 0))
         throw InputError(fmt::format("the largest step {} is not a positive time", largest_step),
                          "give a positive time, or 0 for no bound");
