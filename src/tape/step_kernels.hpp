@@ -142,23 +142,31 @@ GRAZE_INLINE Packs<n> first_terms_or(Packs<n> size, Otherwise&& otherwise) {
     return where_zero(size, otherwise(), size);
 }
 
+/// Of two numbers in each lane.
+template <class L>
+GRAZE_INLINE void logarithms(L a, L b, L& of_a, L& of_b) {
+    of_a = logarithm(a);
+    of_b = logarithm(b);
+}
+/// One lane has room for both in a register.
+GRAZE_INLINE void logarithms(double a, double b, double& of_a, double& of_b) {
+    Packs<1> both = number<Packs<1>>(1);
+    both.part[0][0] = a;
+    both.part[0][1] = b;
+    const Pack result = logarithm(both).part[0];
+    of_a = result[0];
+    of_b = result[1];
+}
+
 /// Logarithm of the step at which the last two terms are as large as allowed, from their largest shares: the least of
 /// both.
 template <class L>
 GRAZE_INLINE L logarithm_of_step(L high, L low, double log_tolerance, int order) {
-    const L at_last = (number<L>(log_tolerance) - logarithm(high)) * (1.0 / order);
-    const L at_before = (number<L>(log_tolerance) - logarithm(low)) * (1.0 / (order - 1));
+    L log_high, log_low;
+    logarithms(high, low, log_high, log_low);
+    const L at_last = (number<L>(log_tolerance) - log_high) * (1.0 / order);
+    const L at_before = (number<L>(log_tolerance) - log_low) * (1.0 / (order - 1));
     return lesser(where_zero(high, number<L>(1000), at_last), where_zero(low, number<L>(1000), at_before));
-}
-/// One lane has room for both logarithms in a register.
-GRAZE_INLINE double logarithm_of_step(double high, double low, double log_tolerance, int order) {
-    Packs<1> both = number<Packs<1>>(1);
-    both.part[0][0] = high;
-    both.part[0][1] = low;
-    const Pack logarithms = logarithm(both).part[0];
-    const double at_last = (log_tolerance - logarithms[0]) * (1.0 / order);
-    const double at_before = (log_tolerance - logarithms[1]) * (1.0 / (order - 1));
-    return lesser(where_zero(high, 1000.0, at_last), where_zero(low, 1000.0, at_before));
 }
 
 /// The largest step at which the last two terms of every series, relative to its size, are at most 2^log_tolerance, and
