@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/symbolic/expression.hpp"
+#include "symbolic/function_table.hpp"
 
 #include <cmath>
 #include <limits>
@@ -26,32 +27,31 @@ inline double evaluate_operation(Operation operation, double left, double right)
         return std::pow(left, right);
     case Operation::negate:
         return -left;
-    case Operation::sqrt:
-        return std::sqrt(left);
-    case Operation::exp:
-        return std::exp(left);
-    case Operation::log:
-        return std::log(left);
-    case Operation::sin:
-        return std::sin(left);
-    case Operation::cos:
-        return std::cos(left);
-    case Operation::tan:
-        return std::tan(left);
-    case Operation::asin:
-        return std::asin(left);
-    case Operation::acos:
-        return std::acos(left);
-    case Operation::atan:
-        return std::atan(left);
-    case Operation::sinh:
-        return std::sinh(left);
-    case Operation::cosh:
-        return std::cosh(left);
-    case Operation::tanh:
-        return std::tanh(left);
+#define GRAZE_ROW(name, recurrence, slope)                                                                             \
+    case Operation::name:                                                                                              \
+        return std::name(left);
+        GRAZE_FUNCTIONS(GRAZE_ROW)
+#undef GRAZE_ROW
     }
     return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Derivative of a function at a, where its value is y.
+inline double function_slope(Operation function, double a, double y) {
+#define GRAZE_ROW(name, recurrence, slope) using std::name;
+    GRAZE_FUNCTIONS(GRAZE_ROW) // not those of expressions
+#undef GRAZE_ROW
+    const auto square = [](double x) { return x * x; };
+    const auto one_minus_square = [](double x) { return (1 - x) * (1 + x); };
+    switch (function) {
+#define GRAZE_ROW(name, recurrence, slope)                                                                             \
+    case Operation::name:                                                                                              \
+        return slope;
+        GRAZE_FUNCTIONS(GRAZE_ROW)
+#undef GRAZE_ROW
+    default:
+        return std::numeric_limits<double>::quiet_NaN();
+    }
 }
 
 } // namespace graze

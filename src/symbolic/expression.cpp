@@ -1,5 +1,6 @@
 #include "graze/symbolic/expression.hpp"
 
+#include "symbolic/function_table.hpp"
 #include "symbolic/simplify.hpp"
 #include "symbolic/subgraph.hpp"
 
@@ -24,6 +25,18 @@ Expression apply(Operation operation, const Expression& left, const Expression& 
     return left.graph()->apply(operation, left, right);
 }
 
+#define GRAZE_ROW(name, recurrence, slope) Operation::name,
+constexpr Operation listed[] = {GRAZE_FUNCTIONS(GRAZE_ROW)};
+#undef GRAZE_ROW
+
+constexpr bool is_complete() {
+    for (int i = 0; i < function_count; ++i)
+        if (static_cast<int>(listed[i]) != static_cast<int>(first_function) + i)
+            return false;
+    return true;
+}
+static_assert(is_complete(), "the table of functions has another order than Operation");
+
 Expression number_beside(const Expression& expression, double value) {
     if (expression.empty())
         throw std::invalid_argument("an operand is an empty expression");
@@ -46,7 +59,7 @@ int arity(Operation operation) {
     default:
         break;
     }
-    if (operation > Operation::tanh)
+    if (operation > last_function)
         throw std::invalid_argument("there is no such operation");
     return 1;
 }
@@ -218,41 +231,11 @@ Expression pow(const Expression& a, const Expression& b) {
 Expression pow(const Expression& a, double b) {
     return pow(a, number_beside(a, b));
 }
-Expression sqrt(const Expression& a) {
-    return apply(Operation::sqrt, a);
-}
-Expression exp(const Expression& a) {
-    return apply(Operation::exp, a);
-}
-Expression log(const Expression& a) {
-    return apply(Operation::log, a);
-}
-Expression sin(const Expression& a) {
-    return apply(Operation::sin, a);
-}
-Expression cos(const Expression& a) {
-    return apply(Operation::cos, a);
-}
-Expression tan(const Expression& a) {
-    return apply(Operation::tan, a);
-}
-Expression asin(const Expression& a) {
-    return apply(Operation::asin, a);
-}
-Expression acos(const Expression& a) {
-    return apply(Operation::acos, a);
-}
-Expression atan(const Expression& a) {
-    return apply(Operation::atan, a);
-}
-Expression sinh(const Expression& a) {
-    return apply(Operation::sinh, a);
-}
-Expression cosh(const Expression& a) {
-    return apply(Operation::cosh, a);
-}
-Expression tanh(const Expression& a) {
-    return apply(Operation::tanh, a);
-}
+#define GRAZE_ROW(name, recurrence, slope)                                                                             \
+    Expression name(const Expression& a) {                                                                             \
+        return apply(Operation::name, a);                                                                              \
+    }
+GRAZE_FUNCTIONS(GRAZE_ROW)
+#undef GRAZE_ROW
 
 } // namespace graze

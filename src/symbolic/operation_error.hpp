@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/symbolic/expression.hpp"
+#include "symbolic/evaluate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -59,8 +59,9 @@ inline double operation_error(Operation operation, double value, double left, do
         return std::sqrt(std::max(0.0, value * value - 1)) * left_error + left_error * left_error + rounding;
     case Operation::tanh:
         return std::max(0.0, 1 - value * value) * left_error + left_error * left_error + rounding;
+    default: // the square, where the slope is zero
+        return std::abs(function_slope(operation, left, value)) * left_error + left_error * left_error + rounding;
     }
-    return 0;
 }
 
 } // namespace graze

@@ -1,5 +1,6 @@
 #include "graze/symbolic/transform.hpp"
 
+#include "symbolic/function_table.hpp"
 #include "symbolic/subgraph.hpp"
 
 #include <algorithm>
@@ -29,35 +30,23 @@ Expression derivative_of_power(const Expression& value, const Expression& base, 
     return result;
 }
 
-/// d/da of a function of one operand, in terms of the operand and of the function's value.
-Expression slope(Operation operation, const Expression& value, const Expression& operand) {
+Expression square(const Expression& x) {
+    return pow(x, 2);
+}
+Expression one_minus_square(const Expression& x) {
+    return 1 - square(x);
+}
+
+/// d/da of an operation of one operand a, in terms of it and of the value y.
+Expression slope_of(Operation operation, const Expression& y, const Expression& a) {
     switch (operation) {
     case Operation::negate:
-        return operand.graph()->number(-1);
-    case Operation::sqrt:
-        return 1 / (2 * value);
-    case Operation::exp:
-        return value;
-    case Operation::log:
-        return 1 / operand;
-    case Operation::sin:
-        return cos(operand);
-    case Operation::cos:
-        return -sin(operand);
-    case Operation::tan:
-        return 1 + pow(value, 2);
-    case Operation::asin: // (1 - a)(1 + a), because 1 - a^2 cancels near the ends of the domain
-        return 1 / sqrt((1 - operand) * (1 + operand));
-    case Operation::acos:
-        return -1 / sqrt((1 - operand) * (1 + operand));
-    case Operation::atan:
-        return 1 / (1 + pow(operand, 2));
-    case Operation::sinh:
-        return cosh(operand);
-    case Operation::cosh:
-        return sinh(operand);
-    case Operation::tanh:
-        return 1 - pow(value, 2);
+        return a.graph()->number(-1);
+#define GRAZE_ROW(name, recurrence, slope)                                                                             \
+    case Operation::name:                                                                                              \
+        return slope;
+        GRAZE_FUNCTIONS(GRAZE_ROW)
+#undef GRAZE_ROW
     default:
         throw std::invalid_argument("an operation of one operand was expected");
     }
@@ -81,7 +70,7 @@ Expression derivative(Operation operation, const Expression& value, const Expres
     default:
         break;
     }
-    return slope(operation, value, left) * left_rate;
+    return slope_of(operation, value, left) * left_rate;
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "symbolic/vocabulary.hpp"
 
+#include "symbolic/function_table.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,9 +12,9 @@ namespace graze {
 namespace {
 
 constexpr FunctionName functions[] = {
-    {"sqrt", Operation::sqrt}, {"exp", Operation::exp},   {"log", Operation::log},   {"sin", Operation::sin},
-    {"cos", Operation::cos},   {"tan", Operation::tan},   {"asin", Operation::asin}, {"acos", Operation::acos},
-    {"atan", Operation::atan}, {"sinh", Operation::sinh}, {"cosh", Operation::cosh}, {"tanh", Operation::tanh},
+#define GRAZE_ROW(name, recurrence, slope) {#name, Operation::name},
+    GRAZE_FUNCTIONS(GRAZE_ROW)
+#undef GRAZE_ROW
 };
 
 constexpr std::string_view non_analytic[] = {

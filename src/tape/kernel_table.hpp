@@ -3,16 +3,16 @@
 // What the translation units of the instruction sets offer to the rest: tables of kernels. Nothing here may contain
 // inline functions, since code compiled for a wide instruction set must not be what the linker keeps for all.
 
-#include "graze/symbolic/expression.hpp"
 #include "graze/tape/jet.hpp"
 #include "graze/tape/series.hpp"
 #include "graze/tape/tape.hpp"
+#include "symbolic/function_table.hpp"
 
 #include <cstddef>
 
 namespace graze {
 
-inline constexpr int operation_count = static_cast<int>(Operation::tanh) + 1;
+inline constexpr int operation_count = static_cast<int>(last_function) + 1;
 inline constexpr int series_operation_count = static_cast<int>(SeriesOperation::acos) + 1;
 
 /// One product of a linear combination.

@@ -4,6 +4,7 @@
 
 #include "tape/guard_kernels.hpp"
 #include "tape/kernels.hpp"
+#include "tape/recurrence.hpp"
 #include "tape/step_kernels.hpp"
 #include "tape/sum_kernels.hpp"
 
@@ -28,11 +29,16 @@ template <class Family, int... k>
 constexpr void fill_above_zero(Kernel (&row)[highest_order + 1], Indices<k...>) {
     ((row[k + 1] = &chained<&Family::template run<k + 1>>), ...);
 }
-template <class V, Operation function, class Family>
+template <class V, Operation function, Recurrence recurrence>
 constexpr void fill_function(KernelTable& table, SeriesOperation operation) {
-    Kernel(&row)[highest_order + 1] = table.series[static_cast<int>(operation)];
-    row[0] = &chained<&function_value<V, function>>;
-    fill_above_zero<Family>(row, std::make_integer_sequence<int, highest_order>{});
+    constexpr bool minus = recurrence == Recurrence::minus_product || recurrence == Recurrence::minus_quotient;
+    using Family =
+        std::conditional_t<is_product(recurrence), FunctionByProduct<V, minus>, FunctionByQuotient<V, minus>>;
+    if constexpr (recurrence != Recurrence::own) {
+        Kernel(&row)[highest_order + 1] = table.series[static_cast<int>(operation)];
+        row[0] = &chained<&function_value<V, function>>;
+        fill_above_zero<Family>(row, std::make_integer_sequence<int, highest_order>{});
+    }
 }
 
 template <class V, Operation... operation>
@@ -67,19 +73,10 @@ constexpr KernelTable make_table() {
     fill<SquareRoot<V>>(table, SeriesOperation::sqrt);
     fill<Power<V>>(table, SeriesOperation::power_constant);
     fill<Derivative<V>>(table, SeriesOperation::derivative);
-    using Product = FunctionByProduct<V, false>;
-    fill_function<V, Operation::exp, Product>(table, SeriesOperation::exp);
-    fill_function<V, Operation::sin, Product>(table, SeriesOperation::sin);
-    fill_function<V, Operation::cos, FunctionByProduct<V, true>>(table, SeriesOperation::cos);
-    fill_function<V, Operation::sinh, Product>(table, SeriesOperation::sinh);
-    fill_function<V, Operation::cosh, Product>(table, SeriesOperation::cosh);
-    fill_function<V, Operation::tan, Product>(table, SeriesOperation::tan);
-    fill_function<V, Operation::tanh, Product>(table, SeriesOperation::tanh);
-    using Quotient = FunctionByQuotient<V, false>;
-    fill_function<V, Operation::log, Quotient>(table, SeriesOperation::log);
-    fill_function<V, Operation::asin, Quotient>(table, SeriesOperation::asin);
-    fill_function<V, Operation::atan, Quotient>(table, SeriesOperation::atan);
-    fill_function<V, Operation::acos, FunctionByQuotient<V, true>>(table, SeriesOperation::acos);
+#define GRAZE_ROW(name, recurrence, slope)                                                                             \
+    fill_function<V, Operation::name, Recurrence::recurrence>(table, SeriesOperation::name);
+    GRAZE_FUNCTIONS(GRAZE_ROW)
+#undef GRAZE_ROW
     fill_combinations<Combination<V>>(table.combination, std::make_integer_sequence<int, combination_kernels>{});
     table.combination_value = &chained<&Combination<V>::run_value>;
     table.state = &chained<&state<V>>;
@@ -97,10 +94,10 @@ constexpr KernelTable make_table() {
     table.bound = &bound<V>;
     table.steps = &steps<V>;
     table.guard = &guard<V>;
+#define GRAZE_ROW(name, recurrence, slope) , Operation::name
     fill_constants<V, Operation::add, Operation::subtract, Operation::multiply, Operation::divide, Operation::power,
-                   Operation::negate, Operation::sqrt, Operation::exp, Operation::log, Operation::sin, Operation::cos,
-                   Operation::tan, Operation::asin, Operation::acos, Operation::atan, Operation::sinh, Operation::cosh,
-                   Operation::tanh>(table);
+                   Operation::negate GRAZE_FUNCTIONS(GRAZE_ROW)>(table);
+#undef GRAZE_ROW
     return table;
 }
 

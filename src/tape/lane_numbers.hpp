@@ -4,7 +4,7 @@
 // defines GRAZE_INSTRUCTION_SET (the namespace, so that no two sets share a function) and GRAZE_LANES.
 // Arithmetic on values is the same operation by operation for all three types: this makes lanes agree bit for bit.
 
-#include "graze/symbolic/expression.hpp"
+#include "symbolic/function_table.hpp"
 
 #include <math.h>
 #if defined(__AVX512F__) || defined(__FMA__)
@@ -203,66 +203,40 @@ GRAZE_INLINE void put(double* series, int order, V number) {
 
 template <Operation function>
 inline double value_of(double a) {
-    if constexpr (function == Operation::negate)
+#define GRAZE_ROW(name, recurrence, slope)                                                                             \
+    if constexpr (function == Operation::name)                                                                         \
+        return ::name(a);                                                                                              \
+    else
+    GRAZE_FUNCTIONS(GRAZE_ROW)
+#undef GRAZE_ROW
+    {
+        static_assert(function == Operation::negate);
         return -a;
-    else if constexpr (function == Operation::sqrt)
-        return ::sqrt(a);
-    else if constexpr (function == Operation::exp)
-        return ::exp(a);
-    else if constexpr (function == Operation::log)
-        return ::log(a);
-    else if constexpr (function == Operation::sin)
-        return ::sin(a);
-    else if constexpr (function == Operation::cos)
-        return ::cos(a);
-    else if constexpr (function == Operation::tan)
-        return ::tan(a);
-    else if constexpr (function == Operation::asin)
-        return ::asin(a);
-    else if constexpr (function == Operation::acos)
-        return ::acos(a);
-    else if constexpr (function == Operation::atan)
-        return ::atan(a);
-    else if constexpr (function == Operation::sinh)
-        return ::sinh(a);
-    else if constexpr (function == Operation::cosh)
-        return ::cosh(a);
-    else {
-        static_assert(function == Operation::tanh);
-        return ::tanh(a);
     }
+}
+
+inline double square(double x) {
+    return x * x;
+}
+inline double one_minus_square(double x) {
+    return (1 - x) * (1 + x);
 }
 
 /// Derivative of a function at a, where its value is y.
 template <Operation function>
 inline double slope_of(double a, double y) {
-    if constexpr (function == Operation::negate)
+#define GRAZE_ROW(name, recurrence, slope) using ::name;
+    GRAZE_FUNCTIONS(GRAZE_ROW) // not those of expressions
+#undef GRAZE_ROW
+#define GRAZE_ROW(name, recurrence, slope)                                                                             \
+    if constexpr (function == Operation::name)                                                                         \
+        return slope;                                                                                                  \
+    else
+    GRAZE_FUNCTIONS(GRAZE_ROW)
+#undef GRAZE_ROW
+    {
+        static_assert(function == Operation::negate);
         return -1;
-    else if constexpr (function == Operation::sqrt)
-        return 0.5 / y;
-    else if constexpr (function == Operation::exp)
-        return y;
-    else if constexpr (function == Operation::log)
-        return 1 / a;
-    else if constexpr (function == Operation::sin)
-        return ::cos(a);
-    else if constexpr (function == Operation::cos)
-        return -::sin(a);
-    else if constexpr (function == Operation::tan)
-        return 1 + y * y;
-    else if constexpr (function == Operation::asin)
-        return 1 / ::sqrt((1 - a) * (1 + a));
-    else if constexpr (function == Operation::acos)
-        return -1 / ::sqrt((1 - a) * (1 + a));
-    else if constexpr (function == Operation::atan)
-        return 1 / (1 + a * a);
-    else if constexpr (function == Operation::sinh)
-        return ::cosh(a);
-    else if constexpr (function == Operation::cosh)
-        return ::sinh(a);
-    else {
-        static_assert(function == Operation::tanh);
-        return (1 - y) * (1 + y);
     }
 }
 

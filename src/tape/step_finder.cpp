@@ -144,18 +144,10 @@ Kernel StepFinder::kernel_of(const Instruction& instruction, int order, KernelOp
             return table_.multiply_linear;
         }
         break;
-    case SeriesOperation::exp:
-    case SeriesOperation::sin:
-    case SeriesOperation::cos:
-    case SeriesOperation::sinh:
-    case SeriesOperation::cosh:
-    case SeriesOperation::tan:
-    case SeriesOperation::tanh:
-        if (order > 0 && tape_.degrees[instruction.third] <= 1)
-            return instruction.operation == SeriesOperation::cos ? table_.minus_function_of_linear
-                                                                 : table_.function_of_linear;
-        break;
     default:
+        if (const Recurrence recurrence = recurrence_of(instruction.operation);
+            order > 0 && is_product(recurrence) && tape_.degrees[instruction.third] <= 1)
+            return recurrence == Recurrence::product ? table_.function_of_linear : table_.minus_function_of_linear;
         break;
     }
     const auto row = static_cast<int>(instruction.operation);

@@ -2,6 +2,7 @@
 
 #include "graze/tape/tape.hpp"
 #include "tape/kernel_table.hpp"
+#include "tape/recurrence.hpp"
 
 #include <vector>
 
@@ -27,21 +28,15 @@ void visit_operands(const Tape& tape, const Instruction& instruction, Visit&& vi
     case SeriesOperation::derivative:
         visit(instruction.left);
         return;
-    case SeriesOperation::log:
-    case SeriesOperation::asin:
-    case SeriesOperation::atan:
-    case SeriesOperation::acos:
+    default: { // functions of `third`
+        const std::uint32_t degree = tape.degrees[instruction.third];
+        const bool product = is_product(recurrence_of(instruction.operation));
         visit(instruction.third);
-        if (tape.degrees[instruction.third] > 0)
+        if (product && degree > 0)
+            visit(instruction.right);
+        if (degree > (product ? 1 : 0))
             visit(instruction.left);
-        return;
-    default: // y' = a' w
-        visit(instruction.third);
-        if (tape.degrees[instruction.third] == 0)
-            return;
-        visit(instruction.right);
-        if (tape.degrees[instruction.third] > 1)
-            visit(instruction.left);
+    }
     }
 }
 
