@@ -76,6 +76,7 @@ Sampler::Sampler(double start, double spacing, std::size_t count, std::vector<do
 }
 
 void Sampler::step(const Step& step) {
+    require_size(periods_.size(), step.states.size(), "periods of states");
     for (; taken_ < count_; ++taken_) {
         const double time = next();
         // Start and length have each lost what time does not resolve.

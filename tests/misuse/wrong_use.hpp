@@ -14,6 +14,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <typeinfo>
 #include <utility>
 #include <vector>
@@ -35,125 +36,194 @@ inline std::ostream& operator<<(std::ostream& stream, const WrongUse& use) {
     return stream << use.name;
 }
 
-/// Uses that look wrong and are allowed after all, by what is in their names.
-inline bool is_allowed(const std::string& name) {
-    static const std::vector<std::string> parts = {
-        "moved", // may be assigned to or destroyed, no more
-        "_no_kind",
-        "_no_direction",
-        "_no_end",
-        "_no_set",
-        "stop_at_nothing", // enumerators that only a cast makes
-        "_without_end",
-        "name_of_no_",
-        "no_quadrature",
-        "add_orbit_no_type",
-        "function_inputs_too_long",
-        "inputs_too_long",
-        "errors_too_long", // rooms may be larger than is needed
-        "results_too_long",
-        "bounds_too_long",
-        "times_too_long",
-        "values_too_long",
-        "slopes_too_long",
-        "references_too_long",
-        "steps_too_long",
-        "lengths_too_long",
-        "guard_steps_too_long",
-        "floors_too_long",
-        "series_too_long",
-        "shortened_to",
-        "infinite_end",
-        "end_time_infinite",
-        "extend_infinite",
-        "extend_unfinished",        // changes nothing
-        "duration_negative",        // such orbits are marked as unphysical
-        "transition_label_empty",   // named by mode and event
-        "parameter_values_missing", // NaN, as is said
-        "steps_0",
-        "step_limit_0",
-        "touch_infinite",
-        "no_segments", // little is asked for, or much
-        "direction_zero",
-        "distance_negative",
-        "row_zero",
-        "between_2",
-        "between__1",
-        "next_step_infinite",
-        "next_step_before_start_infinite",
-        "start_direction_0",
-        "along_nothing", // an outcome says what becomes of it
-        "settings_monitor_",
-        "branches_at_monitor_",
-        "orbit_branch_monitor_duration", // found where it is used
-        "monitors_bounds",
-        "monitors_crossing",
-        "monitors_held",
-        "monitors_place",
-        "monitors_duration_of",
-        "image_of_duration",
-        "image_of_parameter",
-        "image_of_start",
-        "image_of_signature",
-        "image_of_section",
-        "image_of_symmetry",
-        "image_of_mode",
-        "image_of_segment", // looks at nothing of the orbit but values at its starts
-        "mode_huge_",
-        "mode_size_",
-        "of_another_mode",             // names of ends do not need the mode
-        "dense_problem_unknowns_huge", // does not fit into memory
-        "make_jet_tape",               // a tape that was spoiled by hand
-        "outlook_",
-        "advance_",
-        "propose_",
-        "step_state_of", // asked at every step, and said to be unchecked
-        "sampler_period",
-        "grazing_time",
-        "orbit_without_tangent", // no number that could be compared
-        "search_proceed",
-        "search_trajectory", // in another order than is said
-        "longest_return_infinite",
-        "time_infinite",
-        "speed_infinite",
-        "contacts_of_nothing",
-        "contact_of_nothing",
-        "no_chains",
-        "without_points",
-        "points_that_overflow",
-        "plan_of_default",
-        "axis_without_values", // no bound, or nothing to do
-        "order_for_tolerance_1",
-        "order_for_tolerance_inf",
-        "tolerance_1_",
-        "tolerance_inf", // count as the nearest
-        "series_too_short",
-        "not_for_tangents",
-        "find_disagreement_lengths", // parts of what there is are allowed
-        "patience_negative",
-        "query_select",
-        "query_values",
-        "rows_number_of",
-        "run_twice",
-        "spectrum_of_nothing",
-        // What the file does not have: nothing is found.
-        "results_complete_unknown",
-        "results_last_points",
-        "results_nearest",
-        "results_orbit_unknown",
-        "results_orbits",
-        "results_point_count",
-        "results_point_unknown",
-        "results_remove_unknown",
-        // What other programs may write as well.
-        "results_add_orbit_approach",
-        "results_add_point_no_label",
-        "results_add_point_number",
-        "results_begin_run_column",
-        "results_begin_run_settings",
-    };
-    return std::any_of(parts.begin(), parts.end(),
-                       [&](const std::string& part) { return name.find(part) != std::string::npos; });
+/// Uses that look wrong and are accepted after all: they are run, and must not be refused, so that this list cannot
+/// hide any that are. A star stands for anything.
+inline constexpr std::string_view accepted[] = {
+    // Enumerators that only a cast makes.
+    "name_of_no_*",
+    "short_name_of_no_type",
+    "*_event_of_no_kind",
+    "*_section_in_no_direction",
+    "probe_of_no_kind",
+    "probe_in_no_direction",
+    "jet_set_no_set",
+    "microbeam_no_quadrature",
+    "*_stop_at_nothing",
+    "results_add_orbit_no_type",
+    "end_name_no_end",
+    "to_string_no_end",
+    "orbit_monitors_signature_no_end",
+    // Rooms may be larger than is needed.
+    "evaluate_inputs_too_long",
+    "evaluate_results_too_long",
+    "error_bounds_*_too_long",
+    "jet_*_times_too_long",
+    "jet_*_values_too_long",
+    "jet_*_slopes_too_long",
+    "jet_*_references_too_long",
+    "jet_*_steps_too_long",
+    "jet_*_lengths_too_long",
+    "step_check_series_too_long",
+    "step_check_floors_too_long",
+    "step_size_floors_too_long",
+    // Parts of what there is may be asked for.
+    "step_check_series_too_short",
+    "jet_*_find_disagreement_lengths",
+    "jet_2_guard_steps_not_for_tangents",
+    // Count as the nearest.
+    "order_for_tolerance_1_000000",
+    "order_for_tolerance_inf",
+    "step_size_tolerance_1_000000",
+    "step_size_tolerance_inf",
+    "step_check_tolerance_1_000000",
+    "step_check_tolerance_inf",
+    // No bound, or nothing to do.
+    "*_longest_return_infinite",
+    "transient_*_time_infinite",
+    "*_greatest_speed_infinite",
+    "*_touch_infinite",
+    "*_step_limit_0",
+    "*_steps_0",
+    "end_time_infinite",
+    "extend_infinite",
+    "extend_unfinished",
+    "signature_search_no_segments",
+    "*_contacts_of_nothing",
+    "*_sampling_contact_of_nothing",
+    "execute_no_chains",
+    "execute_chains_without_points",
+    "run_study_axis_without_values",
+    "run_study_run_twice",
+    "plan_of_default_run",
+    "spectrum_of_nothing",
+    "shortened_to_nothing",
+    "shortened_to_too_little",
+    "patience_negative",
+    "sampler_period_negative",
+    // An outcome or a value says what becomes of it.
+    "continuation_start_direction_0",
+    "continuation_along_direction_zero",
+    "continuation_along_distance_negative",
+    "continuation_at_row_zero",
+    "continuation_next_step_infinite",
+    "continuation_next_step_before_start_infinite",
+    "continuation_between__1_000000",
+    "continuation_between_2_000000",
+    "orbit_branch_along_nothing",
+    "orbit_branch_along_distance_negative",
+    "*_duration_negative", // such orbits are marked as unphysical
+    "parameter_values_missing",
+    // Named by mode and event.
+    "*_transition_label_empty",
+    // Found where it is used.
+    "branch_settings_monitor_of_*",
+    "branch_settings_monitor_segment_*",
+    "branches_at_monitor_of_*",
+    "branches_at_monitor_segment_*",
+    "orbit_branch_monitor_of_no_kind",
+    "monitors_of_no_kind",
+    "*_monitor_duration_of_expression",
+    "monitors_duration_of_expression",
+    "monitors_place_0",
+    "monitors_held_nan",
+    "monitors_crossing_nan",
+    "monitors_bounds_reversed",
+    "branches_at_orbit_without_tangent_of_type_1",
+    "branches_at_orbit_without_tangent_of_type_3",
+    "branches_at_orbit_without_tangent_of_type_4",
+    "branches_at_grazing_time_negative",
+    "branches_at_grazing_time_after_the_end",
+    // Looks at nothing of the orbit but values at its starts, if at those; names of ends do not need the mode.
+    "image_of_signature_longer",
+    "image_of_segment_without_end",
+    "image_of_start_*",
+    "image_of_duration_*",
+    "image_of_parameter*",
+    "image_of_symmetry_*",
+    "image_of_mode_size", // the symmetric model has one more
+    "image_of_section_size",
+    "end_name_mode_*",
+    "end_name_transition_of_another_mode",
+    "to_string_transition_of_another_mode",
+    "orbit_monitors_signature_transition_of_another_mode",
+    // What the file does not have: nothing is found.
+    "results_complete_unknown",
+    "results_last_points_unknown",
+    "results_last_points_of_empty_chains",
+    "results_nearest_unknown",
+    "results_nearest_coordinate_unknown",
+    "results_nearest_direction_unknown",
+    "results_nearest_to_nan",
+    "results_orbit_unknown",
+    "results_orbits_unknown",
+    "results_orbits_of_sweep",
+    "results_point_count_unknown",
+    "results_point_unknown",
+    "results_remove_unknown",
+    // What other programs may write as well.
+    "results_add_orbit_approach_speeds_missing",
+    "results_add_point_no_label",
+    "results_add_point_number_*",
+    "results_begin_run_column_twice",
+    "results_begin_run_column_without_name",
+    "results_begin_run_settings_no_json",
+    // As in SQL.
+    "query_select__1",
+    "query_values_too_many",
+    "rows_number_of_a_text",
+};
+
+/// Uses that are not run, since nothing is promised of them, not even an exception.
+inline constexpr std::string_view unchecked[] = {
+    // May be assigned to or destroyed, no more.
+    "moved_model_*",
+    "moved_monitors",
+    "moved_simulation",
+    "moved_system",
+    "moved_trajectory_start",
+    "moved_trajectory_extend",
+    "moved_trajectory_carry",
+    "orbit_branch_moved_start",
+    "orbit_branch_moved_found",
+    "orbit_branch_moved_outcome",
+    "rows_is_*_moved",
+    "rows_number_moved",
+    "rows_integer_moved",
+    "rows_text_moved",
+    "rows_moved_*",
+    // A tape that was spoiled by hand.
+    "make_jet_tape_*",
+    // Asked at every step, and said to be unchecked.
+    "step_state_of_no_step",
+    "outlook_of_another_width",
+    "outlook_length_*",
+    "outlook_agrees_*",
+    "outlook_state_lane_*",
+    "outlook_least_lane_*",
+    "outlook_size_lane_*",
+    "propose_after_end",
+    "propose_with_another_models_jet",
+    "advance_after_end",
+    "advance_lane_*",
+    "advance_with_another_models_outlook",
+    // In another order than is said.
+    "attractor_search_proceed_*",
+    "transient_search_proceed_*",
+    "*_search_trajectory_before_begin",
+    // Do not fit into memory, or into time.
+    "dense_problem_unknowns_huge",
+    "execute_points_that_overflow",
+};
+
+inline bool matches(std::string_view name, std::string_view pattern) {
+    const std::size_t star = pattern.find('*');
+    if (star == std::string_view::npos)
+        return name == pattern;
+    const std::string_view end = pattern.substr(star + 1);
+    return name.size() + 1 >= pattern.size() && name.starts_with(pattern.substr(0, star)) && name.ends_with(end);
+}
+inline bool is_among(std::span<const std::string_view> patterns, std::string_view name) {
+    return std::any_of(patterns.begin(), patterns.end(), [&](const auto& pattern) { return matches(name, pattern); });
 }
 
 /// Gathers wrong uses under names that GoogleTest admits.
@@ -163,7 +233,7 @@ public:
         for (char& c : name)
             if (!std::isalnum(static_cast<unsigned char>(c)))
                 c = '_';
-        if (is_allowed(name))
+        if (is_among(unchecked, name))
             return;
         std::size_t same = 0;
         for (const WrongUse& other : list_)
@@ -210,8 +280,12 @@ inline std::vector<std::pair<std::string, double>> negative() {
 }
 
 /// Demands that a wrong use is refused in words of the library: neither by nothing nor by what the standard library
-/// says of itself (which names nothing).
+/// says of itself (which names nothing). One that is accepted must not be refused.
 inline void expect_refusal(const WrongUse& wrong) {
+    if (is_among(accepted, wrong.name)) {
+        EXPECT_NO_THROW(wrong.use()) << "ACCEPTED " << wrong.name << ": take it out of the list";
+        return;
+    }
     try {
         wrong.use();
     } catch (const std::exception& refusal) {

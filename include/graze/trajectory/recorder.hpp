@@ -58,7 +58,7 @@ public:
     using Receiver = std::function<void(double time, std::size_t mode, std::span<const double> state)>;
 
     /// Samples at start, start + spacing, ..., `count` times in all.
-    /// @param periods of the cyclic states (0 for others), within which they are kept
+    /// @param periods of all states (0 of those not cyclic), within which they are kept; InputError if not as many
     Sampler(double start, double spacing, std::size_t count, std::vector<double> periods, Receiver receiver);
 
     void step(const Step& step) override;
