@@ -26,10 +26,13 @@
     row(atan, quotient, 1 / (1 + square(a))) \
     row(sinh, product, cosh(a)) \
     row(cosh, product, sinh(a)) \
-    row(tanh, product, one_minus_square(y))
+    row(tanh, product, one_minus_square(y)) \
+    row(erf, product, two_over_root_pi * exp(-square(a)))
 // clang-format on
 
 namespace graze {
+
+inline constexpr double two_over_root_pi = 1.1283791670955126;
 
 #define GRAZE_ROW(name, recurrence, slope) +1
 inline constexpr int function_count = 0 GRAZE_FUNCTIONS(GRAZE_ROW);

@@ -47,6 +47,7 @@ constexpr Equivalent equivalents[] = {
     {"sech", "1/cosh(x)"},
     {"csch", "1/sinh(x)"},
     {"coth", "1/tanh(x)"},
+    {"erfc", "1 - erf(x)"},
     {"asinh", "log(x + sqrt(x^2 + 1))"},
     {"acosh", "log(x + sqrt(x^2 - 1))"},
     {"atanh", "log((1 + x)/(1 - x))/2"},

@@ -1,5 +1,7 @@
 #include "tape/series_builder.hpp"
 
+#include "symbolic/function_table.hpp"
+
 #include <cmath>
 #include <utility>
 
@@ -186,6 +188,11 @@ LinearForm SeriesBuilder::function(Operation operation, std::uint32_t a) {
     case Operation::tan:
     case Operation::tanh:
         return series(tangent(operation, a));
+    case Operation::erf: {
+        LinearForm bell = function(Operation::exp, reg_of(scale(series(multiply(a, a)), constants_.literal(-1))));
+        const std::uint32_t slope = reg_of(scale(std::move(bell), constants_.literal(two_over_root_pi)));
+        return series(emit(SeriesOperation::erf, emit(SeriesOperation::derivative, a), slope, a));
+    }
     default:
         return series(inverse_function(operation, a));
     }

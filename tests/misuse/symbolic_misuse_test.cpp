@@ -30,7 +30,8 @@ std::vector<std::pair<std::string, Unary>> unary_functions() {
             {"atan", atan},
             {"sinh", sinh},
             {"cosh", cosh},
-            {"tanh", tanh}};
+            {"tanh", tanh},
+            {"erf", erf}};
 }
 std::vector<std::pair<std::string, Binary>> binary_functions() {
     return {{"add", [](const Expression& a, const Expression& b) { return a + b; }},

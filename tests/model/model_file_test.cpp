@@ -315,6 +315,17 @@ TEST(ModelFile, WrittenModelReadsBackTheSame) {
     EXPECT_TRUE(std::signbit(*again.parameters[6].value));
 }
 
+TEST(ModelFile, WritesAllFunctions) {
+    const std::string quantities = "[quantities]\n"
+                                   "roots = \"sqrt(x + 2)*exp(x)*log(x + 2)\"\n"
+                                   "circular = \"sin(x) + cos(x) - tan(x)/(asin(x) - acos(x) + atan(x))\"\n"
+                                   "others = \"sinh(x) + cosh(x)*tanh(x) - 3*erf(-x/2)\"\n";
+    const Model model = parse_model(smooth_with("", quantities), "functions.toml");
+    ASSERT_EQ(model.quantities.size(), 3U);
+    const Model again = parse_model(write_model(model), "written.toml");
+    EXPECT_EQ(contents(again), contents(model)) << write_model(model);
+}
+
 TEST(ModelFile, WritesConditionsThatNeverHadAText) {
     Model model = parse_model(everything, "everything.toml");
     model.transitions[0].next[0].when_text = "when the ball rises";

@@ -53,7 +53,7 @@ TEST_F(ExpressionTest, ArityOfEveryOperation) {
          {Operation::add, Operation::subtract, Operation::multiply, Operation::divide, Operation::power})
         EXPECT_EQ(arity(operation), 2);
     EXPECT_EQ(arity(Operation::negate), 1);
-    EXPECT_EQ(arity(Operation::tanh), 1);
+    EXPECT_EQ(arity(Operation::erf), 1);
 }
 
 TEST_F(ExpressionTest, NeutralAndAbsorbingConstants) {

@@ -17,14 +17,14 @@ protected:
 };
 
 TEST_F(FunctionTest, EvaluatesEveryOperation) {
-    const std::vector<Expression> outputs{x + y,   x - y,   x * y,   x / y,   pow(x, y), -x,
-                                          sqrt(y), exp(x),  log(y),  sin(x),  cos(x),    tan(x),
-                                          asin(x), acos(x), atan(x), sinh(x), cosh(x),   tanh(x)};
+    const std::vector<Expression> outputs{x + y,   x - y,   x * y,   x / y,   pow(x, y), -x,      sqrt(y),
+                                          exp(x),  log(y),  sin(x),  cos(x),  tan(x),    asin(x), acos(x),
+                                          atan(x), sinh(x), cosh(x), tanh(x), erf(x)};
     const double a = 0.3, b = 1.7;
     const std::vector<double> expected{a + b,        a - b,        a * b,        a / b,        std::pow(a, b),
                                        -a,           std::sqrt(b), std::exp(a),  std::log(b),  std::sin(a),
                                        std::cos(a),  std::tan(a),  std::asin(a), std::acos(a), std::atan(a),
-                                       std::sinh(a), std::cosh(a), std::tanh(a)};
+                                       std::sinh(a), std::cosh(a), std::tanh(a), std::erf(a)};
     const Function function(std::vector{x, y}, outputs);
     EXPECT_EQ(function.inputs(), 2u);
     EXPECT_EQ(function.outputs(), outputs.size());
@@ -40,7 +40,7 @@ TEST_F(FunctionTest, ErrorBoundsHoldAndAreNotMuchLarger) {
                                           tan(x),          asin(x / 2),
                                           acos(x / 2),     atan(y),
                                           sinh(x),         cosh(y),
-                                          tanh(x)};
+                                          tanh(x),         erf(x - y)};
     const Function function(std::vector{x, y}, outputs);
     std::vector<double> bounds(outputs.size()), work(2 * function.workspace());
     for (const double a : {1e-3, 0.3, 1.3}) {

@@ -7,6 +7,7 @@
 #include <complex>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <span>
 #include <string>
@@ -19,6 +20,14 @@ struct Bounded {
     double value = 0;
     double bound = 0;
 };
+
+inline double error_function(double a) {
+    return std::erf(a);
+}
+/// For a complex step, whose higher powers are nothing.
+inline std::complex<double> error_function(std::complex<double> a) {
+    return {std::erf(a.real()), a.imag() * 2 / std::sqrt(std::numbers::pi) * std::exp(-a.real() * a.real())};
+}
 
 /// An expression as it was written: operations one after another, evaluated here by code that shares nothing with
 /// the library, and without any simplification. The last one is the result.
@@ -87,6 +96,8 @@ struct OperationList {
             return cosh(a);
         case Operation::tanh:
             return tanh(a);
+        case Operation::erf:
+            return error_function(a);
         default:
             return a;
         }
@@ -120,6 +131,8 @@ struct OperationList {
             return {std::cosh(a), 0};
         case Operation::cosh:
             return {std::abs(std::sinh(a)), 0};
+        case Operation::erf:
+            return {2 / std::sqrt(std::numbers::pi), 0};
         default: // sin, cos, atan, tanh, negate
             return {1, 0};
         }
@@ -205,8 +218,8 @@ struct OperationList {
             const auto infix = [&](const char* sign) {
                 return "(" + results[item.left] + sign + results[item.right] + ")";
             };
-            static const char* const names[] = {"sqrt", "exp",  "log",  "sin",  "cos",  "tan",
-                                                "asin", "acos", "atan", "sinh", "cosh", "tanh"};
+            static const char* const names[] = {"sqrt", "exp",  "log",  "sin",  "cos",  "tan", "asin",
+                                                "acos", "atan", "sinh", "cosh", "tanh", "erf"};
             char number[40];
             switch (item.operation) {
             case Operation::number:
@@ -246,7 +259,7 @@ struct OperationList {
 /// A random tree: half of its leaves are symbols, the others numbers that provoke simplifications.
 class RandomOperations {
 public:
-    /// @param functions how many of the operations after negation may occur (all 12, or none)
+    /// @param functions how many of the operations after negation may occur (all 13, or none)
     RandomOperations(unsigned seed, std::size_t symbols, bool functions)
         : engine_(seed), symbols_(symbols), functions_(functions) {}
 
@@ -289,7 +302,7 @@ private:
     }
     Operation unary() {
         const auto first = static_cast<unsigned>(Operation::negate);
-        return static_cast<Operation>(first + (functions_ && engine_() % 3 ? 1 + engine_() % 12 : 0));
+        return static_cast<Operation>(first + (functions_ && engine_() % 3 ? 1 + engine_() % 13 : 0));
     }
 
     std::mt19937 engine_;

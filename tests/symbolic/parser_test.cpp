@@ -83,6 +83,8 @@ TEST_F(ParserTest, NumbersNamesAndFunctions) {
     EXPECT_EQ(constant("sqrt(16) + log(exp(1))"), 5);
     EXPECT_EQ(parse("sin(x)*cos(y)"), sin(x) * cos(y));
     EXPECT_EQ(parse("tan(asin(acos(atan(sinh(cosh(tanh(x)))))))"), tan(asin(acos(atan(sinh(cosh(tanh(x))))))));
+    EXPECT_EQ(parse("erf(x/2)"), erf(x / 2));
+    EXPECT_EQ(to_string(parse("1 - erf(x/2)*y")), "1 - y*erf(x/2)");
     EXPECT_EQ(parse("V0*amplitude"), scope.at("V0") * scope.at("amplitude"));
     EXPECT_EQ(parse("sin (x)"), sin(x));
     // Names mean what the scope says, for instance a definition.

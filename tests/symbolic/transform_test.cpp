@@ -94,6 +94,11 @@ TEST_F(TransformTest, FifthDerivativesEqualClosedForms) {
              return s * (16 - 120 * t * t + 120 * t * t * t * t);
          },
          2000},
+        {"erf(x)",
+         [](double a) {
+             return (16 * std::pow(a, 4) - 48 * a * a + 12) * std::exp(-a * a) * 2 / std::sqrt(std::numbers::pi);
+         },
+         400},
         {"exp(sin(x))",
          [](double a) {
              const double s = std::sin(a), c = std::cos(a);

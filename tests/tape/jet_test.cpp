@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <numbers>
+#include <utility>
 
 namespace graze {
 namespace {
@@ -50,6 +51,17 @@ long double tangent_coefficient(int n) {
     if (n <= 2) // the sum converges slowly here, but is known
         sum = n == 1 ? std::pow(quarter, 2) / 2 : std::pow(quarter, 4) / 6;
     return 2 * sum * std::pow(1 / quarter, 2 * n);
+}
+
+/// erf^(k)(t) = 2/sqrt(pi) (-1)^(k-1) H_(k-1)(t) exp(-t^2), with Hermite's polynomials H.
+long double error_function_coefficient(int k, double at) {
+    const long double t = at;
+    if (k == 0)
+        return std::erf(t);
+    long double before = 0, hermite = 1;
+    for (int n = 0; n < k - 1; ++n)
+        before = std::exchange(hermite, 2 * t * hermite - 2 * n * before);
+    return (k % 2 ? 2 : -2) / std::sqrt(std::numbers::pi_v<long double>) * hermite * std::exp(-t * t) / factorial(k);
 }
 
 std::vector<KnownSeries> known_series() {
@@ -100,6 +112,11 @@ std::vector<KnownSeries> known_series() {
                         ? std::atan((long double)t)
                         : (k % 2 ? 1 : -1) * std::sin(k * angle) / (k * std::pow(std::hypot(1.0L, (long double)t), k));
          }},
+        {"erf", 0.6, [](auto& t) { return erf(t); }, error_function_coefficient},
+        {"erf_at_0", 0.0, [](auto& t) { return erf(t); }, error_function_coefficient},
+        {"erf_at_3", 3.0, [](auto& t) { return erf(t); }, error_function_coefficient},
+        {"erf_2t", -0.4, [](auto& t) { return erf(2 * t); },
+         [](int k, double t) { return std::pow(2.0L, k) * error_function_coefficient(k, 2 * t); }},
         {"tan", 0.0, [](auto& t) { return tan(t); }, odd_only(tangent_coefficient)},
         {"tanh", 0.0, [](auto& t) { return tanh(t); },
          odd_only([](int n) { return (n % 2 ? 1 : -1) * tangent_coefficient(n); })},
@@ -172,6 +189,25 @@ TEST(Jet, IdentitiesOfCompositions) {
     near_zero("power of a series", [](auto& g) { return pow(1 + g, g) - exp(g * log(1 + g)); });
     near_zero("division", [](auto& g) { return g / (1 + g) * (1 + g) - g; });
     near_zero("reciprocal", [](auto& g) { return 1 / (1 + g) + g / (1 + g) - 1; });
+}
+
+/// Where it is 1 to the last digit, up to where the square of its argument is no number.
+TEST(Jet, ErrorFunctionOfLargeArguments) {
+    for (const auto set : testing::supported_sets())
+        for (const double start : {7.0, 30.0, 1e3, 1e100, 1e160})
+            for (const double sign : {1.0, -1.0}) {
+                Problem p;
+                const Expression x = p.state("x", sign * start);
+                p.rates = {p.graph->number(1)};
+                p.outputs = {erf(x)};
+                const auto series = testing::output_series(p, highest_order, set)[0];
+                EXPECT_EQ(series[0], sign) << start << " " << name_of(set);
+                for (int k = 1; k <= highest_order; ++k) {
+                    const auto expected = static_cast<double>(error_function_coefficient(k, std::min(start, 1e3)));
+                    EXPECT_NEAR(std::abs(series[k]), std::abs(expected), 1e-12 * std::abs(expected) + 1e-300)
+                        << k << " at " << start << " " << name_of(set);
+                }
+            }
 }
 
 TEST(Jet, KnownSolutions) {

@@ -136,6 +136,9 @@ inline std::vector<Family> all_families() {
         300)); // beyond, exp(-k (s - c)) is no number
     families.push_back(
         steep("switch", "atan(k*(s - c))", [](Long a) { return a * std::atan(a) - std::log1p(a * a) / 2; }));
+    families.push_back(steep("error function", "erf(k*(s - c))", [](Long a) {
+        return a * std::erf(a) + std::exp(-a * a) * 0.564189583547756286948L; // 1/sqrt(pi)
+    }));
     return families;
 }
 

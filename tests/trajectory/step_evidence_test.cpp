@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 using namespace graze;
 using namespace graze::testing;
 
@@ -63,6 +66,18 @@ struct FallFamily {
     std::function<void(Random&, std::vector<double>& parameters, double& start, double& time, double& slope)> draw;
 };
 
+double error_slope(double at) {
+    return 2 / std::sqrt(std::numbers::pi) * std::exp(-at * at);
+}
+
+/// From the left, by Newton's method, which does not overshoot there. @param value from 0 to 0.95
+double inverse_error_function(double value) {
+    double at = 0;
+    for (int i = 0; i < 50; ++i)
+        at += (value - std::erf(at)) / error_slope(at);
+    return at;
+}
+
 std::vector<FallFamily> fall_families() {
     std::vector<FallFamily> families;
     for (int n = 1; n <= 12; ++n)
@@ -105,6 +120,9 @@ std::vector<FallFamily> fall_families() {
          steep([](double a) { return -std::sqrt(a - 1); }, [](double a) { return 2 * std::sqrt(a - 1) / a; })});
     families.push_back({"step", "1/a - tanh(k*(s - c))",
                         steep([](double a) { return std::atanh(1 / a); }, [](double a) { return 1 - 1 / (a * a); })});
+    families.push_back({"error function", "1/a - erf(k*(s - c))",
+                        steep([](double a) { return inverse_error_function(1 / a); },
+                              [](double a) { return error_slope(inverse_error_function(1 / a)); })});
     return families;
 }
 
@@ -241,6 +259,7 @@ TEST(StepEvidence, DerivativesOfSteepMotions) {
         {"exp(-(k*(s - c))^2)", [](double a) { return std::exp(-a * a); }},
         {"1/(1 + (k*(s - c))^2)", [](double a) { return 1 / (1 + a * a); }},
         {"cos((k*(s - c))^5)", [](double a) { return std::cos(std::pow(a, 5)); }},
+        {"erf(k*(s - c))", [](double a) { return std::erf(a); }},
     };
     for (const auto& [text, value] : functions) {
         const Model model = model_from(fmt::format(

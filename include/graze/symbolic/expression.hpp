@@ -37,6 +37,7 @@ enum class Operation : std::uint8_t {
     sinh,
     cosh,
     tanh,
+    erf,
 };
 
 /// 0 for leaves, 1 for functions and negation, 2 for arithmetic. @throws std::invalid_argument for no operation at all
@@ -186,5 +187,6 @@ Expression atan(const Expression& a);
 Expression sinh(const Expression& a);
 Expression cosh(const Expression& a);
 Expression tanh(const Expression& a);
+Expression erf(const Expression& a);
 
 } // namespace graze

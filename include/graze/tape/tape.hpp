@@ -29,6 +29,7 @@ enum class SeriesOperation : std::uint8_t {
     cosh,
     tan,
     tanh,
+    erf,
     // y(a) with y' = a'/w (acos: -a'/w). left: derivative(a) / w; third: a.
     log,
     asin,
