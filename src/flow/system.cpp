@@ -1,5 +1,6 @@
 #include "graze/flow/system.hpp"
 
+#include "flow/section_function.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "symbolic/subgraph.hpp"
 
@@ -25,7 +26,7 @@ public:
         }
         periods = model_.expand(periods);
         parts.periods = compile(parameters_, periods);
-        parts.period_gradients = compile(parameters_, derivatives(periods, parameters_));
+        parts.period_gradients = compile(parameters_, jacobian(periods, parameters_));
         parts.initial = function_of_parameters(initial);
     }
     std::vector<System::CompiledMode> compile_modes();
@@ -38,7 +39,7 @@ public:
     }
     Function with_gradient(const Expression& expression) {
         std::vector<Expression> outputs{model_.expand(expression)};
-        const std::vector<Expression> gradient = derivatives(outputs, inputs_);
+        const std::vector<Expression> gradient = jacobian(outputs, inputs_);
         outputs.insert(outputs.end(), gradient.begin(), gradient.end());
         return compile(inputs_, outputs);
     }
@@ -54,7 +55,6 @@ private:
     std::vector<Expression> watched_functions(const System::CompiledMode& compiled);
     System::CompiledJump map_of(const std::vector<Expression>& map);
     std::vector<Expression> roots_in(std::span<const Expression> expanded);
-    std::vector<Expression> derivatives(std::span<const Expression> functions, std::span<const Expression> variables);
     Function compile(std::span<const Expression> inputs, std::span<const Expression> outputs);
 
     Model model_;
@@ -121,22 +121,6 @@ Function SystemCompiler::compile(std::span<const Expression> inputs, std::span<c
     return function;
 }
 
-/// Of expanded functions, row by row: functions x variables. Most depend on few variables.
-std::vector<Expression> SystemCompiler::derivatives(std::span<const Expression> functions,
-                                                    std::span<const Expression> variables) {
-    const std::vector<Expression> occurring = symbols_of(functions);
-    const std::size_t columns = variables.size();
-    std::vector<Expression> rows(functions.size() * columns, model_.graph->number(0));
-    for (std::size_t column = 0; column < columns; ++column) {
-        if (std::find(occurring.begin(), occurring.end(), variables[column]) == occurring.end())
-            continue;
-        const std::vector<Expression> derivative = differentiate(functions, variables[column]);
-        for (std::size_t row = 0; row < functions.size(); ++row)
-            rows[row * columns + column] = derivative[row];
-    }
-    return rows;
-}
-
 /// What stands under each root or power in some expressions, followed by the exponent.
 std::vector<Expression> SystemCompiler::roots_in(std::span<const Expression> expanded) {
     const Subgraph part = subgraph_of(expanded);
@@ -174,7 +158,7 @@ std::vector<System::CompiledMode> SystemCompiler::compile_modes() {
         const std::vector<Expression> rates = model_.expand(mode.rates), outputs = watched_functions(compiled);
         compiled.rates = compile(inputs_, rates);
         compiled.events = compile(inputs_, outputs);
-        compiled.event_gradients = compile(inputs_, derivatives(outputs, states_));
+        compiled.event_gradients = compile(inputs_, jacobian(outputs, states_));
         compiled.roots = compile(inputs_, roots_in(rates));
         compile_tape(compiled, rates, outputs);
         modes.push_back(std::move(compiled));
@@ -209,7 +193,7 @@ System::CompiledJump SystemCompiler::map_of(const std::vector<Expression>& given
     const auto map = given.empty() ? states_ : model_.expand(given); // the identity may be left empty
     compiled.identity = std::equal(map.begin(), map.end(), states_.begin(), states_.end());
     compiled.map = compile(inputs_, map);
-    compiled.jacobian = compile(inputs_, derivatives(map, inputs_));
+    compiled.jacobian = compile(inputs_, jacobian(map, inputs_));
     return compiled;
 }
 
@@ -243,17 +227,10 @@ void SystemCompiler::compile_surfaces(System::Parts& parts) {
     for (const Event& event : model_.events)
         parts.events.push_back(with_gradient(event.function));
     for (const Section& section : model_.sections) {
-        const Expression function =
-            model_.expand(section.state ? states_[*section.state] - model_.expand(section.value) : section.function);
         auto& compiled = parts.sections.emplace_back();
-        compiled.push_back(with_gradient(function));
-        for (const Symmetry& symmetry : model_.symmetries) {
-            const auto map = model_.expand(symmetry.map);
-            std::vector<Replacement> replacements;
-            for (std::size_t i = 0; i < states_.size(); ++i)
-                replacements.emplace_back(states_[i], map[i]);
-            compiled.push_back(with_gradient(substitute(function, replacements)));
-        }
+        compiled.push_back(with_gradient(section_function(model_, section, std::nullopt)));
+        for (std::size_t symmetry = 0; symmetry < model_.symmetries.size(); ++symmetry)
+            compiled.push_back(with_gradient(section_function(model_, section, symmetry)));
     }
 }
 

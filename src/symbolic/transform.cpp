@@ -73,24 +73,39 @@ Expression derivative(Operation operation, const Expression& value, const Expres
     return slope_of(operation, value, left) * left_rate;
 }
 
-} // namespace
-
-std::vector<Expression> differentiate(std::span<const Expression> expressions, const Expression& symbol) {
+/// @throws std::invalid_argument unless it is a symbol of the graph of some expressions, if there are any
+void require_variable(const Expression& symbol, const std::shared_ptr<Graph>& graph) {
     if (symbol.empty() || !symbol.is_symbol())
         throw std::invalid_argument("derivatives are taken with respect to symbols only");
-    const Subgraph part = subgraph_of(expressions);
-    if (part.graph && part.graph != symbol.graph())
+    if (graph && graph != symbol.graph())
         throw std::invalid_argument("the symbol belongs to another graph than the expressions");
+}
+
+} // namespace
+
+std::vector<Expression> differentiate_along(std::span<const Expression> expressions,
+                                            std::span<const Component> vector) {
+    const Subgraph part = subgraph_of(expressions);
+    std::unordered_map<NodeIndex, Expression> components;
+    for (const auto& [symbol, component] : vector) {
+        require_variable(symbol, part.graph);
+        if (component.empty() || component.graph() != symbol.graph())
+            throw std::invalid_argument("a component belongs to another graph than its symbol");
+        if (!components.emplace(symbol.index(), component).second)
+            throw std::invalid_argument("symbol '" + symbol.name() + "' has two components");
+    }
     std::vector<Expression> rates(part.items.size()); // empty where zero
     for (std::size_t position = 0; position < rates.size(); ++position) {
         const Subgraph::Item& item = part.items[position];
         const Operation operation = part.node(item).operation;
-        if (item.index == symbol.index()) {
-            rates[position] = symbol.graph()->number(1);
+        const int operands = arity(operation);
+        if (operands == 0) {
+            const auto found = components.find(item.index);
+            if (found != components.end() && !found->second.is_number(0))
+                rates[position] = found->second;
             continue;
         }
-        const int operands = arity(operation);
-        if (operands == 0 || (rates[item.left].empty() && (operands == 1 || rates[item.right].empty())))
+        if (rates[item.left].empty() && (operands == 1 || rates[item.right].empty()))
             continue;
         const Subgraph::Item& left = part.items[item.left];
         const Subgraph::Item& right = part.items[operands == 2 ? item.right : item.left];
@@ -105,6 +120,30 @@ std::vector<Expression> differentiate(std::span<const Expression> expressions, c
     for (const std::uint32_t root : part.roots)
         results.push_back(rates[root].empty() ? part.graph->number(0) : rates[root]);
     return results;
+}
+
+std::vector<Expression> differentiate(std::span<const Expression> expressions, const Expression& symbol) {
+    require_variable(symbol, nullptr);
+    const Component along(symbol, symbol.graph()->number(1));
+    return differentiate_along(expressions, {&along, 1});
+}
+
+std::vector<Expression> jacobian(std::span<const Expression> expressions, std::span<const Expression> symbols) {
+    const std::vector<Expression> occurring = symbols_of(expressions); // of many symbols, mostly few
+    const std::size_t columns = symbols.size();
+    std::vector<Expression> rows(expressions.size() * columns);
+    if (rows.empty())
+        return rows;
+    for (std::size_t column = 0; column < columns; ++column) {
+        require_variable(symbols[column], expressions.front().graph());
+        const bool occurs = std::find(occurring.begin(), occurring.end(), symbols[column]) != occurring.end();
+        const std::vector<Expression> derivatives =
+            occurs ? differentiate(expressions, symbols[column])
+                   : std::vector<Expression>(expressions.size(), expressions.front().graph()->number(0));
+        for (std::size_t row = 0; row < expressions.size(); ++row)
+            rows[row * columns + column] = derivatives[row];
+    }
+    return rows;
 }
 
 Expression differentiate(const Expression& expression, const Expression& symbol) {

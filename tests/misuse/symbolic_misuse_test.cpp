@@ -236,6 +236,20 @@ void transforms(WrongUses& wrong) {
     of("differentiate_list_of_two_graphs", [](Graphs& g) { keep(differentiate(std::vector{g.x, g.foreign}, g.x)); });
     of("differentiate_empty_list_by_nothing",
        [](Graphs& g) { keep(differentiate(std::vector<Expression>{}, g.none)); });
+    of("jacobian_by_nothing", [](Graphs& g) { keep(jacobian(std::vector{g.x}, std::vector{g.none})); });
+    of("jacobian_by_no_symbol", [](Graphs& g) { keep(jacobian(std::vector{g.x}, std::vector{g.x * g.y})); });
+    of("jacobian_by_a_symbol_of_another_graph",
+       [](Graphs& g) { keep(jacobian(std::vector{g.x}, std::vector{g.foreign})); });
+    of("jacobian_of_nothing", [](Graphs& g) { keep(jacobian(std::vector{g.none}, std::vector{g.x})); });
+    const auto along = [&](const std::string& name, const std::function<Component(Graphs&)>& component) {
+        of("differentiate_along_" + name,
+           [component](Graphs& g) { keep(differentiate_along(std::vector{g.x}, std::vector{component(g)})); });
+    };
+    along("nothing", [](Graphs& g) { return Component(g.none, g.x); });
+    along("no_component", [](Graphs& g) { return Component(g.x, g.none); });
+    along("no_symbol", [](Graphs& g) { return Component(g.x * g.y, g.x); });
+    along("another_graph", [](Graphs& g) { return Component(g.foreign, g.foreign); });
+    along("component_of_another_graph", [](Graphs& g) { return Component(g.x, g.foreign); });
     of("differentiate_no_such_node", [](Graphs& g) { keep(differentiate(Expression(g.graph, 99), g.x)); });
     using Replacements = std::vector<Replacement>;
     of("substitute_in_nothing", [](Graphs& g) { keep(substitute(g.none, Replacements{{g.x, g.y}})); });

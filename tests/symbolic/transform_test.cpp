@@ -52,6 +52,30 @@ protected:
     }
 };
 
+TEST_F(TransformTest, DerivativesAlongAVectorAreSumsOfPartialOnes) {
+    const Expression u = graph->symbol("u"), e = parse("x^2*sin(y) + exp(x*y)/z");
+    const std::vector<Component> vector{{x, u}, {z, graph->number(3)}, {y, x * y}};
+    const Expression along = differentiate_along(std::vector{e}, vector).front(),
+                     sum = differentiate(e, x) * u + differentiate(e, z) * 3 + differentiate(e, y) * x * y;
+    const std::vector<Expression> inputs{x, y, z, u};
+    const auto values = Function(inputs, std::vector{along, sum})(std::vector{0.7, -1.2, 1.9, 0.4});
+    EXPECT_NEAR(values[0], values[1], 8 * epsilon * std::abs(values[1]));
+    // What does not occur or is zero leaves nothing behind.
+    EXPECT_EQ(differentiate_along(std::vector{parse("y^2")}, std::vector<Component>{{x, u}, {y, graph->number(0)}})[0],
+              graph->number(0));
+    EXPECT_TRUE(differentiate_along({}, vector).empty());
+    EXPECT_EQ(differentiate_along(std::vector{e}, {})[0], graph->number(0));
+    EXPECT_THROW(differentiate_along(std::vector{e}, std::vector<Component>{{x, u}, {x, y}}), std::invalid_argument);
+}
+
+TEST_F(TransformTest, JacobiansHaveTheirPartialDerivativesRowByRow) {
+    const std::vector<Expression> expressions{parse("x*y"), parse("sin(x)")};
+    EXPECT_EQ(jacobian(expressions, std::vector{x, y, z}),
+              (std::vector<Expression>{y, x, graph->number(0), parse("cos(x)"), graph->number(0), graph->number(0)}));
+    EXPECT_TRUE(jacobian({}, symbols).empty());
+    EXPECT_TRUE(jacobian(expressions, {}).empty());
+}
+
 TEST_F(TransformTest, DerivativesOfSimpleExpressionsAreSimple) {
     EXPECT_EQ(derivative(x, 1), graph->number(1));
     EXPECT_EQ(derivative(y, 1), graph->number(0));

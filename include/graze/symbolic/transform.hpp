@@ -14,6 +14,13 @@ Expression differentiate(const Expression& expression, const Expression& symbol)
 /// The same for several expressions, visiting shared parts once.
 std::vector<Expression> differentiate(std::span<const Expression> expressions, const Expression& symbol);
 
+/// All partial derivatives with respect to several symbols, row by row: expressions x symbols.
+std::vector<Expression> jacobian(std::span<const Expression> expressions, std::span<const Expression> symbols);
+/// The derivative along a vector: the sum of the partial derivatives with respect to symbols, times the component of
+/// each. Shared parts are visited once, whatever the number of components.
+using Component = std::pair<Expression, Expression>; ///< symbol, component of the vector (any expression)
+std::vector<Expression> differentiate_along(std::span<const Expression> expressions, std::span<const Component> vector);
+
 /// Replaces symbols by expressions, all at once (replacements are not searched again).
 using Replacement = std::pair<Expression, Expression>; ///< symbol, what replaces it
 Expression substitute(const Expression& expression, std::span<const Replacement> replacements);
