@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace graze {
 
@@ -24,31 +25,71 @@ double size_of_all(const double* c, std::size_t width, std::size_t order, double
     return sum;
 }
 
-/// The largest difference between slopes of derivatives and what the variational equations say, in units of what is
-/// allowed.
-double misfit_at(const Jet& jet, Jet& next, std::size_t states, std::size_t count, double tolerance, double step,
-                 std::span<double> times, std::span<double> sums, std::span<double> slopes) {
+/// Differences between the slopes of derivatives' polynomials and what the variational equations say, after part of a
+/// step.
+class Misfit {
+public:
+    Misfit(const Jet& jet, Jet& next, std::size_t states, std::size_t count, double tolerance, std::span<double> times,
+           std::span<double> sums, std::span<double> slopes)
+        : jet_(jet), next_(next), states_(states), count_(count), order_(static_cast<std::size_t>(jet.order())),
+          width_(static_cast<std::size_t>(jet.width())), tolerance_(tolerance), times_(times), sums_(sums),
+          slopes_(slopes) {}
+
+    /// The largest, in units of what is allowed.
+    double after(double step);
+    /// From now on differences are allowed that there are for no other reason than round-off.
+    void measure_noise(double step);
+
+private:
+    void evaluate(double step) {
+        std::fill(times_.begin(), times_.end(), step);
+        jet_.evaluate_states(times_, sums_, slopes_);
+        next_.begin(sums_);
+    }
+    double rate(std::size_t i, std::size_t l) const { return next_.state(i)[width_ + 1 + l]; }
+    double difference(std::size_t i, std::size_t l) const { return std::abs(slopes_[i * width_ + l + 1] - rate(i, l)); }
+
+    const Jet& jet_;
+    Jet& next_;
+    std::size_t states_, count_, order_, width_;
+    double tolerance_;
+    std::span<double> times_, sums_, slopes_;
+    std::vector<double> noise_; ///< of rates, states x count; none before it is measured
+};
+
+double Misfit::after(double step) {
     constexpr double roundoff = 1e4 * 0x1p-53;
-    const auto order = static_cast<std::size_t>(jet.order()), width = static_cast<std::size_t>(jet.width());
-    std::fill(times.begin(), times.end(), step);
-    jet.evaluate_states(times, sums, slopes);
-    next.begin(sums);
+    evaluate(step);
     const double length = std::abs(step);
     double most = 0;
-    for (std::size_t i = 0; i < states; ++i) {
-        const double* c = jet.state(i) + 1;
-        const double* rates = next.state(i) + width + 1;
-        for (std::size_t l = 0; l < count; ++l) {
-            const double difference = length * std::abs(slopes[i * width + l + 1] - rates[l]);
-            double size = StepCheck::size_over(c[l], c[width + l], sums[i * width + l + 1], rates[l], length);
-            if (difference <= StepCheck::allowance * tolerance * size)
+    for (std::size_t i = 0; i < states_; ++i) {
+        const double* c = jet_.state(i) + 1;
+        for (std::size_t l = 0; l < count_; ++l) {
+            const double apart = length * difference(i, l);
+            double size = StepCheck::size_over(c[l], c[width_ + l], sums_[i * width_ + l + 1], rate(i, l), length);
+            if (apart <= StepCheck::allowance * tolerance_ * size)
                 continue;
-            size = std::max(size, size_of_all(c + l, width, order, length));
-            const double ratio = difference / ((StepCheck::allowance * tolerance + roundoff) * size);
+            size = std::max(size, size_of_all(c + l, width_, order_, length));
+            const double noise = noise_.empty() ? 0 : length * noise_[i * count_ + l],
+                         ratio = apart / ((StepCheck::allowance * tolerance_ + roundoff) * size + noise);
             most = std::isnan(ratio) ? std::numeric_limits<double>::infinity() : std::max(most, ratio);
         }
     }
     return most;
+}
+
+/// Next to the start polynomials are exact, so that what is between slopes and rates there is round-off: of terms that
+/// cancel, such as those of a coupling that a symmetry makes zero, beside which nothing shows how large they are.
+void Misfit::measure_noise(double step) {
+    constexpr double near = 0x1p-24, spread = 100; // what is random is small now and then
+    noise_.assign(states_ * count_, 0.0);
+    for (const double share : {near, 1.7 * near, 3.1 * near}) {
+        evaluate(share * step);
+        for (std::size_t i = 0; i < states_; ++i)
+            for (std::size_t l = 0; l < count_; ++l)
+                if (const double noise = spread * difference(i, l); std::isfinite(noise))
+                    noise_[i * count_ + l] = std::max(noise_[i * count_ + l], noise);
+    }
 }
 
 } // namespace
@@ -88,23 +129,27 @@ double follow_tangents(const Jet& jet, Jet& next, std::size_t states, std::size_
                        std::span<double> times, std::span<double> sums, std::span<double> slopes) {
     require_index(count, static_cast<std::size_t>(jet.width()), "number of derivatives");
     require_room(times.size(), static_cast<std::size_t>(jet.width()), "times");
-    // What is left out falls with a high power of the step. What does not is the round-off of rates that cancel, or
-    // belongs to derivatives that have only begun to differ from zero: no shorter step would be better.
+    // What is left out falls with a high power of the step. What does not is the round-off of derivatives that have
+    // only begun to differ from zero: no shorter step would be better.
     constexpr int most_halvings = 8;
     constexpr double least_gain = 0.1;
+    Misfit misfit(jet, next, states, count, tolerance, times, sums, slopes);
+    if (misfit.after(step) <= 1)
+        return step;
+    misfit.measure_noise(step);
     double part = step, first = 0;
     for (int halving = 0; halving <= most_halvings; ++halving, part *= 0.5) {
-        const double misfit = misfit_at(jet, next, states, count, tolerance, part, times, sums, slopes);
-        if (misfit <= 1)
+        const double here = misfit.after(part);
+        if (here <= 1)
             return part;
         if (halving == 0)
-            first = misfit;
-        else if (halving == most_halvings && std::isfinite(misfit) && misfit > least_gain * first)
+            first = here;
+        else if (halving == most_halvings && std::isfinite(here) && here > least_gain * first)
             break;
         else if (halving == most_halvings)
             return part;
     }
-    misfit_at(jet, next, states, count, tolerance, step, times, sums, slopes);
+    misfit.after(step);
     return step;
 }
 
