@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 namespace graze {
@@ -25,27 +26,35 @@ constexpr double first_share = 1e-10;
 /// A step longer than the last one by more than this is looked at within as well.
 constexpr double longest_leap = 2;
 
-} // namespace
-
-namespace {
-
 int order_of(double tolerance, int order) {
     return order != 0 ? order : order_for_tolerance(tolerance);
 }
 
+/// All states, unless some are chosen.
+std::vector<std::size_t> starts_of(const System& system, std::optional<std::vector<std::size_t>> chosen) {
+    if (chosen)
+        return std::move(*chosen);
+    std::vector<std::size_t> all(system.states());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
+}
+
 } // namespace
 
-ModeFlow::ModeFlow(const System& system, double tolerance, int order, std::vector<std::size_t> free)
-    : system_(system), free_(std::move(free)), states_(system.states()), directions_(states_ + free_.size()),
-      step_size_(order_of(tolerance, order), tolerance), step_check_(system, order_of(tolerance, order), tolerance),
-      tolerance_(allowance * tolerance), single_(system, order_of(tolerance, order), LaneKind::single),
+ModeFlow::ModeFlow(const System& system, double tolerance, int order, std::vector<std::size_t> free,
+                   std::optional<std::vector<std::size_t>> starts)
+    : system_(system), free_(std::move(free)), starts_(starts_of(system, std::move(starts))), states_(system.states()),
+      directions_(starts_.size() + free_.size()), step_size_(order_of(tolerance, order), tolerance),
+      step_check_(system, order_of(tolerance, order), tolerance), tolerance_(allowance * tolerance),
+      single_(system, order_of(tolerance, order), LaneKind::single),
       tangent_(system, single_.order(), LaneKind::tangent) {
     for (const std::size_t parameter : free_)
         require_index(parameter, system.parameters(), "independent parameter");
+    for (const std::size_t state : starts_)
+        require_index(state, states_, "state");
     lanes_ = static_cast<std::size_t>(tangent_.width()) - 1;
     const std::size_t width = lanes_ + 1;
-    parameters_.resize(system.parameters());
-    parameter_lanes_.resize(parameters_.size() * width);
+    parameter_lanes_.resize(system.parameters() * width);
     seeds_.resize(states_ * width);
     sums_.resize(std::max<std::size_t>(states_, 1) * width);
     slopes_.resize(sums_.size());
@@ -57,13 +66,13 @@ ModeFlow::ModeFlow(const System& system, double tolerance, int order, std::vecto
 void ModeFlow::require_fitting(std::size_t mode, std::span<const double> state) const {
     require_index(mode, system_.model().modes.size(), "mode");
     require_size(state.size(), states_, "states");
-    if (!has_parameters_ && !parameters_.empty())
+    if (parameters_.size() != system_.parameters())
         throw std::logic_error("the flow of a mode has no parameters before they are set");
 }
 
 void ModeFlow::set_parameters(std::span<const double> parameters) {
-    require_size(parameters.size(), parameters_.size(), "independent parameters");
-    has_parameters_ = true;
+    require_size(parameters.size(), system_.parameters(), "independent parameters");
+    parameters_.resize(parameters.size());
     std::copy(parameters.begin(), parameters.end(), parameters_.begin());
     single_.set_parameters(parameters_);
     step_check_.set_parameters(parameters_);
@@ -73,7 +82,7 @@ void ModeFlow::set_parameters(std::span<const double> parameters) {
         parameter_lanes_[j * width] = parameters_[j];
     if (directions_ <= lanes_) {
         for (std::size_t f = 0; f < free_.size(); ++f)
-            parameter_lanes_[free_[f] * width + 1 + states_ + f] = 1;
+            parameter_lanes_[free_[f] * width + 1 + starts_.size() + f] = 1;
         tangent_.set_parameters(parameter_lanes_);
     }
 }
@@ -136,7 +145,7 @@ void ModeFlow::load(std::size_t mode, std::span<const double> state, std::size_t
     if (directions_ > lanes_) {
         for (std::size_t f = 0; f < free_.size(); ++f)
             for (std::size_t l = 0; l < lanes_; ++l)
-                parameter_lanes_[free_[f] * width + 1 + l] = first + l == states_ + f ? 1 : 0;
+                parameter_lanes_[free_[f] * width + 1 + l] = first + l == starts_.size() + f ? 1 : 0;
         tangent_.set_parameters(mode, parameter_lanes_);
     }
     for (std::size_t i = 0; i < states_; ++i) {
@@ -150,12 +159,14 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
                                std::span<double> derivatives) {
     require_fitting(mode, state);
     require_size(derivatives.size(), states_ * directions_, "derivatives");
+    if (directions_ == 0)
+        return run(mode, state, duration);
     if (!std::isfinite(duration))
         return Ending::undefined;
     const std::size_t width = lanes_ + 1;
     std::fill(matrix_.begin(), matrix_.end(), 0.0);
-    for (std::size_t i = 0; i < states_; ++i)
-        matrix_[i * directions_ + i] = 1;
+    for (std::size_t d = 0; d < starts_.size(); ++d)
+        matrix_[starts_[d] * directions_ + d] = 1;
     double remaining = duration;
     previous_ = 0;
     for (std::size_t count = 0; remaining != 0; ++count) {

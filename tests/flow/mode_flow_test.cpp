@@ -86,6 +86,25 @@ TEST(ModeFlow, ShowsItsStepsAndPassesEvents) {
     EXPECT_NEAR(state[0], std::cos(2.0), accuracy); // beyond the wall
 }
 
+TEST(ModeFlow, GivesDerivativesByChosenStatesAlone) {
+    const System system(spring());
+    ModeFlow all(system, tolerance, 0, {1}), some(system, tolerance, 0, {1}, std::vector<std::size_t>{1}),
+        none(system, tolerance, 0, {}, std::vector<std::size_t>{});
+    std::vector<double> state{0.8, -0.3}, other = state, alone = state, every(2 * 3), few(2 * 2);
+    for (ModeFlow* flow : {&all, &some, &none})
+        flow->set_parameters(std::vector{7.0, 4.0});
+    ASSERT_EQ(all.run(0, state, 3.1, every), ModeFlow::Ending::done);
+    ASSERT_EQ(some.run(0, other, 3.1, few), ModeFlow::Ending::done);
+    ASSERT_EQ(none.run(0, alone, 3.1, std::span<double>()), ModeFlow::Ending::done);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_NEAR(other[i], state[i], accuracy);
+        EXPECT_NEAR(alone[i], state[i], accuracy);
+        EXPECT_NEAR(few[2 * i], every[3 * i + 1], 10 * accuracy);
+        EXPECT_NEAR(few[2 * i + 1], every[3 * i + 2], 10 * accuracy);
+    }
+    EXPECT_THROW(ModeFlow(system, tolerance, 0, {}, std::vector<std::size_t>{2}), InputError);
+}
+
 /// The second mode of the beam is antisymmetric: terms of its coupling to the first cancel, and leave round-off.
 TEST(ModeFlow, TakesFewStepsWhereASymmetryMakesDerivativesZero) {
     for (const double within : {1e-9, 1e-12, tolerance}) {

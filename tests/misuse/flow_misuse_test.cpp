@@ -1,8 +1,10 @@
-// Tapes, jets, steps, roots, systems.
+// Tapes, jets, steps, roots, systems, flows.
 
 #include "misuse/right_things.hpp"
 #include "misuse/wrong_use.hpp"
 
+#include "graze/flow/mode_flow.hpp"
+#include "graze/flow/second_order_flow.hpp"
 #include "graze/flow/step_check.hpp"
 #include "graze/flow/step_size.hpp"
 #include "graze/flow/tangent_reach.hpp"
@@ -320,12 +322,133 @@ void systems(WrongUses& wrong) {
     });
 }
 
+void mode_flows(WrongUses& wrong) {
+    const std::size_t n = oscillator().states.size(), parameters = oscillator().parameter_values().size();
+    const auto made = [] {
+        ModeFlow flow(oscillator(), 1e-10, 0, {0});
+        flow.set_parameters(oscillator().parameter_values());
+        return flow;
+    };
+    for (const double tolerance : {0.0, -1.0, not_a_number})
+        wrong("mode_flow_tolerance_" + std::to_string(tolerance),
+              [tolerance] { keep(ModeFlow(oscillator(), tolerance)); });
+    for (const int order : {3, -1, highest_order + 1})
+        wrong("mode_flow_order_" + std::to_string(order), [order] { keep(ModeFlow(oscillator(), 1e-10, order)); });
+    for (const auto& [how, index] : wrong_indices(parameters))
+        wrong("mode_flow_free_" + how, [index = index] { keep(ModeFlow(oscillator(), 1e-10, 0, {index})); });
+    for (const auto& [how, index] : wrong_indices(n))
+        wrong("mode_flow_start_" + how,
+              [index = index] { keep(ModeFlow(oscillator(), 1e-10, 0, {}, std::vector{index})); });
+    for (const auto& [how, index] : wrong_indices(oscillator().modes.size()))
+        wrong("mode_flow_run_" + how, [made, n, index = index] {
+            std::vector<double> state(n, 0.1);
+            keep(made().run(index, state, 0.1));
+        });
+    for (const auto& [how, length] : wrong_lengths(parameters))
+        wrong("mode_flow_parameters_" + how,
+              [made, length = length] { made().set_parameters(std::vector<double>(length)); });
+    for (const auto& [how, length] : wrong_lengths(n))
+        wrong("mode_flow_state_" + how, [made, length = length] {
+            std::vector<double> state(length, 0.1);
+            keep(made().run(0, state, 0.1));
+        });
+    for (const auto& [how, length] : wrong_lengths(n * (n + 1)))
+        wrong("mode_flow_derivatives_" + how, [made, n, length = length] {
+            std::vector<double> state(n, 0.1), derivatives(length);
+            keep(made().run(0, state, 0.1, derivatives));
+        });
+    wrong("mode_flow_before_parameters", [n] {
+        ModeFlow flow(oscillator(), 1e-10);
+        std::vector<double> state(n, 0.1);
+        keep(flow.run(0, state, 0.1));
+    });
+}
+
+/// What is right for the oscillator by one of its parameters, to be spoiled.
+struct SecondOrderRun {
+    VariationalSystem system{oscillator(), {0}};
+    SecondOrderFlow flow{system, 1e-10};
+    std::size_t mode = 0;
+    std::vector<double> parameters = oscillator().parameter_values(), state = oscillator().initial_state(),
+                        vector = std::vector<double>(state.size() + 1, 0.5),
+                        derivatives = std::vector<double>(state.size() * vector.size()), second = derivatives;
+    void run() {
+        flow.set_parameters(parameters);
+        keep(flow.run(mode, state, 0.1, vector, derivatives, second));
+    }
+};
+
+void second_order_flows(WrongUses& wrong) {
+    const SecondOrderRun right;
+    for (const double tolerance : {0.0, -1.0, not_a_number})
+        wrong("second_order_tolerance_" + std::to_string(tolerance),
+              [tolerance] { keep(SecondOrderFlow(SecondOrderRun().system, tolerance)); });
+    for (const int order : {3, -1, highest_order + 1})
+        wrong("second_order_order_" + std::to_string(order),
+              [order] { keep(SecondOrderFlow(SecondOrderRun().system, 1e-10, order)); });
+    const auto run = [&](const std::string& name, const std::function<void(SecondOrderRun&)>& spoil) {
+        wrong("second_order_" + name, [spoil] {
+            SecondOrderRun one;
+            spoil(one);
+            one.run();
+        });
+    };
+    using Numbers = std::vector<double> SecondOrderRun::*;
+    for (const auto& [name, numbers] : {std::pair<std::string, Numbers>("parameters", &SecondOrderRun::parameters),
+                                        {"state", &SecondOrderRun::state},
+                                        {"vector", &SecondOrderRun::vector},
+                                        {"first", &SecondOrderRun::derivatives},
+                                        {"second", &SecondOrderRun::second}})
+        for (const auto& [how, length] : wrong_lengths((right.*numbers).size()))
+            run(name + "_" + how,
+                [numbers = numbers, length = length](SecondOrderRun& r) { (r.*numbers).resize(length); });
+    for (const auto& [how, index] : wrong_indices(oscillator().modes.size()))
+        run("run_" + how, [index = index](SecondOrderRun& r) { r.mode = index; });
+    for (const double component : {not_a_number, infinity})
+        run("vector_" + std::to_string(component), [component](SecondOrderRun& r) { r.vector[1] = component; });
+    wrong("second_order_before_parameters", [] {
+        SecondOrderRun r;
+        keep(r.flow.run(0, r.state, 0.1, r.vector, r.derivatives, r.second));
+    });
+
+    for (const auto& [how, index] : wrong_indices(oscillator().parameter_values().size()))
+        wrong("variational_free_" + how, [index = index] { keep(VariationalSystem(oscillator(), {index})); });
+    wrong("variational_free_twice", [] { keep(VariationalSystem(oscillator(), {1, 0, 1})); });
+    const auto indices = [&](const std::string& name, std::size_t size,
+                             const std::function<void(const VariationalSystem&, std::size_t)>& use) {
+        for (const auto& [how, index] : wrong_indices(size))
+            wrong("variational_" + name + "_" + how,
+                  [use, index = index] { use(VariationalSystem(symmetric_oscillator()), index); });
+    };
+    const Model model = symmetric_oscillator();
+    indices("jump", model.jumps.size(), [](const VariationalSystem& s, std::size_t i) { keep(s.jump(i)); });
+    indices("symmetry", model.symmetries.size(),
+            [](const VariationalSystem& s, std::size_t i) { keep(s.symmetry(i)); });
+    indices("event", model.events.size(), [](const VariationalSystem& s, std::size_t i) { keep(s.event(i)); });
+    indices("section", model.sections.size(), [](const VariationalSystem& s, std::size_t i) { keep(s.section(i)); });
+    indices("section_of_symmetry", model.symmetries.size(),
+            [](const VariationalSystem& s, std::size_t i) { keep(s.section(0, i)); });
+    const auto function = [&](const std::string& kind, const Expression& expression) {
+        wrong("variational_function_of_" + kind,
+              [expression] { keep(VariationalSystem(oscillator()).function_of(std::vector{expression})); });
+    };
+    function("nothing", {});
+    function("unknown", Graph::create()->symbol("unknown"));
+    wrong("moved_variational_system", [] {
+        VariationalSystem system(oscillator());
+        const VariationalSystem moved = std::move(system);
+        keep(system.variables());
+    });
+}
+
 std::vector<WrongUse> wrong_uses() {
     WrongUses wrong;
     tapes(wrong);
     jets(wrong);
     steps(wrong);
     systems(wrong);
+    mode_flows(wrong);
+    second_order_flows(wrong);
     return wrong.list();
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,13 +18,17 @@ class ModeFlow {
 public:
     /// @param tolerance of each step, as of SimulationOptions; @param order of the series, 0: chosen by the tolerance
     /// @param free independent parameters with respect to which there are derivatives
-    /// @throws InputError for a tolerance, order or parameter that is out of range
-    ModeFlow(const System& system, double tolerance, int order = 0, std::vector<std::size_t> free = {});
+    /// @param starts states of the start with respect to which there are derivatives; all unless they are given
+    /// @throws InputError for a tolerance, order, parameter or state that is out of range
+    ModeFlow(const System& system, double tolerance, int order = 0, std::vector<std::size_t> free = {},
+             std::optional<std::vector<std::size_t>> starts = std::nullopt);
 
     const System& system() const { return system_; }
     const std::vector<std::size_t>& free() const { return free_; }
+    const std::vector<std::size_t>& starts() const { return starts_; }
     /// To be called before `run`. @throws InputError unless there are as many as the system has
     void set_parameters(std::span<const double> parameters);
+    /// None before they are set.
     std::span<const double> parameters() const { return parameters_; }
 
     enum class Ending { done, singular, undefined, too_long };
@@ -33,8 +38,8 @@ public:
     /// The state after a time. @param state start, replaced by the end
     /// @throws InputError, here and below, for a mode or numbers that do not fit the system
     Ending run(std::size_t mode, std::span<double> state, double duration, const StepVisitor& visit = {});
-    /// The same with derivatives. @param derivatives of the end at fixed time with respect to the start and the free
-    /// parameters, states x (states + free) row by row
+    /// The same with derivatives. @param derivatives of the end at fixed time with respect to the states of the start
+    /// and the free parameters, states x (starts + free) row by row
     Ending run(std::size_t mode, std::span<double> state, double duration, std::span<double> derivatives);
 
     std::size_t steps() const { return steps_; } ///< since it was made
@@ -46,12 +51,11 @@ private:
     void require_fitting(std::size_t mode, std::span<const double> state) const;
 
     System system_;
-    std::vector<std::size_t> free_;
+    std::vector<std::size_t> free_, starts_;
     std::size_t states_, directions_, lanes_;
     StepSize step_size_;
     StepCheck step_check_;
     double tolerance_;
-    bool has_parameters_ = false;
     ModeJets single_, tangent_;
     std::vector<double> parameters_, parameter_lanes_, seeds_, sums_, slopes_, next_, times_, guarded_;
     std::vector<double> matrix_; ///< states x directions, row by row

@@ -1,0 +1,157 @@
+#include "graze/flow/variational_system.hpp"
+
+#include "flow/section_function.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+#include "graze/symbolic/transform.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+namespace graze {
+
+namespace {
+
+/// Differentiates in a copy of a system's model, whose graph may grow and is thrown away at the end.
+class VariationalCompiler {
+public:
+    VariationalCompiler(const System& system, std::span<const std::size_t> free);
+
+    System modes();
+    /// Values, derivatives and second derivatives of functions in the model's symbols.
+    Function function_of(std::span<const Expression> functions);
+    Function function_of(const Expression& function) { return function_of(std::span(&function, 1)); }
+    /// The same of a map of states, which is the identity where it is empty.
+    Function map_of(std::span<const Expression> map) { return function_of(map.empty() ? states_ : map); }
+
+    Model& model() { return model_; }
+    /// Of all functions compiled.
+    std::size_t workspace() const { return workspace_; }
+
+private:
+    Expression new_symbol(const std::string& base);
+
+    Model model_;
+    std::vector<Expression> states_, known_, variables_, vector_;
+    std::vector<Component> along_; ///< the vector
+    std::size_t workspace_ = 0;
+};
+
+VariationalCompiler::VariationalCompiler(const System& system, std::span<const std::size_t> free)
+    : model_(system.model()), states_(model_.state_symbols()), known_(model_.inputs()), variables_(states_) {
+    const std::vector<Expression> parameters = model_.parameter_symbols();
+    for (const std::size_t parameter : free)
+        variables_.push_back(parameters[parameter]);
+    for (const Expression& variable : variables_) {
+        vector_.push_back(new_symbol("along_" + std::to_string(vector_.size())));
+        along_.emplace_back(variable, vector_.back());
+    }
+}
+
+/// One whose name the model does not have.
+Expression VariationalCompiler::new_symbol(const std::string& base) {
+    std::string name = base;
+    const auto is_definition = [&](const Definition& definition) { return definition.name == name; };
+    while (model_.find_state(name) || model_.find_parameter(name) ||
+           std::any_of(model_.definitions.begin(), model_.definitions.end(), is_definition))
+        name += '_';
+    return model_.symbol(name);
+}
+
+Function VariationalCompiler::function_of(std::span<const Expression> functions) {
+    std::vector<Expression> outputs = model_.expand(functions);
+    model_.require_known(known_, outputs);
+    const std::vector<Expression> first = jacobian(outputs, variables_),
+                                  second = jacobian(differentiate_along(outputs, along_), variables_);
+    outputs.insert(outputs.end(), first.begin(), first.end());
+    outputs.insert(outputs.end(), second.begin(), second.end());
+    std::vector<Expression> inputs = known_;
+    inputs.insert(inputs.end(), vector_.begin(), vector_.end());
+    Function function(inputs, outputs);
+    workspace_ = std::max(workspace_, function.workspace());
+    return function;
+}
+
+/// A model of its own, in which the tangent is a state like others.
+System VariationalCompiler::modes() {
+    Model doubled;
+    doubled.graph = model_.graph;
+    doubled.name = model_.name;
+    for (const Expression& state : states_)
+        doubled.states.push_back({.name = state.name(), .initial = model_.number(0)});
+    for (std::size_t i = 0; i < states_.size(); ++i)
+        doubled.states.push_back({.name = vector_[i].name(), .initial = model_.number(0)});
+    const std::vector<double> values = model_.parameter_values();
+    for (const Expression& parameter : model_.parameter_symbols())
+        doubled.parameters.push_back({.name = parameter.name(), .value = values[doubled.parameters.size()]});
+    for (std::size_t i = states_.size(); i < vector_.size(); ++i)
+        doubled.parameters.push_back({.name = vector_[i].name(), .value = 0.0});
+    for (const Mode& mode : model_.modes) {
+        std::vector<Expression> rates = model_.expand(mode.rates);
+        const std::vector<Expression> tangent = differentiate_along(rates, along_);
+        rates.insert(rates.end(), tangent.begin(), tangent.end());
+        doubled.modes.push_back({.name = mode.name, .rates = std::move(rates)});
+    }
+    return doubled;
+}
+
+} // namespace
+
+VariationalSystem::VariationalSystem(const System& system, std::vector<std::size_t> free) {
+    std::set<std::size_t> seen;
+    for (const std::size_t parameter : free) {
+        require_index(parameter, system.parameters(), "independent parameter");
+        if (!seen.insert(parameter).second)
+            throw InputError(
+                fmt::format("parameter '{}' is free twice", system.model().independent_parameters()[parameter]),
+                "name each free parameter once");
+    }
+    VariationalCompiler compiler(system, free);
+    Parts parts{system, compiler.modes(), std::move(free), {}, {}, {}, {}, 0};
+    Model& model = compiler.model();
+    for (const Event& event : model.events)
+        parts.events.push_back(compiler.function_of(event.function));
+    for (const Jump& jump : model.jumps)
+        parts.jumps.push_back(compiler.map_of(jump.map));
+    for (const Symmetry& symmetry : model.symmetries)
+        parts.symmetries.push_back(compiler.map_of(symmetry.map));
+    for (const Section& section : model.sections) {
+        auto& functions = parts.sections.emplace_back();
+        functions.push_back(compiler.function_of(section_function(model, section, std::nullopt)));
+        for (std::size_t symmetry = 0; symmetry < model.symmetries.size(); ++symmetry)
+            functions.push_back(compiler.function_of(section_function(model, section, symmetry)));
+    }
+    parts.workspace = compiler.workspace();
+    parts_ = std::make_shared<const Parts>(std::move(parts));
+}
+
+const Function& VariationalSystem::event(std::size_t index) const {
+    require_index(index, parts_->events.size(), "event");
+    return parts_->events[index];
+}
+
+const Function& VariationalSystem::section(std::size_t index, std::optional<std::size_t> symmetry) const {
+    require_index(index, parts_->sections.size(), "section");
+    if (symmetry)
+        require_index(*symmetry, parts_->symmetries.size(), "symmetry");
+    return parts_->sections[index][symmetry ? 1 + *symmetry : 0];
+}
+
+const Function& VariationalSystem::jump(std::size_t index) const {
+    require_index(index, parts_->jumps.size(), "jump");
+    return parts_->jumps[index];
+}
+
+const Function& VariationalSystem::symmetry(std::size_t index) const {
+    require_index(index, parts_->symmetries.size(), "symmetry");
+    return parts_->symmetries[index];
+}
+
+Function VariationalSystem::function_of(std::span<const Expression> expressions) const {
+    return VariationalCompiler(system(), free()).function_of(expressions);
+}
+
+} // namespace graze
