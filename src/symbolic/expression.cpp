@@ -25,13 +25,9 @@ Expression apply(Operation operation, const Expression& left, const Expression& 
     return left.graph()->apply(operation, left, right);
 }
 
-#define GRAZE_ROW(name, recurrence, slope) Operation::name,
-constexpr Operation listed[] = {GRAZE_FUNCTIONS(GRAZE_ROW)};
-#undef GRAZE_ROW
-
 constexpr bool is_complete() {
     for (int i = 0; i < function_count; ++i)
-        if (static_cast<int>(listed[i]) != static_cast<int>(first_function) + i)
+        if (static_cast<int>(all_functions[i]) != static_cast<int>(Operation::negate) + 1 + i)
             return false;
     return true;
 }

@@ -34,10 +34,10 @@ namespace graze {
 
 inline constexpr double two_over_root_pi = 1.1283791670955126;
 
-#define GRAZE_ROW(name, recurrence, slope) +1
-inline constexpr int function_count = 0 GRAZE_FUNCTIONS(GRAZE_ROW);
+#define GRAZE_ROW(name, recurrence, slope) Operation::name,
+inline constexpr Operation all_functions[] = {GRAZE_FUNCTIONS(GRAZE_ROW)};
 #undef GRAZE_ROW
-inline constexpr auto first_function = static_cast<Operation>(static_cast<int>(Operation::negate) + 1);
-inline constexpr auto last_function = static_cast<Operation>(static_cast<int>(Operation::negate) + function_count);
+inline constexpr int function_count = sizeof all_functions / sizeof all_functions[0];
+inline constexpr Operation last_function = all_functions[function_count - 1];
 
 } // namespace graze
