@@ -3,6 +3,7 @@
 #include "branch/inserted_contact.hpp"
 #include "branch/orbit_condition.hpp"
 #include "branch/orbit_problem.hpp"
+#include "flow/guard.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/close_at_section.hpp"
@@ -96,17 +97,9 @@ private:
 
 /// The mode after a transition, by its guards. None where the motion ends.
 std::optional<std::size_t> mode_after(const System& model, std::size_t transition, std::span<const double> inputs) {
-    std::vector<double> values, work(model.workspace());
-    for (const auto& alternative : model.transition(transition).next) {
-        values.resize(alternative.conditions.outputs());
-        alternative.conditions.evaluate(inputs, values, work);
-        bool holds = true;
-        for (std::size_t i = 0; i < values.size(); ++i)
-            holds = holds && (alternative.strict[i] ? values[i] > 0 : values[i] >= 0);
-        if (holds)
-            return alternative.mode;
-    }
-    return std::nullopt;
+    std::vector<double> conditions, work(model.workspace());
+    const auto* chosen = chosen_alternative(model, transition, inputs, conditions, work);
+    return chosen ? chosen->mode : std::nullopt;
 }
 
 double sum(const std::vector<double>& values) {

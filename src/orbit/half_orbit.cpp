@@ -1,5 +1,6 @@
 #include "orbit/half_orbit.hpp"
 
+#include "flow/cyclic.hpp"
 #include "graze/orbit/solve.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "orbit/shooting.hpp"
@@ -20,9 +21,7 @@ double distance(std::span<const double> a, std::span<const double> b, const Orbi
     for (std::size_t i = 0; i < a.size(); ++i) {
         if (equations.model().states[i].drifting)
             continue;
-        double difference = a[i] - b[i];
-        if (const double period = periods[i]; period > 0)
-            difference -= std::round(difference / period) * period;
+        const double difference = without_turns(a[i] - b[i], periods[i]);
         result = std::max(result, std::abs(difference) / equations.scales()[static_cast<Eigen::Index>(i)]);
     }
     return result;

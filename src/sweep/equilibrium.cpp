@@ -1,4 +1,5 @@
 #include "sweep/equilibrium.hpp"
+#include "flow/cyclic.hpp"
 
 #include <Eigen/Dense>
 
@@ -195,10 +196,7 @@ Eigen::VectorXd EquilibriumFinder::deviation(const Equilibrium& equilibrium, std
     Eigen::VectorXd result(equilibrium.scale.size());
     for (Eigen::Index i = 0; i < result.size(); ++i) {
         const std::size_t index = equilibrium.active[static_cast<std::size_t>(i)];
-        double difference = state[index] - equilibrium.state[index];
-        if (periods_[index] > 0)
-            difference -= std::round(difference / periods_[index]) * periods_[index];
-        result[i] = difference / equilibrium.scale[i];
+        result[i] = without_turns(state[index] - equilibrium.state[index], periods_[index]) / equilibrium.scale[i];
     }
     return result;
 }

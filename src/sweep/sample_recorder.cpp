@@ -1,4 +1,5 @@
 #include "sweep/sample_recorder.hpp"
+#include "flow/cyclic.hpp"
 #include "graze/symbolic/require.hpp"
 
 #include <algorithm>
@@ -88,11 +89,8 @@ void SampleRecorder::record(std::size_t sampling, double time, std::span<const d
     std::copy(state.begin(), state.end(), inputs_.begin());
     if (const std::size_t image = layout_->image_of_sampling_[sampling]; image != none) {
         layout_->images_[image].evaluate(inputs_, image_, work_);
-        for (std::size_t i = 0; i < image_.size(); ++i) {
-            if (periods_[i] > 0)
-                image_[i] -= std::floor(image_[i] / periods_[i]) * periods_[i];
-            inputs_[i] = image_[i];
-        }
+        for (std::size_t i = 0; i < image_.size(); ++i)
+            inputs_[i] = within_period(image_[i], periods_[i]);
     }
     samples_.samplings.push_back(sampling);
     samples_.times.push_back(time - origin_);

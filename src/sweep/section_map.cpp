@@ -1,5 +1,6 @@
 #include "sweep/section_map.hpp"
 
+#include "flow/cyclic.hpp"
 #include "graze/symbolic/transform.hpp"
 
 #include <Eigen/Dense>
@@ -111,11 +112,8 @@ bool SectionMap::meets_event(Workspace& workspace, std::size_t mode, double time
 
 void subtract_states(std::span<const double> a, std::span<const double> b, std::span<const double> periods,
                      std::span<double> difference) {
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        difference[i] = a[i] - b[i];
-        if (periods[i] > 0)
-            difference[i] -= std::round(difference[i] / periods[i]) * periods[i];
-    }
+    for (std::size_t i = 0; i < a.size(); ++i)
+        difference[i] = without_turns(a[i] - b[i], periods[i]);
 }
 
 ReturnJacobian return_jacobian(const SectionMap& map, const Eigen::MatrixXd& tangents) {

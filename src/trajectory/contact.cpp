@@ -2,6 +2,7 @@
 
 #include "graze/trajectory/trajectory.hpp"
 
+#include "flow/guard.hpp"
 #include "trajectory/probe_tracker.hpp"
 #include "trajectory/series.hpp"
 #include "trajectory/tangents.hpp"
@@ -89,18 +90,11 @@ void Trajectory::jump(std::size_t jump) {
 
 std::optional<std::size_t> Trajectory::next_mode(std::size_t transition, bool& ends) {
     std::copy(after_.begin(), after_.end(), inputs_.begin());
-    for (const auto& alternative : simulation_.system().transition(transition).next) {
-        conditions_.resize(alternative.strict.size());
-        alternative.conditions.evaluate(inputs_, conditions_, work_);
-        bool holds = true;
-        for (std::size_t i = 0; i < conditions_.size(); ++i)
-            holds = holds && (alternative.strict[i] ? conditions_[i] > 0 : conditions_[i] >= 0);
-        if (holds) {
-            ends = !alternative.mode.has_value();
-            return alternative.mode;
-        }
-    }
-    return std::nullopt;
+    const auto* chosen = chosen_alternative(simulation_.system(), transition, inputs_, conditions_, work_);
+    if (!chosen)
+        return std::nullopt;
+    ends = !chosen->mode.has_value();
+    return chosen->mode;
 }
 
 /// Goes on in a mode from `after_`, reached from `before_` by a jump whose time depends on the initial state as

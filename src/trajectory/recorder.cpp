@@ -1,4 +1,5 @@
 #include "graze/trajectory/recorder.hpp"
+#include "flow/cyclic.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
 
@@ -83,13 +84,8 @@ void Sampler::step(const Step& step) {
         if (!(time <= step.start + step.length + 2 * std::numeric_limits<double>::epsilon() * std::abs(time)))
             return;
         const double s = std::clamp(time - step.start, 0.0, step.length);
-        for (std::size_t i = 0; i < state_.size(); ++i) {
-            state_[i] = step.state(i, s);
-            if (periods_[i] > 0)
-                state_[i] -= std::floor(state_[i] / periods_[i]) * periods_[i];
-            if (periods_[i] > 0 && state_[i] >= periods_[i])
-                state_[i] = 0;
-        }
+        for (std::size_t i = 0; i < state_.size(); ++i)
+            state_[i] = within_period(step.state(i, s), periods_[i]);
         receiver_(time, step.mode, state_);
     }
 }

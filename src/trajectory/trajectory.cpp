@@ -1,5 +1,6 @@
 #include "graze/trajectory/trajectory.hpp"
 
+#include "flow/cyclic.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
 #include "trajectory/probe_tracker.hpp"
@@ -358,13 +359,8 @@ void Trajectory::move_along(double step, bool last, const Outlook& outlook, std:
 
 /// Cyclic states of a copy of the state brought within their periods.
 void Trajectory::reduce_cyclic_states(std::span<double> state) const {
-    for (std::size_t i = 0; i < states_; ++i) {
-        if (!(periods_[i] > 0))
-            continue;
-        state[i] -= std::floor(state[i] / periods_[i]) * periods_[i];
-        if (state[i] >= periods_[i])
-            state[i] = 0;
-    }
+    for (std::size_t i = 0; i < states_; ++i)
+        state[i] = within_period(state[i], periods_[i]);
 }
 
 void Trajectory::wrap_cyclic_states(bool snap) {
