@@ -42,14 +42,28 @@ void BranchState::hold(const Orbit& candidate) {
     for (std::size_t m = 0; m < values.size(); ++m)
         if (settings_.monitors[m].fixed && !settings_.monitors[m].held)
             settings_.monitors[m].held = values[m];
-    monitors_ =
-        std::make_unique<OrbitMonitors>(system(), candidate.signature, settings_.monitors, settings_.orbit.tolerance);
 }
 
 void BranchState::make_problem(const Orbit& orbit) {
-    problem_ = std::make_unique<OrbitProblem>(simulation_, orbit, settings_,
-                                              settings_.free.empty() ? nullptr : monitors_.get());
+    problem_ = std::make_unique<OrbitProblem>(simulation_, orbit, settings_);
+    if (!settings_.free.empty())
+        hold_monitors();
     continuation_ = std::make_unique<Continuation>(*problem_, settings_.continuation);
+}
+
+/// Conditions are compiled once, and moved to the segments of each new signature.
+void BranchState::hold_monitors() {
+    std::size_t at = 0;
+    for (std::size_t m = 0; m < settings_.monitors.size(); ++m) {
+        const Monitor& monitor = settings_.monitors[m];
+        if (!monitor.fixed)
+            continue;
+        if (at == held_.size())
+            held_.push_back(OrbitCondition::of_monitor(problem_->equations(), monitor, monitors_->segment(m),
+                                                       monitor.held.value()));
+        held_[at++].set_segment(monitors_->segment(m));
+    }
+    problem_->hold(held_);
 }
 
 bool BranchState::is_outside(double parameter) const {
@@ -100,8 +114,10 @@ bool BranchState::pieces_are_unfit() {
     const OrbitEquations& equations = problem_->equations();
     const OrbitLayout& layout = equations.layout();
     for (std::size_t k = 0; k < layout.pieces(); ++k) {
-        const Eigen::MatrixXd& flow = problem_->evaluation().pieces[k].flow;
-        if (flow.leftCols(static_cast<Eigen::Index>(layout.states())).norm() > too_much_growth * growth_)
+        const OrbitEvaluation& at = problem_->evaluation();
+        const Eigen::VectorXd sizes = at.scales.head(static_cast<Eigen::Index>(layout.states()));
+        const Eigen::MatrixXd flow = at.pieces[k].flow.leftCols(sizes.size());
+        if ((sizes.cwiseInverse().asDiagonal() * flow * sizes.asDiagonal()).norm() > too_much_growth * growth_)
             return true;
         if (layout.is_last(k) && k > layout.first_piece(layout.segment_of(k)) &&
             continuation_->point().u[layout.duration_of(k)] < 0.5 * equations.fixed_duration(k))
@@ -130,8 +146,7 @@ void BranchState::renew_pieces(const BranchPoint& from) {
 
 void BranchState::go_on(const BranchStart& start, double arclength) {
     if (monitors_)
-        monitors_ = std::make_unique<OrbitMonitors>(system(), start.orbit.signature, settings_.monitors,
-                                                    settings_.orbit.tolerance);
+        monitors_->set_signature(start.orbit.signature);
     const double length = continuation_->next_step();
     arclength_ = arclength;
     make_problem(start.orbit);

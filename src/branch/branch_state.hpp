@@ -41,12 +41,14 @@ public:
 
 private:
     void hold(const Orbit& candidate);
+    void hold_monitors();
     void make_problem(const Orbit& orbit);
 
     BranchSettings settings_;
     Simulation simulation_;
     std::optional<Simulation> tighter_; ///< once it has been asked for
     std::unique_ptr<OrbitMonitors> monitors_;
+    std::vector<OrbitCondition> held_; ///< one for each free parameter
     std::unique_ptr<OrbitProblem> problem_;
     std::unique_ptr<Continuation> continuation_;
     double arclength_ = 0, growth_ = 1;

@@ -21,6 +21,10 @@ bool is_along_arcs(Monitor::Kind kind) {
            kind == Monitor::Kind::norm;
 }
 
+bool is_at_point(Monitor::Kind kind) {
+    return kind == Monitor::Kind::value || kind == Monitor::Kind::start;
+}
+
 /// Of a number "2", a name "J1" or the second of a name "J1#2" the index of the segment.
 std::size_t segment_named(const Model& model, const Signature& signature, const Monitor& monitor) {
     const std::string& text = monitor.segment;
@@ -56,24 +60,31 @@ std::size_t segment_named(const Model& model, const Signature& signature, const 
 class OrbitMonitors::Evaluator {
 public:
     Evaluator(const System& system, const Signature& signature, std::vector<Monitor> monitors, double tolerance)
-        : monitors_(std::move(monitors)), signature_(signature), system_(system),
-          simulation_(system, {}, observed(), options(tolerance)), flow_(flow_of(simulation_)),
-          roots_(simulation_.order()) {
-        const Model& model = system.model();
-        if (signature_.empty())
+        : monitors_(std::move(monitors)), system_(system), simulation_(system, {}, observed(), options(tolerance)),
+          flow_(flow_of(simulation_)), roots_(simulation_.order()) {
+        for (const Monitor& monitor : monitors_)
+            functions_.push_back(is_at_point(monitor.kind) ? system.function_of({&monitor.expression, 1}) : Function());
+        set_signature(signature);
+    }
+
+    /// What has been compiled serves all signatures.
+    void set_signature(const Signature& signature) {
+        const Model& model = system_.model();
+        if (signature.empty())
             throw InputError("the signature is empty", "list at least one event or section");
-        for (const Segment& segment : signature_) {
+        for (const Segment& segment : signature) {
             require_index(segment.mode, model.modes.size(), "mode");
             end_name(model, segment); // throws when there is no such end
         }
+        std::vector<std::optional<std::size_t>> segments;
         for (const Monitor& monitor : monitors_) {
-            const bool at_point = monitor.kind == Monitor::Kind::value || monitor.kind == Monitor::Kind::start;
-            segments_.push_back(monitor.segment.empty() ? std::optional<std::size_t>()
-                                                        : segment_named(model, signature, monitor));
-            if (at_point && !segments_.back())
-                segments_.back() = 0;
-            functions_.push_back(at_point ? system.function_of({&monitor.expression, 1}) : Function());
+            segments.push_back(monitor.segment.empty() ? std::optional<std::size_t>()
+                                                       : segment_named(model, signature, monitor));
+            if (is_at_point(monitor.kind) && !segments.back())
+                segments.back() = 0;
         }
+        signature_ = signature;
+        segments_ = std::move(segments);
     }
 
     const std::vector<Monitor>& monitors() const { return monitors_; }
@@ -245,6 +256,9 @@ OrbitMonitors::OrbitMonitors(const System& system, const Signature& signature, s
 OrbitMonitors::~OrbitMonitors() = default;
 OrbitMonitors::OrbitMonitors(OrbitMonitors&&) noexcept = default;
 
+void OrbitMonitors::set_signature(const Signature& signature) {
+    evaluator_->set_signature(signature);
+}
 const std::vector<Monitor>& OrbitMonitors::monitors() const {
     return evaluator_->monitors();
 }

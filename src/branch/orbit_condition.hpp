@@ -40,6 +40,8 @@ public:
     static std::optional<OrbitCondition> of_guard(const OrbitEquations& equations, const OrbitEvaluation& at,
                                                   std::size_t segment);
 
+    /// Moves it to another segment, as where the signature has changed: the same quantity there.
+    void set_segment(std::optional<std::size_t> segment) { segment_ = segment; }
     /// Evaluates value and gradient. @return false where the quantity is not defined
     bool evaluate(const OrbitEquations& equations, const OrbitEvaluation& at);
     /// What the quantity has too much; zero where the condition holds.

@@ -36,19 +36,9 @@ OrbitProblem::OrbitProblem(std::unique_ptr<OrbitEquations> equations)
 OrbitProblem::OrbitProblem(const Simulation& simulation, const Orbit& orbit, std::size_t parameter)
     : OrbitProblem(std::make_unique<Shooting>(simulation, orbit, std::vector{parameter})) {}
 
-OrbitProblem::OrbitProblem(const Simulation& simulation, const Orbit& orbit, const BranchSettings& settings,
-                           const OrbitMonitors* monitors)
+OrbitProblem::OrbitProblem(const Simulation& simulation, const Orbit& orbit, const BranchSettings& settings)
     : OrbitProblem(std::make_unique<Shooting>(simulation, orbit, both(settings.parameter, settings.free),
-                                              std::vector{range_of(settings)})) {
-    if (!monitors)
-        return;
-    for (std::size_t m = 0; m < monitors->monitors().size(); ++m) {
-        const Monitor& monitor = monitors->monitors()[m];
-        if (monitor.fixed)
-            held_.push_back(
-                OrbitCondition::of_monitor(*equations_, monitor, monitors->segment(m), monitor.held.value()));
-    }
-}
+                                              std::vector{range_of(settings)})) {}
 
 std::vector<double> OrbitProblem::row_of(std::span<const double> direction) const {
     std::vector<double> row(direction.begin(), direction.end());

@@ -1,14 +1,13 @@
 #pragma once
 
 #include "branch/orbit_condition.hpp"
+#include "flow/cyclic.hpp"
 #include "graze/branch/continuation.hpp"
-#include "graze/branch/monitor.hpp"
 #include "graze/branch/orbit_branch.hpp"
 #include "orbit/orbit_equations.hpp"
 
 #include <Eigen/Core>
 
-#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -23,9 +22,9 @@ public:
     OrbitProblem(const Simulation& simulation, const Orbit& orbit, std::size_t parameter);
     /// By any discretisation. @param equations with one free parameter
     explicit OrbitProblem(std::unique_ptr<OrbitEquations> equations);
-    /// @param monitors those that are fixed count, and say at which value; may be null
-    OrbitProblem(const Simulation& simulation, const Orbit& orbit, const BranchSettings& settings,
-                 const OrbitMonitors* monitors);
+    /// With further free parameters, as many as conditions are to be held.
+    OrbitProblem(const Simulation& simulation, const Orbit& orbit, const BranchSettings& settings);
+    void hold(std::span<OrbitCondition> conditions) { held_ = conditions; } ///< which must outlive this
 
     OrbitEquations& equations() { return *equations_; }
     const OrbitEquations& equations() const { return *equations_; }
@@ -63,11 +62,10 @@ public:
     void reduce(std::span<double> difference) const override {
         const std::vector<double>& periods = at_.periods;
         for (std::size_t k = 0; k < equations_->layout().pieces(); ++k)
-            for (std::size_t i = 0; i < periods.size(); ++i)
-                if (periods[i] > 0) {
-                    double& one = difference[equations_->layout().start_of(k) + i];
-                    one -= std::round(one / periods[i]) * periods[i];
-                }
+            for (std::size_t i = 0; i < periods.size(); ++i) {
+                double& one = difference[equations_->layout().start_of(k) + i];
+                one = without_turns(one, periods[i]);
+            }
     }
 
     static Eigen::Map<const Eigen::VectorXd> vector_of(std::span<const double> values) {
@@ -80,7 +78,7 @@ private:
     std::unique_ptr<OrbitEquations> equations_;
     OrbitEvaluation at_;
     std::vector<double> weights_;
-    std::vector<OrbitCondition> held_;
+    std::span<OrbitCondition> held_;
     Eigen::MatrixXd rows_;      ///< gradients of the conditions that are held
     Eigen::VectorXd residuals_; ///< how far they are off
     std::size_t accepted_ = 0;

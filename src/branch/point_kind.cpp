@@ -207,9 +207,10 @@ void test_two_events(const TestedPoint& point, Tests& tests) {
 
 /// Two events of which the other one does not fall is a touch at the very end of an arc.
 bool confirm_two_events(BranchState& state, SpecialPoint& special, const BranchTest& test) {
-    const auto& speeds = special.solution.certificate.approach_speeds;
-    const double speed = *std::max_element(speeds.begin(), speeds.end());
-    if (std::abs(test.rate) < 1e-6 * std::max(speed, std::abs(test.rate) + 1e-300)) {
+    constexpr double without_speed = 1e-6; // of rates of the same function
+    const OrbitEquations& equations = state.problem().equations();
+    const OrbitEvaluation& at = state.problem().evaluation();
+    if (std::abs(test.rate) < without_speed * equations.usual_rate(at, special.segment, special.event)) {
         special.type = PointType::grazing;
         special.time = special.solution.orbit.durations[special.segment];
     }

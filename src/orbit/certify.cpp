@@ -168,87 +168,126 @@ bool is_harmless(const System& model, std::size_t transition) {
                        [&](const Alternative& alternative) { return alternative.mode == one.mode; });
 }
 
-Certificate certify(OrbitEquations& equations, const OrbitEvaluation& at) {
-    const OrbitLayout& layout = equations.layout();
-    const System& compiled = equations.system();
-    const std::size_t states = layout.states();
-    std::vector<double> inputs(states + at.parameters.size()), work(compiled.workspace()), values, gradients;
-    std::copy(at.parameters.begin(), at.parameters.end(), inputs.begin() + static_cast<std::ptrdiff_t>(states));
-    Certificate certificate;
-    const auto object = [&](std::string reason) {
-        if (certificate.admissible && !reason.empty()) {
-            certificate.admissible = false;
-            certificate.reason = std::move(reason);
+namespace {
+
+/// Looks at one segment after the other.
+class Certifier {
+public:
+    Certifier(OrbitEquations& equations, const OrbitEvaluation& at)
+        : equations_(&equations), system_(&equations.system()), at_(&at), states_(equations.layout().states()),
+          flow_(&equations.flow_at(at)), roots_(equations.simulation().order()), work_(system_->workspace()),
+          inputs_(states_ + at.parameters.size()), field_(states_) {
+        std::copy(at.parameters.begin(), at.parameters.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
+    }
+
+    Certificate certify() {
+        for (std::size_t s = 0; s < equations_->signature().size(); ++s) {
+            look_at_arc(s);
+            look_at_end(s);
         }
-    };
-    const std::size_t segments = equations.signature().size();
-    ModeFlow& flow = equations.flow_at(at);
-    RootFinder roots(equations.simulation().order());
-    for (std::size_t s = 0; s < segments; ++s) {
-        const Segment& segment = equations.signature()[s];
-        const auto& mode = compiled.mode(segment.mode);
-        ArcWatcher watcher(equations, s, roots);
+        return std::move(certificate_);
+    }
+
+private:
+    void object(std::string reason) {
+        if (certificate_.admissible && !reason.empty()) {
+            certificate_.admissible = false;
+            certificate_.reason = std::move(reason);
+        }
+    }
+    void set_state(const std::vector<double>& state) { std::copy(state.begin(), state.end(), inputs_.begin()); }
+    /// Rate of a mode's watched event along a field, once its gradients have been evaluated.
+    double rate_of(std::size_t watched, const Eigen::VectorXd& field) const {
+        return Eigen::Map<const Eigen::VectorXd>(&gradients_[watched * states_], index(states_)).dot(field);
+    }
+    void evaluate_gradients(const System::CompiledMode& mode) {
+        gradients_.resize(mode.watched.size() * states_);
+        mode.event_gradients.evaluate(inputs_, gradients_, work_);
+    }
+
+    void look_at_arc(std::size_t s) {
+        const OrbitLayout& layout = equations_->layout();
+        const Segment& segment = equations_->signature()[s];
+        const auto& mode = system_->mode(segment.mode);
+        ArcWatcher watcher(*equations_, s, roots_);
         double begin = 0;
         for (std::size_t k = layout.first_piece(s); k <= layout.last_piece(s); ++k) {
-            const double* start = at.unknowns.data() + layout.start_of(k);
-            std::vector<double> state(start, start + states);
-            const double duration = at.unknowns[index(layout.duration_of(k))];
-            flow.run(segment.mode, state, duration,
-                     [&](const Jet& jet, double time, double length) { watcher.look(jet, begin, time, length); });
+            const double* start = at_->unknowns.data() + layout.start_of(k);
+            std::vector<double> state(start, start + states_);
+            const double duration = at_->unknowns[index(layout.duration_of(k))];
+            flow_->run(segment.mode, state, duration,
+                       [&](const Jet& jet, double time, double length) { watcher.look(jet, begin, time, length); });
             begin += duration;
         }
-        const OrbitEvaluation::Piece& last = at.pieces[layout.last_piece(s)];
-        std::copy(last.end.begin(), last.end.end(), inputs.begin());
-        values.resize(mode.watched.size());
-        gradients.resize(mode.watched.size() * states);
-        mode.events.evaluate(inputs, values, work);
-        mode.event_gradients.evaluate(inputs, gradients, work);
-        for (std::size_t w = 0; w < mode.watched.size(); ++w) {
-            if (watcher.is_own(w) || watcher.is_harmless_here(w))
-                continue;
-            const double rate =
-                Eigen::Map<const Eigen::VectorXd>(&gradients[w * states], index(states)).dot(last.field);
-            certificate.end_values.push_back({s, mode.watched[w], values[w], rate});
-        }
-        object(watcher.verdict(begin, values));
+        const OrbitEvaluation::Piece& last = at_->pieces[layout.last_piece(s)];
+        set_state(last.end);
+        values_.resize(mode.watched.size());
+        mode.events.evaluate(inputs_, values_, work_);
+        evaluate_gradients(mode);
+        for (std::size_t w = 0; w < mode.watched.size(); ++w)
+            if (!watcher.is_own(w) && !watcher.is_harmless_here(w))
+                certificate_.end_values.push_back({s, mode.watched[w], values_[w], rate_of(w, last.field)});
+        object(watcher.verdict(begin, values_));
         for (const OrbitMinimum& minimum : watcher.minima())
-            certificate.minima.push_back(minimum);
-        const double rate = equations.rate_at_end(at, s);
+            certificate_.minima.push_back(minimum);
+    }
+
+    void look_at_end(std::size_t s) {
+        const Segment& segment = equations_->signature()[s];
+        const double rate = equations_->rate_at_end(*at_, s);
         if (segment.end == SegmentEnd::section) {
-            certificate.approach_speeds.push_back(std::abs(rate));
-            certificate.departures.push_back(rate);
-            certificate.guard_margins.push_back(std::numeric_limits<double>::infinity());
-            continue;
+            certificate_.approach_speeds.push_back(std::abs(rate));
+            certificate_.departures.push_back(rate);
+            certificate_.guard_margins.push_back(std::numeric_limits<double>::infinity());
+            return;
         }
-        certificate.approach_speeds.push_back(-rate);
+        certificate_.approach_speeds.push_back(-rate);
         if (rate > 0)
             object(fmt::format("the event that ends segment {} rises instead of falling", s + 1));
         // The symmetry's image is the start that the guard of a half orbit's last jump does not see.
-        std::vector<double> after = last.end;
-        const auto& jump = compiled.jump(equations.model().transitions[segment.index].jump);
+        std::vector<double> after = at_->pieces[equations_->layout().last_piece(s)].end;
+        set_state(after);
+        const auto& jump = system_->jump(equations_->model().transitions[segment.index].jump);
         if (!jump.identity)
-            jump.map.evaluate(inputs, after, work);
-        std::copy(after.begin(), after.end(), inputs.begin());
-        std::size_t next = equations.signature()[(s + 1) % segments].mode;
-        if (equations.symmetry() && s + 1 == segments) {
-            const auto& images = equations.model().symmetries[*equations.symmetry()].modes;
-            next = static_cast<std::size_t>(std::find(images.begin(), images.end(), next) - images.begin());
-        }
-        const double margin = guard_margin(compiled.transition(segment.index), next, inputs, work);
-        certificate.guard_margins.push_back(margin);
+            jump.map.evaluate(inputs_, after, work_);
+        set_state(after);
+        const std::size_t next = mode_after(s);
+        const double margin = guard_margin(system_->transition(segment.index), next, inputs_, work_);
+        certificate_.guard_margins.push_back(margin);
         if (margin < 0)
             object(fmt::format("the guard after segment {} leads to another mode", s + 1));
-        std::vector<double> field(states);
-        compiled.mode(next).rates.evaluate(inputs, field, work);
-        const auto& watched = mode.watched;
-        const auto w = static_cast<std::size_t>(
-            std::find(mode.transitions.begin(), mode.transitions.end(), segment.index) - mode.transitions.begin());
-        gradients.resize(watched.size() * states);
-        mode.event_gradients.evaluate(inputs, gradients, work);
-        certificate.departures.push_back(Eigen::Map<const Eigen::VectorXd>(&gradients[w * states], index(states))
-                                             .dot(Eigen::Map<const Eigen::VectorXd>(field.data(), index(states))));
+        system_->mode(next).rates.evaluate(inputs_, field_, work_);
+        const auto& mode = system_->mode(segment.mode);
+        const auto own = std::find(mode.transitions.begin(), mode.transitions.end(), segment.index);
+        evaluate_gradients(mode);
+        certificate_.departures.push_back(rate_of(static_cast<std::size_t>(own - mode.transitions.begin()),
+                                                  Eigen::Map<const Eigen::VectorXd>(field_.data(), index(states_))));
     }
-    return certificate;
+
+    /// The mode that the orbit has after a segment; of a half orbit's last one, before it is taken to its image.
+    std::size_t mode_after(std::size_t s) const {
+        const std::size_t segments = equations_->signature().size();
+        const std::size_t next = equations_->signature()[(s + 1) % segments].mode;
+        if (!equations_->symmetry() || s + 1 < segments)
+            return next;
+        const auto& images = equations_->model().symmetries[*equations_->symmetry()].modes;
+        return static_cast<std::size_t>(std::find(images.begin(), images.end(), next) - images.begin());
+    }
+
+    OrbitEquations* equations_;
+    const System* system_;
+    const OrbitEvaluation* at_;
+    std::size_t states_;
+    ModeFlow* flow_;
+    RootFinder roots_;
+    std::vector<double> work_, inputs_, values_, gradients_, field_;
+    Certificate certificate_;
+};
+
+} // namespace
+
+Certificate certify(OrbitEquations& equations, const OrbitEvaluation& at) {
+    return Certifier(equations, at).certify();
 }
 
 bool is_admissible(const Simulation& simulation, const Orbit& orbit, std::string& why) {

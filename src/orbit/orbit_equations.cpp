@@ -392,12 +392,21 @@ double OrbitEquations::rate_at_end(const OrbitEvaluation& at, std::size_t segmen
     return piece.condition.head(index(layout_.states())).dot(piece.field);
 }
 
-double OrbitEquations::usual_rate(const OrbitEvaluation& at, std::size_t segment) const {
-    const std::size_t k = layout_.last_piece(segment);
+double OrbitEquations::usual_change(const OrbitEvaluation& at, const Eigen::VectorXd& gradient) const {
     double change = 0;
     for (const std::size_t i : at.active)
-        change += std::abs(at.pieces[k].condition[index(i)]) * at.scales[index(i)];
-    return change / at.scales[index(layout_.duration_of(k))];
+        change += std::abs(gradient[index(i)]) * at.scales[index(i)];
+    return change / at.scales[index(layout_.duration_of(0))];
+}
+
+double OrbitEquations::usual_rate(const OrbitEvaluation& at, std::size_t segment) const {
+    return usual_change(at, at.pieces[layout_.last_piece(segment)].condition);
+}
+
+double OrbitEquations::usual_rate(const OrbitEvaluation& at, std::size_t segment, std::size_t event) const {
+    std::vector<double> inputs = at.pieces[layout_.last_piece(segment)].end;
+    inputs.insert(inputs.end(), at.parameters.begin(), at.parameters.end());
+    return usual_change(at, gradient_of(system().event(event)(inputs)));
 }
 
 } // namespace graze

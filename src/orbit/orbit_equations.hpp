@@ -77,6 +77,8 @@ public:
     double rate_at_end(const OrbitEvaluation& at, std::size_t segment) const;
     /// Size of such rates: how much the end condition changes along the scales of the states, in the time of the orbit.
     double usual_rate(const OrbitEvaluation& at, std::size_t segment) const;
+    /// The same of another event's function there.
+    double usual_rate(const OrbitEvaluation& at, std::size_t segment, std::size_t event) const;
     /// The flow of the modes at an evaluation's parameters.
     ModeFlow& flow_at(const OrbitEvaluation& at);
 
@@ -98,6 +100,7 @@ private:
     /// Sets the inner unknowns of an orbit, from its flow.
     virtual void set_inner(const Orbit&, Eigen::VectorXd&) {}
 
+    double usual_change(const OrbitEvaluation& at, const Eigen::VectorXd& gradient) const;
     void set_parameters(const Eigen::VectorXd& unknowns, std::vector<double>& parameters);
     bool evaluate_piece(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at);
     void assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& at) const;

@@ -23,6 +23,7 @@ public:
 
     /// How strongly states act on one another over some time: the greatest derivatives count.
     void note_coupling(const Eigen::MatrixXd& derivatives) { coupling_ = coupling_.cwiseMax(derivatives.cwiseAbs()); }
+    const Eigen::MatrixXd& coupling() const { return coupling_; }
     /// What the free parameters do to the equations, in units of the states' scales.
     void note_effects(const Eigen::VectorXd& effects) { effects_ = effects; }
 

@@ -23,38 +23,44 @@ Shooting::Shooting(const Simulation& simulation, const Orbit& orbit, std::vector
     lay_out(orbit, split(orbit));
 }
 
-/// Derivatives of the state after a time, and on the way how strongly states act on one another.
-bool Shooting::run_noting_coupling(std::size_t mode, std::span<double> state, double duration,
-                                   Eigen::MatrixXd& derivatives) {
+/// Derivatives of the state after a time, and on the way how far states go and how strongly they act on one another.
+bool Shooting::run_noting(std::size_t mode, std::span<double> state, double duration, Eigen::MatrixXd& derivatives,
+                          StateScales& sizes) {
     constexpr int parts = 4; // whose derivatives do not vanish together, as they may after whole periods
     const Eigen::Index n = index(state.size());
     derivatives = Eigen::MatrixXd::Identity(n, n);
+    sizes.note(state);
     Eigen::MatrixXd part;
     for (int i = 0; i < parts; ++i) {
         if (run(flow(), mode, state, duration / parts, part) != ModeFlow::Ending::done)
             return false;
+        sizes.note(state);
         orbit_scales().note_coupling(part.leftCols(n));
         derivatives = part.leftCols(n) * derivatives;
     }
     return true;
 }
 
-/// Chooses into how many pieces each segment is split, by how much derivatives grow along it.
+/// Chooses into how many pieces each segment is split, by how much derivatives grow along it, in units of the states'
+/// extents.
 std::vector<std::size_t> Shooting::split(const Orbit& orbit) {
-    std::vector<std::size_t> counts;
+    StateScales sizes(layout().states());
+    sizes.begin();
+    std::vector<Eigen::MatrixXd> derivatives(orbit.segments());
     for (std::size_t s = 0; s < orbit.segments(); ++s) {
         std::vector<double> state = orbit.starts[s];
-        Eigen::MatrixXd derivatives;
+        if (!(orbit.durations[s] > 0) ||
+            !run_noting(orbit.signature[s].mode, state, orbit.durations[s], derivatives[s], sizes))
+            derivatives[s].resize(0, 0);
+    }
+    const std::vector<double> chosen = sizes.choose(ends().periods(), orbit_scales().coupling());
+    const Eigen::Map<const Eigen::VectorXd> units(chosen.data(), index(chosen.size()));
+    std::vector<std::size_t> counts;
+    for (const Eigen::MatrixXd& one : derivatives) {
         std::size_t count = 1;
-        if (orbit.durations[s] > 0 &&
-            run_noting_coupling(orbit.signature[s].mode, state, orbit.durations[s], derivatives)) {
-            Eigen::VectorXd sizes = Eigen::VectorXd::Ones(index(state.size()));
-            for (std::size_t i = 0; i < state.size(); ++i)
-                sizes[index(i)] = std::max({std::abs(orbit.starts[s][i]), std::abs(state[i]), 1e-300});
-            const Eigen::MatrixXd scaled = sizes.cwiseInverse().asDiagonal() * derivatives * sizes.asDiagonal();
-            const double growth = std::log(std::max(derivatives.norm(), 1.0));
-            const double scaled_growth = std::log(std::max(scaled.norm(), 1.0));
-            count = 1 + static_cast<std::size_t>(std::min(growth, scaled_growth) / std::log(most_growth));
+        if (one.size() > 0) {
+            const Eigen::MatrixXd scaled = units.cwiseInverse().asDiagonal() * one * units.asDiagonal();
+            count += static_cast<std::size_t>(std::log(std::max(scaled.norm(), 1.0)) / std::log(most_growth));
         }
         counts.push_back(std::min(count, most_splits));
     }

@@ -20,7 +20,8 @@ public:
 
 private:
     std::vector<std::size_t> split(const Orbit& orbit);
-    bool run_noting_coupling(std::size_t mode, std::span<double> state, double duration, Eigen::MatrixXd& derivatives);
+    bool run_noting(std::size_t mode, std::span<double> state, double duration, Eigen::MatrixXd& derivatives,
+                    StateScales& sizes);
     bool follow(std::size_t piece, const Eigen::VectorXd& unknowns, OrbitEvaluation& at) override;
 };
 

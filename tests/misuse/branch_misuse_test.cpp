@@ -212,6 +212,16 @@ void settings(WrongUses& wrong) {
         wrong("monitors_segment_" + kind, [i = index] {
             keep(OrbitMonitors(calm_oscillator(), calm_orbit().signature, {{.name = "period"}}).segment(i));
         });
+    const auto signature = [&](const std::string& name, const Signature& given) {
+        wrong("monitors_set_signature_" + name, [given] {
+            OrbitMonitors monitors(calm_oscillator(), calm_orbit().signature, {{.name = "period"}});
+            monitors.set_signature(given);
+        });
+    };
+    signature("empty", {});
+    signature("mode", {{7, SegmentEnd::section, 0}});
+    signature("section", {{0, SegmentEnd::section, 7}});
+    signature("event", {{0, SegmentEnd::event, 7}});
     wrong("moved_monitors", [] {
         OrbitMonitors monitors(calm_oscillator(), calm_orbit().signature, {{.name = "period"}});
         const OrbitMonitors moved = std::move(monitors);

@@ -53,6 +53,9 @@ public:
     ~OrbitMonitors();
     OrbitMonitors(OrbitMonitors&&) noexcept;
 
+    /// From now on of orbits of another signature. Compiles nothing. @throws InputError as above; then all is as before
+    void set_signature(const Signature& signature);
+
     const std::vector<Monitor>& monitors() const;
     /// Index of a monitor's segment; none: the whole orbit.
     std::optional<std::size_t> segment(std::size_t monitor) const;
