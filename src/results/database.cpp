@@ -76,14 +76,34 @@ void throw_database_error(int code, const std::string& message, const std::strin
     }
 }
 
-std::string quoted_name(std::string_view name) {
-    std::string text = "\"";
-    for (const char c : name) {
-        text += c;
-        if (c == '"')
-            text += c;
+namespace {
+
+/// Between quotes, with those within doubled.
+std::string in_quotes(std::string_view text, char quote) {
+    std::string result(1, quote);
+    for (const char c : text) {
+        result += c;
+        if (c == quote)
+            result += c;
     }
-    return text + '"';
+    return result + quote;
+}
+
+} // namespace
+
+std::string quoted_name(std::string_view name) {
+    return in_quotes(name, '"');
+}
+
+std::string text_literal(std::string_view text) {
+    return in_quotes(text, '\'');
+}
+
+std::string text_literals(const std::vector<std::string>& texts) {
+    std::string list;
+    for (const std::string& text : texts)
+        list += (list.empty() ? "" : ",") + text_literal(text);
+    return list;
 }
 
 Database::Database(const std::string& path, bool writing) : path_(path) {
@@ -188,6 +208,12 @@ Statement& Statement::bind(int position, std::int64_t value) {
 
 Statement& Statement::bind(int position, std::string_view text) {
     sqlite3_bind_text(statement_.get(), position, text.data(), static_cast<int>(text.size()), SQLITE_STATIC);
+    return *this;
+}
+
+Statement& Statement::bind_copy(int position, std::string_view text) {
+    sqlite3_bind_text(statement_.get(), position, text.empty() ? "" : text.data(), static_cast<int>(text.size()),
+                      SQLITE_TRANSIENT);
     return *this;
 }
 

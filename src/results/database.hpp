@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace graze {
 
@@ -25,6 +26,8 @@ public:
     Statement& bind(int position, std::size_t value) { return bind(position, static_cast<std::int64_t>(value)); }
     /// The text must live until the statement has run.
     Statement& bind(int position, std::string_view text);
+    /// The same of a text that need not.
+    Statement& bind_copy(int position, std::string_view text);
     Statement& bind_null(int position);
     /// @return whether there is a row
     bool step();
@@ -87,7 +90,11 @@ private:
 /// What SQLite says has gone wrong, as a message with a remedy. @throws InputError
 [[noreturn]] void throw_database_error(int code, const std::string& message, const std::string& path);
 
-/// A name between double quotes.
+/// A name as SQL writes it, between double quotes.
 std::string quoted_name(std::string_view name);
+/// A text as SQL writes it, between single quotes.
+std::string text_literal(std::string_view text);
+/// Texts as SQL lists them.
+std::string text_literals(const std::vector<std::string>& texts);
 
 } // namespace graze

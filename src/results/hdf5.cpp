@@ -2,15 +2,14 @@
 
 #include "graze/symbolic/input_error.hpp"
 #include "results/database.hpp"
+#include "results/point_columns.hpp"
 #include "results/schema.hpp"
 
 #include <fmt/format.h>
 #include <hdf5.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <limits>
-#include <set>
 #include <system_error>
 
 namespace graze {
@@ -63,10 +62,9 @@ void write_attribute(hid_t group, const char* name, const std::string& text, con
 /// One column, written chunk by chunk.
 class Column {
 public:
-    enum class Kind { real, whole, text };
-    Column(hid_t group, const std::string& name, Kind kind, const std::string& path)
-        : kind_(kind), path_(&path), type_(kind == Kind::text    ? text_type(path)
-                                           : kind == Kind::whole ? Handle(H5Tcopy(H5T_NATIVE_INT64), H5Tclose, path)
+    Column(hid_t group, const std::string& name, ColumnType kind, const std::string& path)
+        : kind_(kind), path_(&path), type_(kind == ColumnType::text    ? text_type(path)
+                                           : kind == ColumnType::whole ? Handle(H5Tcopy(H5T_NATIVE_INT64), H5Tclose, path)
                                                                  : Handle(H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose, path)),
           set_([&] {
               const hsize_t none = 0, unlimited = H5S_UNLIMITED;
@@ -82,9 +80,9 @@ public:
           }()) {}
 
     void add(const ResultFile::Rows& rows, std::size_t column) {
-        if (kind_ == Kind::text)
+        if (kind_ == ColumnType::text)
             texts_.push_back(rows.text(column));
-        else if (kind_ == Kind::whole)
+        else if (kind_ == ColumnType::whole)
             wholes_.push_back(rows.is_null(column) ? -1 : rows.integer(column));
         else
             reals_.push_back(rows.is_null(column) ? std::numeric_limits<double>::quiet_NaN() : rows.number(column));
@@ -98,8 +96,8 @@ public:
         std::vector<const char*> pointers;
         for (const std::string& text : texts_)
             pointers.push_back(text.c_str());
-        const void* data = kind_ == Kind::text    ? static_cast<const void*>(pointers.data())
-                           : kind_ == Kind::whole ? static_cast<const void*>(wholes_.data())
+        const void* data = kind_ == ColumnType::text    ? static_cast<const void*>(pointers.data())
+                           : kind_ == ColumnType::whole ? static_cast<const void*>(wholes_.data())
                                                   : static_cast<const void*>(reals_.data());
         bool written = H5Dset_extent(set_.id(), &whole) >= 0;
         const Handle target(H5Dget_space(set_.id()), H5Sclose, *path_),
@@ -116,7 +114,7 @@ public:
     }
 
 private:
-    Kind kind_;
+    ColumnType kind_;
     const std::string* path_;
     Handle type_, set_;
     hsize_t size_ = 0, waiting_ = 0;
@@ -125,36 +123,60 @@ private:
     std::vector<std::string> texts_;
 };
 
-/// What the schema declares a column of a run's tables to be.
-Column::Kind kind_of(const std::string& name, bool is_branch) {
-    static const std::set<std::string> whole_of_points{"number", "chain",   "period", "symmetric",
-                                                       "cycles", "returns", "point",  "position"};
-    static const std::set<std::string> whole_of_branches{"number",     "step",       "stable",  "unstable",
-                                                         "admissible", "iterations", "located", "event_segment",
-                                                         "at_end",     "point",      "segment", "position"};
-    static const std::set<std::string> texts{"direction", "label",    "signature", "mode",   "ending",
-                                             "detail",    "sampling", "part",      "type",   "symmetry",
-                                             "reason",    "outcome",  "event",     "tangent"};
-    if ((is_branch ? whole_of_branches : whole_of_points).contains(name))
-        return Column::Kind::whole;
-    return texts.contains(name) ? Column::Kind::text : Column::Kind::real;
-}
-
-/// @param numbers columns that are named by a model or study: numbers, whatever their names
-void write_table(hid_t parent, const char* name, ResultFile::Rows rows, bool is_branch,
-                 const std::vector<std::string>& numbers, const std::string& path) {
-    const Handle group(H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path);
+/// A query's rows as a group with a dataset for each column. @param types of the columns, in their order
+void write_table(hid_t parent, const std::string& name, ResultFile::Rows rows, const std::vector<ColumnType>& types,
+                 const std::string& path) {
+    const Handle group(H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path);
+    if (rows.columns() != types.size())
+        throw_contradiction(path, fmt::format("table '{}' has {} columns instead of {}", name, rows.columns(),
+                                              types.size()));
     std::vector<Column> columns;
-    for (std::size_t c = 0; c < rows.columns(); ++c) {
-        const std::string column = rows.column_name(c);
-        const bool number = std::find(numbers.begin(), numbers.end(), column) != numbers.end();
-        columns.emplace_back(group.id(), column, number ? Column::Kind::real : kind_of(column, is_branch), path);
-    }
+    for (std::size_t c = 0; c < rows.columns(); ++c)
+        columns.emplace_back(group.id(), rows.column_name(c), types[c], path);
     while (rows.next())
         for (std::size_t c = 0; c < columns.size(); ++c)
             columns[c].add(rows, c);
     for (Column& column : columns)
         column.flush();
+}
+
+std::vector<ColumnType> types_of(const std::vector<RunColumn>& columns) {
+    std::vector<ColumnType> types;
+    for (const RunColumn& column : columns)
+        types.push_back(column.kind.type);
+    return types;
+}
+
+void write_details(hid_t group, const ResultFile& file, const std::string& run, const DetailTable& table,
+                   const std::string& path) {
+    std::vector<ColumnType> types{ColumnType::whole, ColumnType::whole};
+    for (const ColumnKind& column : table.columns)
+        types.push_back(column.type);
+    write_table(group, table.name,
+                file.query(fmt::format("SELECT point, position, {} FROM {} WHERE run = {} ORDER BY point, position",
+                                       listed(table.columns), table.name, text_literal(run))),
+                types, path);
+}
+
+void write_run(hid_t output, const ResultFile& file, const RunRecord& run, const std::string& path) {
+    const Handle group(H5Gcreate2(output, run.name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path);
+    write_attribute(group.id(), "kind", run.kind, path);
+    write_attribute(group.id(), "model_name", run.model_name, path);
+    write_attribute(group.id(), "model", run.model, path);
+    write_attribute(group.id(), "settings", run.settings, path);
+    write_attribute(group.id(), "fingerprint", run.fingerprint, path);
+    write_attribute(group.id(), "version", run.version, path);
+    const RunTables tables(run);
+    write_table(group.id(), run.is_branch() ? "orbits" : "points",
+                file.query("SELECT * FROM " + tables.points + " ORDER BY number"), types_of(tables.point_columns),
+                path);
+    write_table(group.id(), run.is_branch() ? "segments" : "samples",
+                file.query(fmt::format("SELECT * FROM {} ORDER BY {}", tables.samples,
+                                       run.is_branch() ? "point, segment" : "rowid")),
+                types_of(tables.sample_columns), path);
+    for (const DetailTable& table : detail_tables())
+        if (run.is_branch() || !table.of_branches)
+            write_details(group.id(), file, run.name, table, path);
 }
 
 } // namespace
@@ -168,44 +190,9 @@ void export_hdf5(const ResultFile& file, const std::vector<std::string>& runs, c
             throw InputError(fmt::format("the result file has no run '{}'", name), "see graze points");
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // failures are told by exceptions
     const Handle output(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, path);
-    for (const std::string& name : runs) {
-        const auto run = file.find_run(name);
-        if (!run)
-            continue;
-        const Handle group(H5Gcreate2(output.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-                           path);
-        write_attribute(group.id(), "kind", run->kind, path);
-        write_attribute(group.id(), "model_name", run->model_name, path);
-        write_attribute(group.id(), "model", run->model, path);
-        write_attribute(group.id(), "settings", run->settings, path);
-        write_attribute(group.id(), "fingerprint", run->fingerprint, path);
-        write_attribute(group.id(), "version", run->version, path);
-        const RunTables tables(*run);
-        const bool branch = tables.is_branch;
-        std::vector<std::string> of_points = tables.coordinates;
-        const auto& more = branch ? tables.values : tables.states;
-        of_points.insert(of_points.end(), more.begin(), more.end());
-        write_table(group.id(), branch ? "orbits" : "points",
-                    file.query("SELECT * FROM " + tables.points + " ORDER BY number"), branch, of_points, path);
-        write_table(group.id(), branch ? "segments" : "samples",
-                    file.query(fmt::format("SELECT * FROM {} ORDER BY {}", tables.samples,
-                                           branch ? "point, segment" : "rowid")),
-                    branch, branch ? tables.states : tables.values, path);
-        const auto write_details = [&](const char* table, const char* columns,
-                                       const std::vector<std::string>& numbers) {
-            write_table(group.id(), table,
-                        file.query(fmt::format("SELECT point, position, {} FROM {} WHERE run = '{}' "
-                                               "ORDER BY point, position",
-                                               columns, table, name)),
-                        branch, numbers, path);
-        };
-        write_details("multipliers", "real, imaginary", {});
-        if (branch) {
-            write_details("half_multipliers", "real, imaginary", {});
-            write_details("minima", "segment, event, time, value, size", {});
-            write_details("end_values", "segment, event, value, rate", {});
-        }
-    }
+    for (const std::string& name : runs)
+        if (const auto run = file.find_run(name))
+            write_run(output.id(), file, *run, path);
     if (H5Fflush(output.id(), H5F_SCOPE_GLOBAL) < 0) // while it can still be told
         throw_full(path);
 }

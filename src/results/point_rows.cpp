@@ -1,130 +1,149 @@
-#include "results/point_rows.hpp"
+#include "results/point_columns.hpp"
 
-#include "graze/symbolic/input_error.hpp"
-#include "results/schema.hpp"
+#include "graze/symbolic/require.hpp"
+#include "results/detail_rows.hpp"
+#include "results/result_file_state.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace graze {
 
 namespace {
 
-Label label_named(const std::string& name) {
-    for (int i = 0; i <= static_cast<int>(Label::failed); ++i)
-        if (name == name_of(static_cast<Label>(i)))
-            return static_cast<Label>(i);
-    return Label::failed;
-}
+constexpr std::int64_t samples_of_a_point = RunTables::samples_of_a_point;
 
-Ending ending_named(const std::string& name) {
-    for (int i = 0; i <= static_cast<int>(Ending::step_limit); ++i)
-        if (name == name_of(static_cast<Ending>(i)))
-            return static_cast<Ending>(i);
-    return Ending::running;
-}
-
-} // namespace
-
-void throw_contradiction(const std::string& path, const std::string& what) {
-    throw InputError(Place{path, 0, 0}, fmt::format("the result file contradicts itself: {}", what),
-                     "it has been changed or damaged: ask for another copy, or run the study again");
-}
-
-void require_columns(const Statement& rows, std::size_t columns, const std::string& path) {
-    if (static_cast<std::size_t>(rows.columns()) != columns)
-        throw_contradiction(path, fmt::format("a table has {} columns instead of {}", rows.columns(), columns));
-}
-
-std::size_t index_of(const std::vector<std::string>& names, const std::string& name) {
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
-void write_multipliers(Statement& statement, const std::string& run, std::size_t point,
-                       const std::vector<std::complex<double>>& multipliers) {
-    for (std::size_t m = 0; m < multipliers.size(); ++m)
-        statement.bind(1, std::string_view(run))
-            .bind(2, point)
-            .bind(3, m)
-            .bind_extended(4, multipliers[m].real())
-            .bind_extended(5, multipliers[m].imag())
-            .run();
-}
-
-std::vector<std::complex<double>> read_multipliers(Statement& rows) {
-    std::vector<std::complex<double>> multipliers;
-    while (rows.step())
-        multipliers.emplace_back(rows.is_null(0) ? std::numeric_limits<double>::infinity() : rows.number(0),
-                                 rows.number(1));
-    rows.reset();
-    return multipliers;
-}
-
-void write_point(Statement& statement, const RunRecord& run, const PointRecord& point) {
+/// @throws InputError or std::out_of_range for what a run has no columns or names for
+void require_fitting(const RunRecord& run, const PointRecord& point) {
     const PointResult& result = point.result;
-    const std::string direction = point.direction < run.directions.size() ? run.directions[point.direction] : "";
-    const std::string_view label = name_of(result.label), ending = name_of(result.outcome.ending);
-    statement.bind(1, point.number).bind(2, point.chain).bind(3, std::string_view(direction));
-    int at = 4;
-    for (const double coordinate : point.coordinates)
-        statement.bind(at++, coordinate);
-    statement.bind(at++, label);
-    const bool periodic = result.label == Label::periodic;
-    periodic ? statement.bind(at, result.period) : statement.bind_null(at);
-    periodic ? statement.bind(at + 1, result.duration) : statement.bind_null(at + 1);
-    periodic ? statement.bind(at + 2, std::string_view(result.signature)) : statement.bind_null(at + 2);
-    result.symmetric ? statement.bind(at + 3, std::int64_t{*result.symmetric}) : statement.bind_null(at + 3);
-    result.multipliers.empty() ? statement.bind_null(at + 4)
-                               : statement.bind_extended(at + 4, std::abs(result.multipliers.front()));
-    result.lyapunov ? statement.bind(at + 5, *result.lyapunov) : statement.bind_null(at + 5);
-    result.lyapunov_error ? statement.bind(at + 6, *result.lyapunov_error) : statement.bind_null(at + 6);
-    periodic ? statement.bind(at + 7, result.residual) : statement.bind_null(at + 7);
-    statement.bind(at + 8, result.cycles).bind(at + 9, result.periods_run).bind(at + 10, result.time);
-    result.mode < run.modes.size() ? statement.bind(at + 11, std::string_view(run.modes[result.mode]))
-                                   : statement.bind_null(at + 11);
-    statement.bind(at + 12, ending).bind(at + 13, result.outcome.time);
-    statement.bind(at + 14, std::string_view(result.outcome.detail));
-    at += 15;
-    for (const double value : result.state)
-        statement.bind(at++, value);
-    statement.run();
+    const SampleSet& samples = result.samples;
+    if (point.coordinates.size() != run.coordinates.size() || result.state.size() != run.states.size() ||
+        (samples.size() > 0 && samples.width != run.values.size()))
+        throw InputError(fmt::format("a point does not fit run '{}'", run.name), "give a value for each of its columns");
+    require_size(samples.samplings.size(), samples.size(), "samplings of samples");
+    require_size(samples.values.size(), samples.size() * samples.width, "values of samples");
+    for (const std::size_t sampling : samples.samplings)
+        require_index(sampling, run.samplings.size(), "sampling");
+    require_index(result.mode, run.modes.size(), "mode");
+    require_index(point.direction, run.directions.size(), "direction");
+}
+
+void write_samples(Statement& statement, const RunRecord& run, const PointRecord& point) {
+    const SampleSet& samples = point.result.samples;
+    const auto first = static_cast<std::int64_t>(point.number) * samples_of_a_point;
+    SampleRow row;
+    row.point = point.number;
+    for (std::size_t s = 0; s < samples.size(); ++s) {
+        statement.bind(1, first + static_cast<std::int64_t>(s));
+        row.sampling = samples.samplings[s];
+        row.time = samples.times[s];
+        const double* values = samples.values.data() + s * samples.width;
+        row.values.assign(values, values + samples.width);
+        write_row(statement, sample_columns(), run, row, 2);
+    }
 }
 
 PointRecord read_point(const Statement& row, const RunRecord& run) {
     PointRecord point;
-    point.number = static_cast<std::size_t>(row.integer(0));
-    point.chain = static_cast<std::size_t>(row.integer(1));
-    point.direction = index_of(run.directions, row.text(2));
-    int at = 3;
-    for (std::size_t i = 0; i < run.coordinates.size(); ++i)
-        point.coordinates.push_back(row.number(at++));
-    PointResult& result = point.result;
-    result.label = label_named(row.text(at));
-    result.period = static_cast<std::size_t>(row.integer(at + 1));
-    result.duration = row.number(at + 2);
-    result.signature = row.text(at + 3);
-    if (!row.is_null(at + 4))
-        result.symmetric = row.integer(at + 4) != 0;
-    if (!row.is_null(at + 6))
-        result.lyapunov = row.number(at + 6);
-    if (!row.is_null(at + 7))
-        result.lyapunov_error = row.number(at + 7);
-    result.residual = row.number(at + 8);
-    result.cycles = static_cast<std::size_t>(row.integer(at + 9));
-    result.periods_run = static_cast<std::size_t>(row.integer(at + 10));
-    result.time = row.number(at + 11);
-    result.mode = index_of(run.modes, row.text(at + 12));
-    result.outcome.ending = ending_named(row.text(at + 13));
-    result.outcome.time = row.number(at + 14);
-    result.outcome.detail = row.text(at + 15);
-    at += fixed_point_columns;
-    for (std::size_t i = 0; i < run.states.size(); ++i)
-        result.state.push_back(row.is_null(at + static_cast<int>(i)) ? std::numeric_limits<double>::quiet_NaN()
-                                                                     : row.number(at + static_cast<int>(i)));
+    read_row(row, point_columns(), run, point, run);
     return point;
+}
+
+} // namespace
+
+void ResultFile::add_point(const std::string& name, const PointRecord& point) {
+    auto& writer = state_->writer_of(*this, name);
+    const RunRecord& run = writer.run;
+    require_fitting(run, point);
+    state_->begin();
+    try {
+        write_row(writer.point, point_columns(), run, point);
+        write_samples(writer.sample, run, point);
+        write_details(writer.multiplier, multiplier_columns(), run, run, point.number, point.result.multipliers);
+        state_->commit_when_due();
+    } catch (...) {
+        state_->sqlite_rollback();
+        state_->writer.reset();
+        throw;
+    }
+}
+
+std::size_t ResultFile::point_count(const std::string& name) const {
+    const auto run = find_run(name);
+    if (!run)
+        return 0;
+    Statement rows = state_->database.prepare("SELECT count(*) FROM " + RunTables(*run).points);
+    rows.step();
+    return static_cast<std::size_t>(rows.integer(0));
+}
+
+std::vector<PointRecord> ResultFile::last_points(const std::string& name, std::size_t chain_length) const {
+    std::vector<PointRecord> points;
+    const auto run = find_run(name);
+    if (!run || run->is_branch() || chain_length == 0)
+        return points;
+    const RunTables tables(*run);
+    Statement rows = state_->database.prepare(
+        fmt::format("{0} WHERE number IN (SELECT max(number) FROM {1} GROUP BY number / {2}) ORDER BY number",
+                    tables.select_point(), tables.points, chain_length));
+    require_columns(rows, tables.point_columns.size(), path());
+    while (rows.step())
+        points.push_back(read_point(rows, *run));
+    return points;
+}
+
+std::optional<PointRecord> ResultFile::point(const std::string& name, std::size_t number) const {
+    const auto run = find_run(name);
+    if (!run || run->is_branch())
+        return std::nullopt;
+    const RunTables tables(*run);
+    Statement row = state_->database.prepare(tables.select_point() + " WHERE number = ?");
+    row.bind(1, number);
+    require_columns(row, tables.point_columns.size(), path());
+    if (!row.step())
+        return std::nullopt;
+    PointRecord point = read_point(row, *run);
+    SampleSet& samples = point.result.samples;
+    samples.width = run->values.size();
+    Statement rows = state_->database.prepare(
+        fmt::format("SELECT * FROM {} WHERE rowid >= ?1 AND rowid < ?2 ORDER BY rowid", tables.samples));
+    const auto first = static_cast<std::int64_t>(number) * samples_of_a_point;
+    rows.bind(1, first).bind(2, first + samples_of_a_point);
+    require_columns(rows, tables.sample_columns.size(), path());
+    SampleRow sample;
+    while (rows.step()) {
+        read_row(rows, sample_columns(), *run, sample, *run);
+        if (sample.sampling >= run->samplings.size())
+            throw_contradiction(path(), fmt::format("run '{}' has a sample of a sampling it does not know", name));
+        samples.samplings.push_back(sample.sampling);
+        samples.times.push_back(sample.time);
+        samples.values.insert(samples.values.end(), sample.values.begin(), sample.values.end());
+    }
+    point.result.multipliers =
+        DetailReader(state_->database, "multipliers", multiplier_columns(), *run).of_point(*run, number);
+    return point;
+}
+
+std::optional<PointRecord> ResultFile::nearest_point(const std::string& name, const std::string& coordinate,
+                                                     double value, std::optional<std::size_t> direction) const {
+    const auto run = find_run(name);
+    if (!run || run->is_branch())
+        return std::nullopt;
+    const RunTables tables(*run);
+    const std::vector<std::string> columns = tables.names_of(ColumnGroup::coordinates);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        if (run->coordinates[i].name != coordinate)
+            continue;
+        const std::string direction_name =
+            direction && *direction < run->directions.size() ? run->directions[*direction] : "";
+        Statement row = state_->database.prepare(fmt::format("SELECT number FROM {} WHERE ?2 = '' OR direction = ?2 "
+                                                             "ORDER BY abs({} - ?1), number LIMIT 1",
+                                                             tables.points, quoted_name(columns[i])));
+        row.bind(1, value).bind(2, std::string_view(direction_name));
+        if (!row.step())
+            return std::nullopt;
+        return point(name, static_cast<std::size_t>(row.integer(0)));
+    }
+    return std::nullopt;
 }
 
 } // namespace graze

@@ -25,7 +25,6 @@ struct ResultFile::State {
     Clock::time_point begun{};
     struct Writer {
         RunRecord run;
-        RunTables tables;
         Statement point, sample; ///< sample: of a branch, its orbits' segments
         Statement multiplier, half_multiplier, minimum, end_value;
         std::optional<Model> model; ///< of a branch, once an orbit has been written
@@ -46,12 +45,14 @@ struct ResultFile::State {
             if (!run)
                 throw InputError(fmt::format("there is no run '{}'", name), "begin it first");
             const RunTables tables(*run);
-            writer = std::make_unique<Writer>(
-                Writer{*run, tables, database.prepare(tables.insert_point()), database.prepare(tables.insert_sample()),
-                       database.prepare("INSERT INTO multipliers VALUES(?,?,?,?,?)"),
-                       database.prepare("INSERT INTO half_multipliers VALUES(?,?,?,?,?)"),
-                       database.prepare("INSERT INTO minima VALUES(?,?,?,?,?,?,?,?)"),
-                       database.prepare("INSERT INTO end_values VALUES(?,?,?,?,?,?,?)"), std::nullopt});
+            const auto insert = [&](const DetailTable& table) {
+                return database.prepare(insert_into(table.name, 3 + table.columns.size()));
+            };
+            const std::vector<DetailTable>& details = detail_tables();
+            writer = std::make_unique<Writer>(Writer{*run, database.prepare(tables.insert_point()),
+                                                     database.prepare(tables.insert_sample()), insert(details[0]),
+                                                     insert(details[1]), insert(details[2]), insert(details[3]),
+                                                     std::nullopt});
         }
         return *writer;
     }

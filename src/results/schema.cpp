@@ -1,6 +1,9 @@
 #include "results/schema.hpp"
 
 #include "results/database.hpp"
+#include "results/orbit_columns.hpp"
+#include "results/point_columns.hpp"
+#include "results/run_columns.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,11 +15,6 @@
 namespace graze {
 
 namespace {
-
-constexpr const char* fixed_columns = "label TEXT, period INTEGER, duration REAL, signature TEXT, symmetric INTEGER, "
-                                      "multiplier REAL, lyapunov REAL, lyapunov_error REAL, residual REAL, "
-                                      "cycles INTEGER, returns INTEGER, time REAL, mode TEXT, ending TEXT, "
-                                      "ending_time REAL, detail TEXT";
 
 std::string lower(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -31,95 +29,124 @@ std::string distinct(const std::string& name, std::set<std::string>& taken) {
     return result;
 }
 
-std::string columns_of(const std::vector<std::string>& names) {
+const char* type_text(ColumnType type) {
+    return type == ColumnType::whole ? "INTEGER" : type == ColumnType::text ? "TEXT" : "REAL";
+}
+
+std::string declared(const std::vector<ColumnKind>& columns) {
     std::string text;
-    for (const std::string& name : names)
-        text += ", " + quoted_name(name) + " REAL";
+    for (const ColumnKind& column : columns)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", column.name, type_text(column.type));
     return text;
 }
 
-constexpr const char* branch_columns =
-    "signature TEXT, symmetry TEXT, stable INTEGER, unstable INTEGER, admissible INTEGER, reason TEXT, outcome TEXT, "
-    "detail TEXT, residual REAL, error REAL, iterations INTEGER, arclength REAL, located INTEGER, bracket_low REAL, "
-    "bracket_high REAL, event TEXT, event_segment INTEGER, event_time REAL, at_end INTEGER, tangent TEXT";
-
-std::string in_quotes(const std::string& text) {
-    std::string result = "'";
-    for (const char c : text)
-        result += c == '\'' ? std::string("''") : std::string(1, c);
-    return result + "'";
-}
-
-/// Views of the orbits of all branches.
-std::string branch_views(const std::vector<RunRecord>& runs) {
-    std::string all;
-    for (const RunRecord& run : runs) {
-        if (!run.is_branch())
-            continue;
-        const RunTables tables(run);
-        all +=
-            fmt::format("{}SELECT {} AS run, number, part, step, type, label, {} AS parameter, {} AS value, period, "
-                        "signature, symmetry, stable, unstable, admissible, reason, outcome, detail, residual, "
-                        "error, arclength, located, bracket_low, bracket_high FROM {}",
-                        all.empty() ? "" : " UNION ALL ", in_quotes(run.name),
-                        run.coordinates.empty() ? "NULL" : in_quotes(run.coordinates.front().name),
-                        tables.coordinates.empty() ? "NULL" : quoted_name(tables.coordinates.front()), tables.points);
-    }
-    const std::string drop = "DROP VIEW IF EXISTS special_points; DROP VIEW IF EXISTS branch_points; ";
-    return all.empty() ? drop
-                       : drop + "CREATE VIEW branch_points AS " + all +
-                             "; CREATE VIEW special_points AS SELECT * FROM branch_points WHERE type <> 'RG';";
-}
-
-std::string placeholders(std::size_t count) {
-    std::string text = "?";
-    for (std::size_t i = 1; i < count; ++i)
-        text += ",?";
+std::string declared(const std::vector<RunColumn>& columns) {
+    std::string text;
+    for (const RunColumn& column : columns)
+        text +=
+            fmt::format("{}{} {}", text.empty() ? "" : ", ", quoted_name(column.column), type_text(column.kind.type));
     return text;
+}
+
+const std::vector<ResultColumn>& things_of(const RunRecord& run, ColumnGroup group) {
+    return group == ColumnGroup::coordinates ? run.coordinates
+           : group == ColumnGroup::states    ? run.states
+                                             : run.values;
+}
+
+/// The columns that a run has of these kinds.
+std::vector<RunColumn> columns_for(const std::vector<ColumnKind>& kinds, const RunRecord& run,
+                                   std::set<std::string> taken) {
+    for (const ColumnKind& kind : kinds)
+        if (kind.group == ColumnGroup::single)
+            taken.insert(kind.name);
+    std::vector<RunColumn> columns;
+    for (const ColumnKind& kind : kinds)
+        if (kind.group == ColumnGroup::single)
+            columns.push_back({kind.name, kind, "", ""});
+        else
+            for (const ResultColumn& thing : things_of(run, kind.group))
+                columns.push_back({distinct(kind.name + thing.name, taken), kind, thing.name, thing.unit});
+    return columns;
+}
+
+/// What a view over all runs of a kind shows of one of them.
+std::string view_of(const RunRecord& run, const std::vector<ColumnKind>& kinds) {
+    const RunTables tables(run);
+    const std::vector<std::string> coordinates = tables.names_of(ColumnGroup::coordinates);
+    const std::string first = coordinates.empty() ? "NULL" : quoted_name(coordinates.front());
+    std::string columns = text_literal(run.name) + " AS run";
+    for (const ColumnKind& kind : kinds)
+        if (kind.in_views && kind.group == ColumnGroup::single)
+            columns += fmt::format(", {}", kind.name);
+        else if (kind.in_views && run.is_branch())
+            columns +=
+                fmt::format(", {} AS parameter, {} AS value",
+                            run.coordinates.empty() ? "NULL" : text_literal(run.coordinates.front().name), first);
+        else if (kind.in_views)
+            columns += fmt::format(", {} AS coordinate", first);
+    return fmt::format("SELECT {} FROM {}", columns, tables.points);
+}
+
+/// Views of all runs of one kind together.
+std::string united(const std::vector<RunRecord>& runs, bool branches, const std::vector<ColumnKind>& kinds) {
+    std::vector<std::string> all;
+    for (const RunRecord& run : runs)
+        if (run.is_branch() == branches)
+            all.push_back(view_of(run, kinds));
+    return fmt::format("{}", fmt::join(all, " UNION ALL "));
 }
 
 } // namespace
 
-std::string common_tables() {
-    return R"(
-CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;
-CREATE TABLE runs(number INTEGER PRIMARY KEY, name TEXT UNIQUE, kind TEXT, status TEXT, points INTEGER,
-                  model_name TEXT, model TEXT, settings TEXT, fingerprint TEXT, version TEXT);
-CREATE TABLE columns(run TEXT, place TEXT, position INTEGER, name TEXT, unit TEXT, column_name TEXT,
-                     PRIMARY KEY(run, place, position)) WITHOUT ROWID;
-CREATE TABLE names(run TEXT, what TEXT, position INTEGER, name TEXT, PRIMARY KEY(run, what, position)) WITHOUT ROWID;
-CREATE TABLE multipliers(run TEXT, point INTEGER, position INTEGER, real REAL, imaginary REAL,
-                         PRIMARY KEY(run, point, position)) WITHOUT ROWID;
-CREATE TABLE half_multipliers(run TEXT, point INTEGER, position INTEGER, real REAL, imaginary REAL,
-                              PRIMARY KEY(run, point, position)) WITHOUT ROWID;
-CREATE TABLE minima(run TEXT, point INTEGER, position INTEGER, segment INTEGER, event TEXT, time REAL, value REAL,
-                    size REAL, PRIMARY KEY(run, point, position)) WITHOUT ROWID;
-CREATE TABLE end_values(run TEXT, point INTEGER, position INTEGER, segment INTEGER, event TEXT, value REAL, rate REAL,
-                        PRIMARY KEY(run, point, position)) WITHOUT ROWID;
-)";
+const std::vector<DetailTable>& detail_tables() {
+    static const std::vector<DetailTable> tables{
+        {"multipliers", kinds_of(multiplier_columns()), false, true},
+        {"half_multipliers", kinds_of(multiplier_columns()), true, true},
+        {"minima", kinds_of(minimum_columns()), true, false},
+        {"end_values", kinds_of(end_value_columns()), true, false},
+    };
+    return tables;
 }
 
-std::vector<std::string> tables_of_details() {
-    return {"multipliers", "half_multipliers", "minima", "end_values"};
+std::string listed(const std::vector<ColumnKind>& columns, std::string_view before_each) {
+    std::string text;
+    for (const ColumnKind& column : columns)
+        text += fmt::format("{}{}{}", text.empty() ? "" : ", ", before_each, column.name);
+    return text;
+}
+
+std::string insert_into(const std::string& table, std::size_t columns) {
+    std::string places = "?";
+    for (std::size_t i = 1; i < columns; ++i)
+        places += ",?";
+    return fmt::format("INSERT INTO {} VALUES({})", table, places);
+}
+
+std::string common_tables() {
+    std::string text = "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
+                       "CREATE TABLE columns(run TEXT, place TEXT, position INTEGER, name TEXT, unit TEXT, "
+                       "column_name TEXT, PRIMARY KEY(run, place, position)) WITHOUT ROWID;"
+                       "CREATE TABLE names(run TEXT, what TEXT, position INTEGER, name TEXT, "
+                       "PRIMARY KEY(run, what, position)) WITHOUT ROWID;";
+    text += fmt::format("CREATE TABLE runs(number INTEGER PRIMARY KEY, {}, UNIQUE(name));",
+                        declared(kinds_of(run_columns())));
+    for (const DetailTable& table : detail_tables())
+        text += fmt::format("CREATE TABLE {}(run TEXT, point INTEGER, position INTEGER, {}, "
+                            "PRIMARY KEY(run, point, position)) WITHOUT ROWID;",
+                            table.name, declared(table.columns));
+    return text;
 }
 
 std::string views(const std::vector<RunRecord>& runs) {
-    std::string all;
-    for (const RunRecord& run : runs) {
-        if (run.is_branch())
-            continue;
-        const RunTables tables(run);
-        const std::string coordinate = tables.coordinates.empty() ? "NULL" : quoted_name(tables.coordinates.front());
-        all +=
-            fmt::format("{}SELECT {} AS run, number, chain, direction, {} AS coordinate, label, period, duration, "
-                        "signature, symmetric, multiplier, lyapunov, lyapunov_error, residual, cycles, returns, time, "
-                        "mode, ending, ending_time FROM {}",
-                        all.empty() ? "" : " UNION ALL ", in_quotes(run.name), coordinate, tables.points);
-    }
-    const std::string text =
-        branch_views(runs) +
-        "DROP VIEW IF EXISTS label_changes; DROP VIEW IF EXISTS orbits; DROP VIEW IF EXISTS label_counts; "
-        "DROP VIEW IF EXISTS all_points; ";
+    std::string text;
+    for (const char* view :
+         {"special_points", "branch_points", "label_changes", "orbits", "label_counts", "all_points"})
+        text += fmt::format("DROP VIEW IF EXISTS {}; ", view);
+    if (const std::string all = united(runs, true, kinds_of(orbit_columns())); !all.empty())
+        text += "CREATE VIEW branch_points AS " + all +
+                "; CREATE VIEW special_points AS SELECT * FROM branch_points WHERE type <> 'RG';";
+    const std::string all = united(runs, false, kinds_of(point_columns()));
     if (all.empty())
         return text;
     return text + "CREATE VIEW all_points AS " + all + R"(;
@@ -142,60 +169,38 @@ CREATE VIEW label_changes AS SELECT run, chain, direction, coordinate_before, co
 
 RunTables::RunTables(const RunRecord& run)
     : points(quoted_name((run.is_branch() ? "branch_" : "points_") + run.name)),
-      samples(quoted_name((run.is_branch() ? "segments_" : "samples_") + run.name)), is_branch(run.is_branch()) {
-    std::set<std::string> taken{"number",   "chain",       "direction", "label",         "period",
-                                "duration", "signature",   "symmetric", "multiplier",    "lyapunov",
-                                "residual", "cycles",      "returns",   "time",          "mode",
-                                "ending",   "ending_time", "detail",    "lyapunov_error"};
-    if (is_branch)
-        taken = {"number",   "part",         "step",          "type",       "label",   "period",  "signature",
-                 "symmetry", "stable",       "unstable",      "admissible", "reason",  "outcome", "detail",
-                 "residual", "error",        "iterations",    "arclength",  "located", "event",   "bracket_low",
-                 "tangent",  "bracket_high", "event_segment", "event_time", "at_end"};
-    for (const ResultColumn& column : run.coordinates)
-        coordinates.push_back(distinct(column.name, taken));
-    std::set<std::string> taken_by_samples{"point", "sampling", "time", "rowid"};
-    for (const ResultColumn& column : run.values)
-        values.push_back(distinct(column.name, is_branch ? taken : taken_by_samples));
-    if (is_branch)
-        taken = {};
-    for (const ResultColumn& column : run.states)
-        states.push_back(distinct((is_branch ? "start_" : "end_") + column.name, taken));
+      samples(quoted_name((run.is_branch() ? "segments_" : "samples_") + run.name)), is_branch(run.is_branch()),
+      point_columns(columns_for(is_branch ? kinds_of(orbit_columns()) : kinds_of(graze::point_columns()), run, {})),
+      sample_columns(is_branch ? columns_for(kinds_of(segment_columns()), run, {})
+                               : columns_for(kinds_of(graze::sample_columns()), run, {"rowid"})) {}
+
+std::vector<std::string> RunTables::names_of(ColumnGroup group) const {
+    std::vector<std::string> names;
+    for (const auto* columns : {&point_columns, &sample_columns})
+        for (const RunColumn& column : *columns)
+            if (column.kind.group == group)
+                names.push_back(column.column);
+    return names;
 }
 
 std::string RunTables::create() const {
-    if (is_branch)
-        return fmt::format(
-            "CREATE TABLE {}(number INTEGER PRIMARY KEY, part TEXT, step INTEGER, type TEXT, label TEXT{}, period "
-            "REAL{}, "
-            "{}); CREATE TABLE {}(point INTEGER, segment INTEGER, mode TEXT, ending TEXT, duration REAL, "
-            "approach_speed REAL, departure REAL, guard_margin REAL{}, PRIMARY KEY(point, segment)) WITHOUT ROWID;",
-            points, columns_of(coordinates), columns_of(values), branch_columns, samples, columns_of(states));
-    return fmt::format("CREATE TABLE {}(number INTEGER PRIMARY KEY, chain INTEGER, direction TEXT{}, {}{});"
-                       "CREATE TABLE {}(point INTEGER, sampling TEXT, time REAL{});",
-                       points, columns_of(coordinates), fixed_columns, columns_of(states), samples, columns_of(values));
-}
-
-std::size_t RunTables::point_columns() const {
-    return is_branch ? 6 + coordinates.size() + values.size() + fixed_branch_columns
-                     : 3 + coordinates.size() + fixed_point_columns + states.size();
-}
-
-std::size_t RunTables::sample_columns() const {
-    return is_branch ? 8 + states.size() : 3 + values.size();
+    const std::string of_points = declared(point_columns).insert(declared(point_columns).find(','), " PRIMARY KEY");
+    return fmt::format("CREATE TABLE {}({}); CREATE TABLE {}({}){};", points, of_points, samples,
+                       declared(sample_columns) + (is_branch ? ", PRIMARY KEY(point, segment)" : ""),
+                       is_branch ? " WITHOUT ROWID" : "");
 }
 
 std::string RunTables::insert_point() const {
-    return fmt::format("INSERT INTO {} VALUES({})", points, placeholders(point_columns()));
+    return insert_into(points, point_columns.size());
 }
 
 std::string RunTables::insert_sample() const {
     if (is_branch)
-        return fmt::format("INSERT INTO {} VALUES({})", samples, placeholders(sample_columns()));
-    std::string names = "rowid, point, sampling, time";
-    for (const std::string& value : values)
-        names += ", " + quoted_name(value);
-    return fmt::format("INSERT INTO {}({}) VALUES({})", samples, names, placeholders(4 + values.size()));
+        return insert_into(samples, sample_columns.size());
+    std::string names = "rowid";
+    for (const RunColumn& column : sample_columns)
+        names += ", " + quoted_name(column.column);
+    return insert_into(fmt::format("{}({})", samples, names), 1 + sample_columns.size());
 }
 
 std::string RunTables::select_point() const {

@@ -1,41 +1,61 @@
 #pragma once
 
 #include "graze/results/result_file.hpp"
+#include "results/columns.hpp"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace graze {
 
-/// Format of result files that this version writes.
+/// Format of result files that this version writes: to be raised with every column that comes, goes or changes.
 constexpr int result_format = 2;
 constexpr int result_application = 0x67727a31; ///< "grz1", for tools that recognise files by it
 
+/// A table of all runs with several rows for each of their points; columns come behind run, point and position.
+struct DetailTable {
+    std::string name;
+    std::vector<ColumnKind> columns;
+    bool of_branches;      ///< only
+    bool position_matters; ///< to those who read it: it says which one it is
+};
+const std::vector<DetailTable>& detail_tables();
+
 /// Tables that every file has.
 std::string common_tables();
-/// Of these, those with rows of a run besides its points: `run` and `point` come first.
-std::vector<std::string> tables_of_details();
 /// Views over all runs, to be made anew whenever runs change.
 std::string views(const std::vector<RunRecord>& runs);
+/// Writes a row with so many cells.
+std::string insert_into(const std::string& table, std::size_t columns);
+/// "a, b, c"
+std::string listed(const std::vector<ColumnKind>& columns, std::string_view before_each = "");
 
-/// Columns of a run's tables, in their order. Of a branch, `points` are its orbits, `samples` their segments,
-/// coordinates the parameters, and values the monitors.
+/// A column of a run's table.
+struct RunColumn {
+    std::string column; ///< its name there, unquoted
+    ColumnKind kind;
+    std::string name, own_unit; ///< of the parameter, state or value that it belongs to, if any
+};
+
+/// A run's own tables. Of a branch, `points` are its orbits, `samples` their segments, coordinates the parameters, and
+/// values the monitors.
 struct RunTables {
     explicit RunTables(const RunRecord& run);
 
     std::string points, samples; ///< quoted names of the tables
     bool is_branch = false;
-    std::vector<std::string> coordinates, states, values; ///< names of columns, unquoted
+    std::vector<RunColumn> point_columns, sample_columns; ///< in their order
+
+    /// Names of the columns of a group, unquoted, in the order of the run's own things.
+    std::vector<std::string> names_of(ColumnGroup group) const;
     std::string create() const;
     std::string insert_point() const;
-    std::string insert_sample() const;
-    std::string select_point() const; ///< columns as insert_point has them
-    std::size_t point_columns() const, sample_columns() const;
+    std::string insert_sample() const; ///< of samples, the first cell is their rowid
+    std::string select_point() const;  ///< columns as insert_point has them
+    /// Samples lie in the order of their points' numbers, by which they are found without an index: those of a point
+    /// have rowids from this many times its number on.
+    static constexpr std::int64_t samples_of_a_point = std::int64_t{1} << 24;
 };
-
-/// Columns between the coordinates and the final states.
-constexpr int fixed_point_columns = 16;
-/// Columns after the monitors of a branch.
-constexpr int fixed_branch_columns = 20;
 
 } // namespace graze

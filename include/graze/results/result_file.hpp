@@ -13,6 +13,9 @@
 
 namespace graze {
 
+/// What the cells of a column are, where they are not missing.
+enum class ColumnType { whole, real, text };
+
 /// A named column of numbers.
 struct ResultColumn {
     std::string name, unit;

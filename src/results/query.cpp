@@ -1,0 +1,58 @@
+#include "graze/symbolic/require.hpp"
+#include "results/result_file_state.hpp"
+
+#include <stdexcept>
+
+namespace graze {
+
+struct ResultFile::Rows::State {
+    Statement statement;
+    bool on_row = false;
+    /// The number of a column of the present row.
+    int at(std::size_t column) const {
+        if (!on_row)
+            throw std::logic_error("there is no row to be read: call next until it says that there is none");
+        require_index(column, static_cast<std::size_t>(statement.columns()), "column");
+        return static_cast<int>(column);
+    }
+};
+ResultFile::Rows::Rows(std::unique_ptr<State> state) : state_(std::move(state)) {}
+ResultFile::Rows::~Rows() = default;
+ResultFile::Rows::Rows(Rows&&) noexcept = default;
+bool ResultFile::Rows::next() {
+    return state_->on_row = state_->statement.step();
+}
+std::size_t ResultFile::Rows::columns() const {
+    return static_cast<std::size_t>(state_->statement.columns());
+}
+std::string ResultFile::Rows::column_name(std::size_t column) const {
+    require_index(column, columns(), "column");
+    return state_->statement.name(static_cast<int>(column));
+}
+bool ResultFile::Rows::is_null(std::size_t column) const {
+    return state_->statement.is_null(state_->at(column));
+}
+bool ResultFile::Rows::is_text(std::size_t column) const {
+    return state_->statement.type(state_->at(column)) == SQLITE_TEXT;
+}
+bool ResultFile::Rows::is_integer(std::size_t column) const {
+    return state_->statement.type(state_->at(column)) == SQLITE_INTEGER;
+}
+double ResultFile::Rows::number(std::size_t column) const {
+    return state_->statement.number(state_->at(column));
+}
+std::int64_t ResultFile::Rows::integer(std::size_t column) const {
+    return state_->statement.integer(state_->at(column));
+}
+std::string ResultFile::Rows::text(std::size_t column) const {
+    return state_->statement.text(state_->at(column));
+}
+
+ResultFile::Rows ResultFile::query(const std::string& sql, const std::vector<double>& values) const {
+    auto state = std::make_unique<Rows::State>(Rows::State{state_->database.prepare_query(sql), false});
+    for (std::size_t i = 0; i < values.size(); ++i)
+        state->statement.bind(static_cast<int>(i) + 1, values[i]);
+    return Rows(std::move(state));
+}
+
+} // namespace graze

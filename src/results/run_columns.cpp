@@ -1,0 +1,109 @@
+#include "results/run_columns.hpp"
+
+#include "results/schema.hpp"
+
+#include <array>
+
+namespace graze {
+
+namespace {
+
+using Run = RunRecord;
+using Type = ColumnType;
+
+template <std::string Run::*text>
+ColumnOf<NoContext, Run> text_column(const char* name) {
+    return {{name, Type::text},
+            [](const NoContext&, const Run& run, CellWriter& cell) { cell.text(run.*text); },
+            [](const NoContext&, Run& run, CellReader& cell) { run.*text = cell.text(); }};
+}
+
+/// What the columns of a run are called in the file.
+struct ColumnList {
+    const char* place;
+    ColumnGroup group;
+    std::vector<ResultColumn> Run::*columns;
+};
+constexpr std::array<ColumnList, 3> column_lists{{
+    {"coordinate", ColumnGroup::coordinates, &Run::coordinates},
+    {"state", ColumnGroup::states, &Run::states},
+    {"value", ColumnGroup::values, &Run::values},
+}};
+
+struct NameList {
+    const char* what;
+    std::vector<std::string> Run::*names;
+};
+constexpr std::array<NameList, 3> name_lists{
+    {{"sampling", &Run::samplings}, {"mode", &Run::modes}, {"direction", &Run::directions}}};
+
+} // namespace
+
+const ColumnsOf<NoContext, RunRecord>& run_columns() {
+    static const ColumnsOf<NoContext, RunRecord> columns{
+        text_column<&Run::name>("name"),
+        text_column<&Run::kind>("kind"),
+        {{"status", Type::text},
+         [](const NoContext&, const Run& run, CellWriter& cell) {
+             cell.text(run.status == RunStatus::complete ? "complete" : "unfinished");
+         },
+         [](const NoContext&, Run& run, CellReader& cell) {
+             run.status = cell.text() == "complete" ? RunStatus::complete : RunStatus::unfinished;
+         }},
+        {{"points", Type::whole},
+         [](const NoContext&, const Run& run, CellWriter& cell) { cell.whole(run.points); },
+         [](const NoContext&, Run& run, CellReader& cell) { run.points = cell.whole(); }},
+        text_column<&Run::model_name>("model_name"),
+        text_column<&Run::model>("model"),
+        text_column<&Run::settings>("settings"),
+        text_column<&Run::fingerprint>("fingerprint"),
+        text_column<&Run::version>("version"),
+    };
+    return columns;
+}
+
+void write_lists(const Database& database, const RunRecord& run) {
+    const RunTables tables(run);
+    Statement column = database.prepare(insert_into("columns", 6));
+    for (const ColumnList& list : column_lists) {
+        const std::vector<std::string> names = tables.names_of(list.group);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const ResultColumn& one = (run.*list.columns)[i];
+            CellWriter cells(column);
+            cells.text(run.name);
+            cells.text(list.place);
+            cells.whole(i);
+            cells.text(one.name);
+            cells.text(one.unit);
+            cells.text(names[i]);
+            column.run();
+        }
+    }
+    Statement name = database.prepare(insert_into("names", 4));
+    for (const NameList& list : name_lists)
+        for (std::size_t i = 0; i < (run.*list.names).size(); ++i) {
+            CellWriter cells(name);
+            cells.text(run.name);
+            cells.text(list.what);
+            cells.whole(i);
+            cells.text((run.*list.names)[i]);
+            name.run();
+        }
+}
+
+void read_lists(const Database& database, RunRecord& run) {
+    Statement columns = database.prepare("SELECT place, name, unit FROM columns WHERE run = ? ORDER BY position");
+    columns.bind(1, std::string_view(run.name));
+    while (columns.step())
+        for (const ColumnList& list : column_lists)
+            if (columns.text(0) == list.place)
+                (run.*list.columns).push_back({columns.text(1), columns.text(2)});
+    Statement names = database.prepare("SELECT what, name FROM names WHERE run = ? ORDER BY position");
+    names.bind(1, std::string_view(run.name));
+    while (names.step())
+        for (const NameList& list : name_lists)
+            if (names.text(0) == list.what)
+                (run.*list.names).push_back(names.text(1));
+}
+
+} // namespace graze
