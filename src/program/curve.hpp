@@ -1,13 +1,12 @@
 #pragma once
 
+#include "graze/study/figure.hpp"
+
 #include <span>
 #include <vector>
 
 namespace graze {
 
-struct PlanePoint {
-    double x, y;
-};
 using Polyline = std::vector<PlanePoint>;
 
 /// Leaves out points that nobody would miss: the rest is nowhere further than `distance` from the line that was

@@ -1,6 +1,7 @@
 #include "program/figure.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "program/curve.hpp"
 #include "program/gnuplot_text.hpp"
 #include "program/label_places.hpp"
 #include "program/output_file.hpp"
@@ -187,11 +188,11 @@ const char* colour_text(std::size_t colour) {
     return colour == FigureSeries::black ? "#000000" : palette[colour % palette.size()];
 }
 
-std::string Figure::script(const std::string& ending, const std::string& output) const {
-    const std::size_t across = std::max<std::size_t>(1, std::min(columns, panels.size()));
-    const std::size_t down = std::max<std::size_t>(1, (panels.size() + across - 1) / across);
+std::string figure_script(const Figure& figure, const std::string& ending, const std::string& output) {
+    const std::size_t across = std::max<std::size_t>(1, std::min(figure.columns, figure.panels.size()));
+    const std::size_t down = std::max<std::size_t>(1, (figure.panels.size() + across - 1) / across);
     const double width = panel_width * static_cast<double>(across) + (across == 1 ? 170 : 0);
-    const double height = panel_height * static_cast<double>(down) + (title.empty() ? 0 : title_height);
+    const double height = panel_height * static_cast<double>(down) + (figure.title.empty() ? 0 : title_height);
     std::string text;
     if (ending == "png")
         text = fmt::format("set terminal pngcairo noenhanced size {:.0f},{:.0f} fontscale {:.4g} linewidth {:.4g} "
@@ -206,13 +207,13 @@ std::string Figure::script(const std::string& ending, const std::string& output)
                            width, height);
     text += "set output " + quoted_path(output) + "\nset encoding utf8\n";
     std::string commands;
-    for (const FigurePanel& panel : panels)
+    for (const FigurePanel& panel : figure.panels)
         commands += panel_commands(panel);
     text += "set tics out nomirror\nset border lw 0.8\nset key outside bottom center horizontal nobox samplen 1 "
             "spacing 1.1\n";
     text += fmt::format("set multiplot layout {},{}", down, across);
-    if (!title.empty())
-        text += fmt::format(" title \"{}\"", plain(title));
+    if (!figure.title.empty())
+        text += fmt::format(" title \"{}\"", plain(figure.title));
     return text + "\n" + commands + "unset multiplot\nset output\n";
 }
 
@@ -222,11 +223,11 @@ void draw_figure(const Figure& figure, const std::string& path, const std::strin
         require_drawing_program("gnuplot", "install gnuplot (Debian: apt-get install gnuplot-nox)");
     require_distinct({{"the picture", path}, {"--data", data_path}});
     if (!data_path.empty())
-        write_file(data_path, figure.script(ending, path));
+        write_file(data_path, figure_script(figure, ending, path));
     FileReplacement file(path);
     // From a file: gnuplot reads standard input letter by letter, which takes it long for many points.
     FileReplacement commands(path + ".gp");
-    commands.write(figure.script(ending, file.temporary_path()));
+    commands.write(figure_script(figure, ending, file.temporary_path()));
     const ProcessResult result = run_process({gnuplot, "-d", commands.temporary_path()}, "");
     if (result.status != 0)
         throw InputError(fmt::format("gnuplot could not draw '{}': {}", path, one_line(result.output)),

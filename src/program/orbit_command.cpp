@@ -1,11 +1,11 @@
+#include "graze/results/orbit_motion.hpp"
+#include "graze/results/stored_orbit.hpp"
+#include "graze/study/picture.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/figure.hpp"
-#include "program/orbit_motion.hpp"
 #include "program/picture.hpp"
-#include "program/picture_kinds.hpp"
 #include "program/quantity.hpp"
-#include "program/stored_orbit.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -114,7 +114,7 @@ void draw(const OrbitArguments& arguments, const ResultFile& file, const StoredO
     picture.x = arguments.x;
     picture.y = split_list(arguments.y);
     picture.place = {"--plot", 0, 0};
-    draw_figure(orbit_picture(picture, file, picture.kind == "portrait"), arguments.plot, arguments.data);
+    draw_figure(make_picture(picture, file).figure, arguments.plot, arguments.data);
     console.out << arguments.plot << '\n';
 }
 

@@ -1,5 +1,6 @@
 #include "program/plot.hpp"
 
+#include "graze/study/plain_states.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "program/gnuplot.hpp"
@@ -15,12 +16,6 @@
 namespace graze {
 
 namespace {
-
-constexpr std::size_t most_default_histories = 6;
-
-bool is_plain(const State& state) {
-    return !state.period && !state.drifting;
-}
 
 std::size_t column_of(PlotContents& contents, RequestedQuantity quantity) {
     const auto known = std::find_if(contents.columns.begin(), contents.columns.end(),
@@ -63,32 +58,6 @@ void choose_panels(const Model& model, const SimulateArguments& arguments, PlotC
 }
 
 } // namespace
-
-std::vector<std::string> default_portrait(const Model& model) {
-    std::vector<std::string> plain;
-    const std::vector<Expression> rates = Model(model).expand(model.modes[model.initial_mode].rates);
-    for (std::size_t i = 0; i < model.states.size(); ++i) {
-        if (!is_plain(model.states[i]))
-            continue;
-        plain.push_back(model.states[i].name);
-        const Expression& rate = rates[i];
-        if (!rate.is_symbol())
-            continue;
-        const auto velocity = model.find_state(rate.name());
-        if (velocity && *velocity != i && is_plain(model.states[*velocity]))
-            return {model.states[i].name, model.states[*velocity].name};
-    }
-    plain.resize(std::min<std::size_t>(plain.size(), 2));
-    return plain.size() == 2 ? plain : std::vector<std::string>{};
-}
-
-std::vector<std::string> plain_states(const Model& model) {
-    std::vector<std::string> names;
-    for (const State& state : model.states)
-        if (is_plain(state) && names.size() < most_default_histories)
-            names.push_back(state.name);
-    return names;
-}
 
 PlotRequest plot_request(const Model& model, const SimulateArguments& arguments, const std::vector<bool>& marked) {
     PlotRequest request;

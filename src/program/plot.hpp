@@ -9,12 +9,6 @@
 
 namespace graze {
 
-/// A displacement and its velocity: the first plain state whose rate is another one, or else the first two. Empty where
-/// there are fewer than two.
-std::vector<std::string> default_portrait(const Model& model);
-/// The first states that are neither cyclic nor drifting, as many as are shown over time.
-std::vector<std::string> plain_states(const Model& model);
-
 /// A picture that has been asked for.
 struct PlotRequest {
     std::string path, data_path, ending;

@@ -1,6 +1,7 @@
+#include "graze/results/stored_run.hpp"
+#include "graze/study/picture.hpp"
 #include "program/commands.hpp"
-#include "program/result_query.hpp"
-#include "program/study_pictures.hpp"
+#include "program/figure.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 #include "graze/branch/special_point.hpp"
+#include "graze/results/stored_orbit.hpp"
+#include "graze/results/stored_run.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
-#include "program/result_query.hpp"
-#include "program/stored_orbit.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,5 @@
 #include "program/quantity.hpp"
 
-#include <algorithm>
-
 namespace graze {
 
 RequestedQuantity requested_quantity(const Model& model, const std::string& text, const std::string& option) {
@@ -14,23 +12,6 @@ std::vector<RequestedQuantity> requested_quantities(const Model& model, const st
     for (const std::string& text : texts)
         result.push_back(requested_quantity(model, text, option));
     return result;
-}
-
-QuantityEvaluator::QuantityEvaluator(const Model& model, const std::vector<RequestedQuantity>& quantities)
-    : states_(model.states.size()), inputs_(states_), values_(quantities.size()) {
-    for (const double value : model.parameter_values())
-        inputs_.push_back(value);
-    std::vector<Expression> outputs;
-    for (const RequestedQuantity& quantity : quantities)
-        outputs.push_back(quantity.value);
-    function_ = model.function_of(outputs);
-    work_.resize(function_.workspace());
-}
-
-std::span<const double> QuantityEvaluator::operator()(std::span<const double> state) {
-    std::copy_n(state.begin(), states_, inputs_.begin());
-    function_.evaluate(inputs_, values_, work_);
-    return values_;
 }
 
 StateColumns::StateColumns(const Model& model, const std::vector<RequestedQuantity>& quantities)

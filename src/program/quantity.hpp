@@ -1,7 +1,7 @@
 #pragma once
 
 #include "graze/model/named_value.hpp"
-#include "graze/symbolic/function.hpp"
+#include "graze/results/quantity_evaluator.hpp"
 #include "program/table.hpp"
 
 #include <span>
@@ -18,19 +18,6 @@ using RequestedQuantity = NamedValue;
 RequestedQuantity requested_quantity(const Model& model, const std::string& text, const std::string& option);
 std::vector<RequestedQuantity> requested_quantities(const Model& model, const std::vector<std::string>& texts,
                                                     const std::string& option);
-
-/// Evaluates quantities at states, for the model's present parameters.
-class QuantityEvaluator {
-public:
-    QuantityEvaluator(const Model& model, const std::vector<RequestedQuantity>& quantities);
-    /// Valid until the next call.
-    std::span<const double> operator()(std::span<const double> state);
-
-private:
-    Function function_;
-    std::size_t states_;
-    std::vector<double> inputs_, values_, work_;
-};
 
 /// The columns in which tables show a state: all states, then the quantities asked for.
 class StateColumns {

@@ -1,3 +1,4 @@
+#include "graze/results/stored_run.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "program/commands.hpp"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <thread>
 
 namespace graze {
@@ -66,34 +68,41 @@ private:
 };
 
 /// "periodic 1330, chaotic 270", or of branches their special points: "GR 1, PD 2".
-std::string labels_of(const ResultFile& file, const RunReport& report) {
-    const bool branch = report.kind == name_of(RunKind::orbit) || report.kind == name_of(RunKind::follow);
-    // An end that was not located is an orbit that was not found.
-    auto rows = file.query(fmt::format(
-        fmt::runtime(
-            branch
-                ? "SELECT iif(type = 'EP', 'not found', type) AS what, count(*) FROM \"branch_{}\" WHERE type NOT IN "
-                  "('RG', 'EP') OR (type = 'EP' AND NOT located) GROUP BY what ORDER BY what"
-                : "SELECT label, count(*) FROM \"points_{}\" GROUP BY label ORDER BY 2 DESC, 1"),
-        report.name));
+std::string labels_of(const StoredRun& run) {
+    std::vector<std::pair<std::string, std::size_t>> counts;
+    if (run.record.is_branch()) {
+        std::map<std::string, std::size_t> of_types;
+        auto rows = run.rows({.columns = {"type", "located"}});
+        while (rows.next())
+            // An end that was not located is an orbit that was not found.
+            if (const std::string type = rows.text(0); type == "EP" && rows.integer(1) == 0)
+                ++of_types["not found"];
+            else if (type != "RG" && type != "EP")
+                ++of_types[type];
+        counts.assign(of_types.begin(), of_types.end());
+    } else {
+        counts = run.label_counts();
+    }
     std::string text;
-    while (rows.next())
-        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", rows.text(0), rows.integer(1));
+    for (const auto& [label, count] : counts)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", label, count);
     return text;
 }
 
 /// How the branches of a run ended: of each part, what its last point says.
-std::string ends_of(const ResultFile& file, const RunReport& report) {
-    if (report.kind != name_of(RunKind::follow))
+std::string ends_of(const StoredRun& run) {
+    if (run.record.kind != name_of(RunKind::follow))
         return "";
-    auto rows =
-        file.query(fmt::format("SELECT part, detail FROM \"branch_{0}\" WHERE number IN (SELECT max(number) FROM "
-                               "\"branch_{0}\" GROUP BY part) ORDER BY number",
-                               report.name));
+    std::vector<std::pair<std::string, std::string>> ends; // parts in the order in which they ended
+    auto rows = run.rows({.columns = {"part", "detail"}});
+    while (rows.next()) {
+        std::erase_if(ends, [part = rows.text(0)](const auto& end) { return end.first == part; });
+        ends.emplace_back(rows.text(0), rows.text(1));
+    }
     std::string text;
-    while (rows.next())
-        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", rows.text(0),
-                            rows.text(1).empty() ? "a point that was asked for" : rows.text(1));
+    for (const auto& [part, detail] : ends)
+        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", part,
+                            detail.empty() ? "a point that was asked for" : detail);
     return text;
 }
 
@@ -127,8 +136,9 @@ Table table_of(const std::vector<RunReport>& reports, const ResultFile& file) {
         table.add(static_cast<double>(report.computed));
         table.add(report.seconds);
         table.add(status_of(report));
-        table.add(labels_of(file, report));
-        table.add(report.problem.empty() ? ends_of(file, report) : report.problem);
+        const StoredRun run(file, report.name, {});
+        table.add(labels_of(run));
+        table.add(report.problem.empty() ? ends_of(run) : report.problem);
     }
     return table;
 }

@@ -1,8 +1,9 @@
 #include "program/study_pictures.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "program/figure.hpp"
 #include "program/output_file.hpp"
-#include "program/picture_kinds.hpp"
+#include "program/table.hpp"
 
 #include <fmt/format.h>
 
@@ -11,75 +12,6 @@
 #include <sstream>
 
 namespace graze {
-
-StudyPicture default_picture(const RunRecord& run) {
-    StudyPicture picture;
-    picture.name = run.name;
-    picture.runs = {run.name};
-    if (run.kind == "sweep")
-        picture.kind = "bifurcation";
-    else if (run.kind == "continue")
-        picture.kind = "branch";
-    else if (run.kind == "orbit")
-        picture.kind = "portrait";
-    else if (run.kind == "basin" && run.coordinates.size() > 1)
-        picture.kind = "basin";
-    else if (run.kind == "basin")
-        picture.kind = "scatter";
-    else
-        picture.kind = "history";
-    return picture;
-}
-
-namespace {
-
-/// Whether a picture is made from orbits of branches. @throws InputError when its kind does not go with them
-bool shows_branches(const StudyPicture& picture, const ResultFile& file) {
-    std::size_t branches = 0;
-    for (const std::string& name : picture.runs) {
-        const auto run = file.find_run(name);
-        branches += run && run->is_branch() ? 1 : 0;
-    }
-    if (branches == 0)
-        return false;
-    if (branches < picture.runs.size())
-        throw InputError(picture.place, "branches and other runs cannot be drawn together", "make a picture of each");
-    for (const char* kind : {"branch", "history", "portrait", "scatter"})
-        if (picture.kind == kind)
-            return true;
-    throw InputError(picture.place,
-                     fmt::format("run '{}' is a branch, which has no {}", picture.runs.front(), picture.kind),
-                     "choose branch, portrait, history or scatter");
-}
-
-} // namespace
-
-ResultPicture make_picture(const StudyPicture& given, const ResultFile& file) {
-    StudyPicture picture = given;
-    if (picture.kind.empty())
-        if (const auto run = file.find_run(picture.runs.front()))
-            picture.kind = default_picture(*run).kind;
-    ResultPicture result;
-    const bool branches = shows_branches(picture, file);
-    if (picture.kind == "branch")
-        result.figure = branch_picture(picture, file);
-    else if (branches && picture.kind != "scatter")
-        result.figure = orbit_picture(picture, file, picture.kind == "portrait");
-    else if (picture.kind == "basin")
-        result = basin_picture(picture, file);
-    else if (picture.kind == "spectrum")
-        result = spectrum_picture(picture, file);
-    else if (picture.kind == "regression")
-        result = regression_picture(picture, file);
-    else if (picture.kind == "history" || picture.kind == "portrait")
-        result.figure = motion_picture(picture, file, picture.kind == "portrait");
-    else if (picture.kind == "scatter")
-        result.figure = scatter_picture(picture, file);
-    else
-        result.figure = bifurcation_picture(picture, file);
-    result.figure.title = picture.title;
-    return result;
-}
 
 DrawnPictures draw_study_pictures(const Study& study, const ResultFile& file, const std::string& folder,
                                   const Console& console) {

@@ -10,43 +10,6 @@
 
 namespace graze {
 
-void Table::add(double value) {
-    cells_.push_back({value, none});
-}
-
-void Table::add(std::string_view text) {
-    auto found = text_indices_.find(text);
-    if (found == text_indices_.end()) {
-        found = text_indices_.emplace(std::string(text), static_cast<std::uint32_t>(texts_.size())).first;
-        texts_.push_back(&found->first);
-    }
-    cells_.push_back({0, found->second});
-}
-
-bool Table::is_missing(std::size_t row, std::size_t column) const {
-    return !is_text(row, column) && !std::isfinite(number(row, column));
-}
-
-std::vector<std::string> Table::incomplete_columns() const {
-    std::vector<std::string> names;
-    for (std::size_t column = 0; column < columns_.size(); ++column)
-        for (std::size_t row = 0; row < rows(); ++row)
-            if (is_missing(row, column)) {
-                names.push_back(columns_[column].name);
-                break;
-            }
-    return names;
-}
-
-void Table::drop_odd_rows() {
-    const std::size_t width = columns_.size();
-    std::size_t kept = 0;
-    for (std::size_t row = 0; row < rows(); row += 2, ++kept)
-        for (std::size_t column = 0; column < width; ++column)
-            cells_[kept * width + column] = cells_[row * width + column];
-    cells_.resize(kept * width);
-}
-
 namespace {
 
 std::string number_text(double value, int digits) {

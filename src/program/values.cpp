@@ -47,14 +47,6 @@ Model load_program_model(const std::string& name_or_path) {
     return load_model(name_or_path);
 }
 
-std::string name_advice(std::string_view name, const std::vector<std::string>& known, std::string_view none) {
-    if (known.empty())
-        return std::string(none);
-    const std::string nearest = nearest_name(name, known);
-    return nearest.empty() ? fmt::format("known are: {}", fmt::join(known, ", "))
-                           : fmt::format("did you mean '{}'?", nearest);
-}
-
 std::vector<std::string> split_list(const std::vector<std::string>& arguments) {
     std::vector<std::string> items;
     for (const std::string& argument : arguments)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/model/model.hpp"
+#include "graze/results/name_advice.hpp"
 
 #include <string>
 #include <string_view>
@@ -10,9 +11,6 @@ namespace graze {
 
 /// A model by the name under which it is shipped, or from a file. @throws InputError
 Model load_program_model(const std::string& name_or_path);
-
-/// "did you mean 'x'?", or all that there is.
-std::string name_advice(std::string_view name, const std::vector<std::string>& known, std::string_view none);
 
 /// Splits lists such as "a, b" "c"; blanks around items are dropped, empty items too.
 std::vector<std::string> split_list(const std::vector<std::string>& arguments);

@@ -63,9 +63,10 @@ void write_attribute(hid_t group, const char* name, const std::string& text, con
 class Column {
 public:
     Column(hid_t group, const std::string& name, ColumnType kind, const std::string& path)
-        : kind_(kind), path_(&path), type_(kind == ColumnType::text    ? text_type(path)
-                                           : kind == ColumnType::whole ? Handle(H5Tcopy(H5T_NATIVE_INT64), H5Tclose, path)
-                                                                 : Handle(H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose, path)),
+        : kind_(kind), path_(&path),
+          type_(kind == ColumnType::text    ? text_type(path)
+                : kind == ColumnType::whole ? Handle(H5Tcopy(H5T_NATIVE_INT64), H5Tclose, path)
+                                            : Handle(H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose, path)),
           set_([&] {
               const hsize_t none = 0, unlimited = H5S_UNLIMITED;
               const Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose, path);
@@ -98,7 +99,7 @@ public:
             pointers.push_back(text.c_str());
         const void* data = kind_ == ColumnType::text    ? static_cast<const void*>(pointers.data())
                            : kind_ == ColumnType::whole ? static_cast<const void*>(wholes_.data())
-                                                  : static_cast<const void*>(reals_.data());
+                                                        : static_cast<const void*>(reals_.data());
         bool written = H5Dset_extent(set_.id(), &whole) >= 0;
         const Handle target(H5Dget_space(set_.id()), H5Sclose, *path_),
             source(H5Screate_simple(1, &count, nullptr), H5Sclose, *path_);
@@ -128,8 +129,8 @@ void write_table(hid_t parent, const std::string& name, ResultFile::Rows rows, c
                  const std::string& path) {
     const Handle group(H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path);
     if (rows.columns() != types.size())
-        throw_contradiction(path, fmt::format("table '{}' has {} columns instead of {}", name, rows.columns(),
-                                              types.size()));
+        throw_contradiction(path,
+                            fmt::format("table '{}' has {} columns instead of {}", name, rows.columns(), types.size()));
     std::vector<Column> columns;
     for (std::size_t c = 0; c < rows.columns(); ++c)
         columns.emplace_back(group.id(), rows.column_name(c), types[c], path);

@@ -144,12 +144,8 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
         {{"unstable", Type::whole, Unit::none, true}, // and this from the multipliers
          [](const Context&, const Record& r, CellWriter& cell) { cell.whole(unstable_directions(r.point.solution)); }},
         {{"admissible", Type::whole, Unit::none, true},
-         [](const Context&, const Record& r, CellWriter& cell) {
-             cell.truth(r.point.solution.certificate.admissible);
-         },
-         [](const Context&, Record& r, CellReader& cell) {
-             r.point.solution.certificate.admissible = cell.truth();
-         }},
+         [](const Context&, const Record& r, CellWriter& cell) { cell.truth(r.point.solution.certificate.admissible); },
+         [](const Context&, Record& r, CellReader& cell) { r.point.solution.certificate.admissible = cell.truth(); }},
         {{"reason", Type::text, Unit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) { cell.word(r.point.solution.certificate.reason); },
          [](const Context&, Record& r, CellReader& cell) { r.point.solution.certificate.reason = cell.text(); }},
@@ -163,9 +159,7 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
          [](const Context&, const Record& r, CellWriter& cell) { cell.real(r.point.solution.residual); },
          [](const Context&, Record& r, CellReader& cell) { r.point.solution.residual = cell.real(); }},
         {{"error", Type::real, Unit::none, true},
-         [](const Context&, const Record& r, CellWriter& cell) {
-             cell.real(r.point.solution.error.value_or(unknown));
-         },
+         [](const Context&, const Record& r, CellWriter& cell) { cell.real(r.point.solution.error.value_or(unknown)); },
          [](const Context&, Record& r, CellReader& cell) {
              if (!cell.is_nothing())
                  r.point.solution.error = cell.number();

@@ -18,7 +18,8 @@ void require_fitting(const RunRecord& run, const PointRecord& point) {
     const SampleSet& samples = result.samples;
     if (point.coordinates.size() != run.coordinates.size() || result.state.size() != run.states.size() ||
         (samples.size() > 0 && samples.width != run.values.size()))
-        throw InputError(fmt::format("a point does not fit run '{}'", run.name), "give a value for each of its columns");
+        throw InputError(fmt::format("a point does not fit run '{}'", run.name),
+                         "give a value for each of its columns");
     require_size(samples.samplings.size(), samples.size(), "samplings of samples");
     require_size(samples.values.size(), samples.size() * samples.width, "values of samples");
     for (const std::size_t sampling : samples.samplings)

@@ -43,7 +43,16 @@ void require_names(const RunRecord& run, const std::string& path) {
 
 } // namespace
 
+std::string result_path(const std::string& file_or_folder) {
+    std::error_code error;
+    return std::filesystem::is_directory(file_or_folder, error)
+               ? (std::filesystem::path(file_or_folder) / "results.sqlite").string()
+               : file_or_folder;
+}
+
 ResultFile::ResultFile(const std::string& path, Access access) {
+    if (path.empty() || path == ":memory:") // which would be lost
+        throw InputError(fmt::format("'{}' names no file to keep results in", path), "give the path of a file");
     const bool writing = access == Access::write;
     if (!writing && !std::filesystem::exists(path))
         throw InputError(Place{path, 0, 0}, "there is no such result file",
@@ -173,7 +182,9 @@ void ResultFile::begin_run(const RunRecord& given) {
 
 void ResultFile::complete_run(const std::string& name) {
     state_->begin();
-    state_->database.prepare("UPDATE runs SET status = 'complete' WHERE name = ?").bind(1, std::string_view(name)).run();
+    state_->database.prepare("UPDATE runs SET status = 'complete' WHERE name = ?")
+        .bind(1, std::string_view(name))
+        .run();
     flush();
 }
 

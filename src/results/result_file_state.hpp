@@ -49,10 +49,9 @@ struct ResultFile::State {
                 return database.prepare(insert_into(table.name, 3 + table.columns.size()));
             };
             const std::vector<DetailTable>& details = detail_tables();
-            writer = std::make_unique<Writer>(Writer{*run, database.prepare(tables.insert_point()),
-                                                     database.prepare(tables.insert_sample()), insert(details[0]),
-                                                     insert(details[1]), insert(details[2]), insert(details[3]),
-                                                     std::nullopt});
+            writer = std::make_unique<Writer>(
+                Writer{*run, database.prepare(tables.insert_point()), database.prepare(tables.insert_sample()),
+                       insert(details[0]), insert(details[1]), insert(details[2]), insert(details[3]), std::nullopt});
         }
         return *writer;
     }

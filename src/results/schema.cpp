@@ -49,9 +49,7 @@ std::string declared(const std::vector<RunColumn>& columns) {
 }
 
 const std::vector<ResultColumn>& things_of(const RunRecord& run, ColumnGroup group) {
-    return group == ColumnGroup::coordinates ? run.coordinates
-           : group == ColumnGroup::states    ? run.states
-                                             : run.values;
+    return group == ColumnGroup::coordinates ? run.coordinates : group == ColumnGroup::states ? run.states : run.values;
 }
 
 /// The columns that a run has of these kinds.

@@ -1,9 +1,8 @@
 #include "study/study_reader.hpp"
 
-#include "graze/symbolic/parser.hpp"
+#include "graze/results/name_advice.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +11,7 @@
 namespace graze {
 
 std::string study_name_remedy(const std::string& name, const std::vector<std::string>& known) {
-    if (known.empty())
-        return "there are none";
-    const std::string nearest = nearest_name(name, known);
-    return nearest.empty() ? fmt::format("known are: {}", fmt::join(known, ", "))
-                           : fmt::format("did you mean '{}'?", nearest);
+    return name_advice(name, known, "there are none");
 }
 
 void StudyReader::fail(const TomlEntry& entry, const std::string& problem, const std::string& remedy) const {

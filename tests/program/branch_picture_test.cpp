@@ -1,7 +1,7 @@
 #include "branch_results.hpp"
+#include "graze/study/picture.hpp"
 #include "program/figure.hpp"
 #include "program/process.hpp"
-#include "program/study_pictures.hpp"
 
 #include <gmock/gmock.h>
 
@@ -75,7 +75,7 @@ TEST_F(BranchPicture, SpecialPointsAreMarkedAndLabelled) {
     std::sort(texts.begin(), texts.end());
     EXPECT_EQ(texts, (std::vector<std::string>{"GR1", "PD1", "SN1"}));
     const Figure figure{"", 1, {panel}};
-    const std::string script = figure.script("svg", "out.svg");
+    const std::string script = figure_script(figure, "svg", "out.svg");
     for (const char* text : {"set label \"SN1\" at first 2,0.25", "set label \"GR1\"", "set label \"PD1\"",
                              "title \"unphysical\"", "title \"unstable\""})
         EXPECT_THAT(script, HasSubstr(text));
@@ -89,7 +89,7 @@ TEST_F(BranchPicture, LabelsDoNotLieOnOneAnother) {
         panel.labels.push_back({{0.5, 0.5 + 1e-4 * i}, "GR" + std::to_string(i)});
     panel.labels.push_back({{0.1, 0.9}, "SN1"});
     panel.labels.push_back({{7, 7}, "far"});
-    const std::string script = Figure{"", 1, {panel}}.script("svg", "out.svg");
+    const std::string script = figure_script(Figure{"", 1, {panel}}, "svg", "out.svg");
     EXPECT_THAT(script, HasSubstr("\"GR0\""));
     EXPECT_THAT(script, HasSubstr("\"SN1\""));
     EXPECT_THAT(script, Not(HasSubstr("\"far\"")));

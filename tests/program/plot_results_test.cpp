@@ -1,6 +1,7 @@
+#include "graze/study/picture.hpp"
 #include "program/figure.hpp"
 #include "program/process.hpp"
-#include "program/study_pictures.hpp"
+#include "program/table.hpp"
 #include "run_graze.hpp"
 
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "graze/results/result_file.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "results/schema.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -226,14 +227,21 @@ TEST_F(ResultFileTest, refuses_what_it_cannot_read) {
     std::ofstream(path("text")) << std::string(5000, 'x');
     EXPECT_THAT(refusal(path("text"), ResultFile::Access::read), HasSubstr("no result file of graze"));
     EXPECT_THAT(refusal(path("text"), ResultFile::Access::write), HasSubstr("no result file of graze"));
+    // Results are kept in files only.
+    std::filesystem::remove(":memory:.lock");
+    for (const auto access : {ResultFile::Access::read, ResultFile::Access::write})
+        for (const char* name : {"", ":memory:"})
+            EXPECT_THAT(refusal(name, access), HasSubstr("names no file to keep results in")) << name;
+    EXPECT_FALSE(std::filesystem::exists(":memory:.lock"));
     EXPECT_THAT(refusal(path("none/results.sqlite"), ResultFile::Access::write), HasSubstr("cannot be written"));
     { ResultFile file(path(), ResultFile::Access::write); }
     sqlite3* database = nullptr;
     ASSERT_EQ(sqlite3_open(path().c_str(), &database), SQLITE_OK);
     sqlite3_exec(database, "PRAGMA user_version = 99", nullptr, nullptr, nullptr);
     sqlite3_close(database);
-    EXPECT_THAT(refusal(path(), ResultFile::Access::read),
-                HasSubstr("format 99, this version of graze knows format 2"));
+    for (const auto access : {ResultFile::Access::read, ResultFile::Access::write})
+        EXPECT_THAT(refusal(path(), access),
+                    HasSubstr("format 99, this version of graze knows format " + std::to_string(result_format)));
 }
 
 TEST_F(ResultFileTest, only_one_process_writes_and_others_read) {

@@ -44,6 +44,9 @@ struct RunRecord {
     bool is_branch() const { return kind == "orbit" || kind == "continue"; }
 };
 
+/// The result file of a study's folder, or the file itself.
+std::string result_path(const std::string& file_or_folder);
+
 /// The model with which a run was made. @throws InputError when it cannot be read, or is not that of the run's columns
 Model stored_model(const RunRecord& run);
 
@@ -61,8 +64,8 @@ class ResultFile {
 public:
     enum class Access { read, write };
     /// Opens the file; to write, makes it if there is none.
-    /// @throws InputError when it is no such file, comes from an unknown version, cannot be opened, or another process
-    ///         writes to it
+    /// @throws InputError when it is no such file, comes from another version, cannot be opened, or another process
+    ///         writes to it. Results are kept in a file only: an empty name and ":memory:" are none
     ResultFile(const std::string& path, Access access);
     ~ResultFile();
     ResultFile(const ResultFile&) = delete;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "graze/results/result_file.hpp"
-#include "program/result_query.hpp"
+#include "graze/results/stored_run.hpp"
 
 #include <complex>
 #include <string>

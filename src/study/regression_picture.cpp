@@ -1,8 +1,6 @@
-#include "program/picture_kinds.hpp"
+#include "study/picture_kinds.hpp"
 
 #include "graze/results/regression.hpp"
-#include "program/gnuplot_text.hpp"
-#include "program/values.hpp"
 
 #include <fmt/format.h>
 
@@ -18,21 +16,23 @@ ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& 
     const std::string y = chosen_values(picture, run).front();
     require_values(picture, run, {y});
     const std::string x = picture.successive ? y : first_coordinate(picture, run);
-    const std::string group = picture.group.empty() ? "0" : run.column(picture.group);
-    auto rows = file.query(fmt::format("SELECT {}, p.number, {}, {} FROM {} WHERE s.sampling IN ({}) ORDER BY 1, "
-                                       "p.number, s.rowid",
-                                       group, picture.successive ? "0" : run.column(x), run.value_column(y), run.joined,
-                                       in_list(shown_samplings(picture, run))));
+    const std::string group = picture.group.empty() ? "0" : picture.group;
+    auto rows = run.rows({.samples = true,
+                          .columns = {"number"},
+                          .quantities = {group, picture.successive ? "0" : x},
+                          .values = {y},
+                          .samplings = shown_samplings(picture, run),
+                          .sorted_by = picture.group});
     std::map<double, std::vector<PlanePoint>> groups;
     std::int64_t last = -1;
     double before = 0;
     while (rows.next()) {
         const double value = rows.number(3);
         if (!picture.successive)
-            groups[rows.number(0)].push_back({rows.number(2), value});
-        else if (rows.integer(1) == last)
-            groups[rows.number(0)].push_back({before, value});
-        last = rows.integer(1);
+            groups[rows.number(1)].push_back({rows.number(2), value});
+        else if (rows.integer(0) == last)
+            groups[rows.number(1)].push_back({before, value});
+        last = rows.integer(0);
         before = value;
     }
     FigurePanel panel = panel_of(picture, picture.successive ? y + " of one contact" : x, run.unit(x),
@@ -59,7 +59,7 @@ ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& 
         }
         const Regression line = regression(xs, ys);
         const std::string title =
-            picture.group.empty() ? "" : fmt::format("{} = {}: ", picture.group, number_text(value));
+            picture.group.empty() ? "" : fmt::format("{} = {}: ", picture.group, title_number(value));
         panel.series.push_back({"", FigureSeries::Style::dots, colour, points});
         if (line.points > 1) {
             FigureSeries fit{fmt::format("{}slope {:.4f}, intercept {:.4f}", title, line.slope, line.intercept),
@@ -93,8 +93,7 @@ Figure scatter_picture(const StudyPicture& picture, const ResultFile& file) {
                 figure.panels.push_back(panel_of(picture, x, run.unit(x), ys[v], run.unit(ys[v])));
             FigureSeries series{picture.runs.size() > 1 ? picture.runs[r] : "", FigureSeries::Style::circles, r, {}};
             const bool sampled = run.has_value(ys[v]) && !run.record.is_branch();
-            auto rows = file.query(fmt::format("SELECT {}, {} FROM {} ORDER BY p.number", run.column(x),
-                                               run.column(ys[v]), sampled ? run.joined : run.points + " AS p"));
+            auto rows = run.rows({.samples = sampled, .quantities = {x, ys[v]}});
             while (rows.next())
                 if (!rows.is_null(0) && !rows.is_null(1))
                     series.points.push_back({rows.number(0), rows.number(1)});

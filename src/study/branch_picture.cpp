@@ -1,7 +1,7 @@
 #include "graze/branch/special_point.hpp"
-#include "program/picture_kinds.hpp"
-#include "program/stored_orbit.hpp"
-#include "program/values.hpp"
+#include "graze/results/name_advice.hpp"
+#include "graze/results/stored_orbit.hpp"
+#include "study/picture_kinds.hpp"
 
 #include "graze/symbolic/parser.hpp"
 
@@ -40,12 +40,9 @@ FigureSeries::Style style_of(Look look) {
 
 /// Names that can be drawn of a branch, besides expressions in SQL.
 std::vector<std::string> known_names(const StoredRun& run) {
-    std::vector<std::string> names;
-    for (const auto* columns : {&run.record.values, &run.record.coordinates})
-        for (const ResultColumn& column : *columns)
-            names.push_back(column.name);
-    for (const char* name : {"period", "multiplier", "arclength", "unstable", "residual", "error", "iterations"})
-        names.emplace_back(name);
+    std::vector<std::string> names{"multiplier"};
+    for (const auto& list : {run.value_names(), run.coordinate_names(), run.number_columns()})
+        names.insert(names.end(), list.begin(), list.end());
     return names;
 }
 
@@ -67,32 +64,24 @@ std::vector<std::string> default_values(const std::vector<StoredRun>& runs) {
 }
 
 /// @throws InputError for parts that the run does not have
-void require_parts(const ResultFile& file, const StoredRun& run, const StudyPicture& picture) {
-    std::vector<std::string> known;
-    auto rows = file.query(fmt::format("SELECT DISTINCT part FROM {}", run.points));
-    while (rows.next())
-        known.push_back(rows.text(0));
+void require_parts(const StoredRun& run, const StudyPicture& picture) {
+    const std::vector<std::string> known = run.parts();
     for (const std::string& part : picture.directions)
         if (std::find(known.begin(), known.end(), part) == known.end())
             throw InputError(picture.place, fmt::format("run '{}' has no direction '{}'", run.record.name, part),
                              name_advice(part, known, "it has none"));
 }
 
-std::vector<DrawnPoint> points_of(const ResultFile& file, const StoredRun& run, const StudyPicture& picture,
-                                  const std::string& x, const std::vector<std::string>& values) {
-    require_known(picture, run, x);
-    std::string columns = run.column(x);
-    for (const std::string& value : values) {
-        require_known(picture, run, value);
-        columns += ", " + run.column(value);
-    }
-    require_parts(file, run, picture);
-    const std::string where =
-        picture.directions.empty() ? "" : fmt::format("WHERE p.part IN ({})", in_list(picture.directions));
-    auto rows =
-        file.query(fmt::format("SELECT p.part, p.label, p.type, p.stable, p.admissible, p.step, {} FROM {} AS p {} "
-                               "ORDER BY p.number",
-                               columns, run.points, where));
+std::vector<DrawnPoint> points_of(const StoredRun& run, const StudyPicture& picture, const std::string& x,
+                                  const std::vector<std::string>& values) {
+    std::vector<std::string> drawn{x};
+    drawn.insert(drawn.end(), values.begin(), values.end());
+    for (const std::string& name : drawn)
+        require_known(picture, run, name);
+    require_parts(run, picture);
+    auto rows = run.rows({.columns = {"part", "label", "type", "stable", "admissible", "step"},
+                          .quantities = drawn,
+                          .directions = picture.directions});
     constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     std::vector<DrawnPoint> points;
     while (rows.next()) {
@@ -227,7 +216,7 @@ Figure branch_picture(const StudyPicture& picture, const ResultFile& file) {
     const std::vector<std::string> values = picture.y.empty() ? default_values(runs) : picture.y;
     std::vector<std::vector<DrawnPoint>> points;
     for (const StoredRun& run : runs)
-        points.push_back(points_of(file, run, picture, x, values));
+        points.push_back(points_of(run, picture, x, values));
     Figure figure;
     figure.columns = values.size() > 1 ? 2 : 1;
     for (std::size_t v = 0; v < values.size(); ++v) {

@@ -1,37 +1,24 @@
-#include "program/picture_kinds.hpp"
+#include "study/picture_kinds.hpp"
 
+#include "graze/results/name_advice.hpp"
 #include "graze/symbolic/input_error.hpp"
-#include "program/gnuplot_text.hpp"
-#include "program/values.hpp"
 
 #include <fmt/format.h>
 
 namespace graze {
 
-std::string in_list(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) {
-        text += text.empty() ? "'" : ",'";
-        for (const char c : name)
-            text += c == '\'' ? std::string("''") : std::string(1, c);
-        text += '\'';
-    }
-    return text;
+std::string title_number(double value) {
+    return fmt::format("{:.10g}", value);
 }
 
 std::vector<std::string> chosen_values(const StudyPicture& picture, const StoredRun& run) {
     if (!picture.y.empty())
         return picture.y;
-    std::vector<std::string> names;
-    for (const ResultColumn& column : run.record.values)
-        names.push_back(column.name);
-    return names;
+    return run.value_names();
 }
 
 void require_values(const StudyPicture& picture, const StoredRun& run, const std::vector<std::string>& names) {
-    std::vector<std::string> known;
-    for (const ResultColumn& column : run.record.values)
-        known.push_back(column.name);
+    const std::vector<std::string> known = run.value_names();
     for (const std::string& name : names)
         if (!run.has_value(name))
             throw InputError(picture.place, fmt::format("run '{}' has no value '{}'", run.record.name, name),

@@ -1,8 +1,7 @@
-#include "program/picture_kinds.hpp"
+#include "study/picture_kinds.hpp"
 
+#include "graze/results/point_motion.hpp"
 #include "graze/results/spectrum.hpp"
-#include "program/gnuplot_text.hpp"
-#include "program/values.hpp"
 
 #include <fmt/format.h>
 
@@ -21,13 +20,11 @@ ResultPicture spectrum_picture(const StudyPicture& picture, const ResultFile& fi
         const std::string sampling = shown_samplings(picture, run).front();
         require_values(picture, run, {value});
         std::vector<std::pair<std::string, PointRecord>> points;
-        for (const auto& at : picture.at) {
-            StudyPicture one = picture;
-            one.at = {at};
-            points.emplace_back(fmt::format("{} = {}", at.first, number_text(at.second)), chosen_point(file, run, one));
-        }
+        for (const auto& at : picture.at)
+            points.emplace_back(fmt::format("{} = {}", at.first, title_number(at.second)),
+                                chosen_point(run, {at}, picture.directions, picture.place));
         if (points.empty())
-            points.emplace_back(picture.runs[r], chosen_point(file, run, picture));
+            points.emplace_back(picture.runs[r], chosen_point(run, {}, picture.directions, picture.place));
         for (const auto& [title, point] : points) {
             std::vector<double> times, values = samples_of(point, run, value, sampling, &times);
             double spacing = 0;

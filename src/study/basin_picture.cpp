@@ -1,4 +1,4 @@
-#include "program/picture_kinds.hpp"
+#include "study/picture_kinds.hpp"
 
 #include <fmt/format.h>
 
@@ -38,10 +38,10 @@ private:
 };
 
 std::string kind_text(const ResultFile::Rows& row) {
-    std::string text = row.text(2);
+    std::string text = row.text(0);
     if (text == "periodic")
-        text = fmt::format("period {}{}{}{}", row.text(3), row.is_null(5) || row.integer(5) == 0 ? "" : ", symmetric",
-                           row.text(4).empty() ? "" : ", ", row.text(4));
+        text = fmt::format("period {}{}{}{}", row.text(1), row.is_null(3) || row.integer(3) == 0 ? "" : ", symmetric",
+                           row.text(2).empty() ? "" : ", ", row.text(2));
     return text;
 }
 
@@ -64,27 +64,17 @@ ResultPicture basin_picture(const StudyPicture& picture, const ResultFile& file)
                          "draw a bifurcation diagram or a scatter plot of it");
     const std::string x = first_coordinate(picture, run);
     const std::string y = picture.y.empty() ? run.record.coordinates[1].name : picture.y.front();
-    std::string means, ranges;
-    for (const ResultColumn& column : run.record.values) {
-        means += fmt::format(", avg({0}), min({0}), max({0})", run.value_column(column.name));
-        ranges += (ranges.empty() ? "" : ", ") + fmt::format("max({0}) - min({0})", run.value_column(column.name));
-    }
-    std::vector<double> spreads;
-    if (auto rows = file.query(fmt::format("SELECT {} FROM {} AS s", ranges.empty() ? "0" : ranges, run.samples));
-        rows.next())
-        for (std::size_t v = 0; v < run.record.values.size(); ++v)
-            spreads.push_back(rows.number(v));
-    auto rows = file.query(fmt::format(
-        "SELECT {}, {}, p.label, p.period, p.signature, p.symmetric{} FROM {} AS p LEFT JOIN {} AS s ON s.rowid >= "
-        "p.number * 16777216 AND s.rowid < (p.number + 1) * 16777216 GROUP BY p.number ORDER BY p.number",
-        run.column(x), run.column(y), means, run.points, run.samples));
+    const std::vector<double> spreads = run.value_spreads();
+    auto rows = run.rows({.columns = {"label", "period", "signature", "symmetric"},
+                          .quantities = {x, y},
+                          .statistics = run.value_names()});
     ResultPicture result;
     FigurePanel panel = panel_of(picture, x, run.unit(x), y, run.unit(y));
     AttractorNames names;
     std::size_t attractors = 0;
     while (rows.next()) {
         std::vector<double> marks(3 * run.record.values.size());
-        const bool told_apart = rows.text(2) == name_of(Label::periodic) || rows.text(2) == name_of(Label::equilibrium);
+        const bool told_apart = rows.text(0) == name_of(Label::periodic) || rows.text(0) == name_of(Label::equilibrium);
         for (std::size_t v = 0; told_apart && v < marks.size(); ++v)
             marks[v] = rows.number(6 + v);
         const std::size_t index = names.index(kind_text(rows), marks, spreads);
@@ -93,7 +83,7 @@ ResultPicture basin_picture(const StudyPicture& picture, const ResultFile& file)
             attractors += colour == attractors ? 1 : 0;
             panel.series.push_back({"", FigureSeries::Style::dots, colour, {}});
         }
-        panel.series[index].points.push_back({rows.number(0), rows.number(1)});
+        panel.series[index].points.push_back({rows.number(4), rows.number(5)});
     }
     result.table = Table({{"attractor", ""}, {"kind", ""}, {"points", ""}});
     for (std::size_t i = 0; i < panel.series.size(); ++i) {

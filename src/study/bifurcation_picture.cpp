@@ -1,4 +1,4 @@
-#include "program/picture_kinds.hpp"
+#include "study/picture_kinds.hpp"
 
 #include <fmt/format.h>
 
@@ -12,21 +12,11 @@ namespace {
 constexpr std::size_t most_marks = 8;
 constexpr double least_stretch = 0.01; ///< share of a sweep on both sides of a change that is marked
 
-/// From the least to the greatest value of what is swept.
-std::optional<std::pair<double, double>> extent_of(const ResultFile& file, const StoredRun& run) {
-    auto rows = file.query(fmt::format("SELECT min({0}), max({0}) FROM {1} AS p",
-                                       run.column(run.record.coordinates.front().name), run.points));
-    if (!rows.next() || rows.is_null(0) || !(rows.number(0) < rows.number(1)))
-        return std::nullopt;
-    return std::pair(rows.number(0), rows.number(1));
-}
-
 /// Where something changes that lasted before and lasts after.
-std::vector<double> changes(const ResultFile& file, const StoredRun& run, const std::string& direction) {
-    auto rows = file.query(
-        fmt::format("SELECT {}, label, period, symmetric, chain, signature FROM {} AS p WHERE direction = {} ORDER BY "
-                    "number",
-                    run.column(run.record.coordinates.front().name), run.points, in_quotes(direction)));
+std::vector<double> changes(const StoredRun& run, const std::string& direction) {
+    auto rows = run.rows({.columns = {"label", "period", "symmetric", "chain", "signature"},
+                          .quantities = {run.record.coordinates.front().name},
+                          .directions = {direction}});
     struct Stretch {
         std::string kind;
         double first, last;
@@ -35,12 +25,12 @@ std::vector<double> changes(const ResultFile& file, const StoredRun& run, const 
     std::vector<Stretch> stretches;
     std::size_t all = 0;
     while (rows.next()) {
-        if (rows.integer(4) != 0)
+        if (rows.integer(3) != 0)
             return {}; // several chains: their changes would hide one another
-        const std::string kind = fmt::format("{} {} {} {}", rows.text(1), rows.text(2), rows.text(3), rows.text(5));
+        const std::string kind = fmt::format("{} {} {} {}", rows.text(0), rows.text(1), rows.text(2), rows.text(4));
         if (stretches.empty() || stretches.back().kind != kind)
-            stretches.push_back({kind, rows.number(0), rows.number(0), 0});
-        stretches.back().last = rows.number(0);
+            stretches.push_back({kind, rows.number(5), rows.number(5), 0});
+        stretches.back().last = rows.number(5);
         ++stretches.back().points;
         ++all;
     }
@@ -111,16 +101,19 @@ Figure bifurcation_picture(const StudyPicture& picture, const ResultFile& file) 
                     panel.series.push_back(
                         {samplings.size() > 1 ? samplings[s] : "", FigureSeries::Style::dots, s, {}});
                 }
-                auto rows = file.query(fmt::format(
-                    "SELECT {}, {}, s.sampling FROM {} WHERE p.direction = {} AND s.sampling IN ({})", run.column(x),
-                    run.value_column(value), run.joined, in_quotes(direction), in_list(samplings)));
+                auto rows = run.rows({.samples = true,
+                                      .columns = {"sampling"},
+                                      .quantities = {x},
+                                      .values = {value},
+                                      .directions = {direction},
+                                      .samplings = samplings});
                 while (rows.next())
-                    if (const auto at = series.find(rows.text(2)); at != series.end() && !rows.is_null(1))
-                        panel.series[at->second].points.push_back({rows.number(0), rows.number(1)});
+                    if (const auto at = series.find(rows.text(0)); at != series.end() && !rows.is_null(2))
+                        panel.series[at->second].points.push_back({rows.number(1), rows.number(2)});
                 if (!panel.x_range && picture.x.empty())
-                    panel.x_range = extent_of(file, run);
+                    panel.x_range = run.extent(run.record.coordinates.front().name);
                 if (run.record.kind == "sweep" && picture.x.empty())
-                    panel.marks = changes(file, run, direction);
+                    panel.marks = changes(run, direction);
                 figure.panels.push_back(std::move(panel));
             }
     }

@@ -1,11 +1,10 @@
+#include "graze/results/name_advice.hpp"
+#include "graze/results/orbit_motion.hpp"
+#include "graze/results/quantity_evaluator.hpp"
+#include "graze/results/stored_orbit.hpp"
+#include "graze/study/plain_states.hpp"
 #include "graze/symbolic/function.hpp"
-#include "program/gnuplot_text.hpp"
-#include "program/orbit_motion.hpp"
-#include "program/picture_kinds.hpp"
-#include "program/plot.hpp"
-#include "program/quantity.hpp"
-#include "program/stored_orbit.hpp"
-#include "program/values.hpp"
+#include "study/picture_kinds.hpp"
 
 #include <fmt/format.h>
 
@@ -20,23 +19,17 @@ namespace {
 constexpr std::size_t drawn_samples = 2000, most_default_orbits = 6;
 constexpr PlanePoint interruption{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
 
-std::size_t nearest_number(const ResultFile& file, const StoredRun& run, const StudyPicture& picture,
+std::size_t nearest_number(const StoredRun& run, const StudyPicture& picture,
                            const std::pair<std::string, double>& at) {
-    std::vector<std::string> known;
-    for (const ResultColumn& column : run.record.coordinates)
-        known.push_back(column.name);
+    const std::vector<std::string> known = run.coordinate_names();
     if (std::find(known.begin(), known.end(), at.first) == known.end())
         throw InputError(picture.place, fmt::format("run '{}' has no parameter '{}'", run.record.name, at.first),
                          name_advice(at.first, known, "it has none"));
-    const std::string where =
-        picture.directions.empty() ? "" : fmt::format("WHERE p.part IN ({})", in_list(picture.directions));
-    auto rows = file.query(fmt::format("SELECT number FROM {} AS p {} ORDER BY abs({} - ?1), number LIMIT 1",
-                                       run.points, where, run.column(at.first)),
-                           {at.second});
-    if (!rows.next())
+    const auto number = run.nearest({at}, picture.directions);
+    if (!number)
         throw InputError(picture.place, fmt::format("run '{}' has no such orbit", run.record.name),
                          "run the study first, or choose another direction");
-    return static_cast<std::size_t>(rows.integer(0));
+    return *number;
 }
 
 /// Those asked for, or the first few at which something happens.
@@ -45,7 +38,7 @@ std::vector<OrbitRecord> shown_orbits(const ResultFile& file, const StoredRun& r
     for (const std::string& point : picture.points)
         orbits.push_back(orbit_of_run(file, run.record, point, picture.place));
     for (const auto& at : picture.at)
-        orbits.push_back(*file.orbit(run.record.name, nearest_number(file, run, picture, at)));
+        orbits.push_back(*file.orbit(run.record.name, nearest_number(run, picture, at)));
     if (!orbits.empty())
         return orbits;
     for (OrbitRecord& record : file.orbits(run.record.name, true))

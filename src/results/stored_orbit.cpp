@@ -1,9 +1,10 @@
-#include "program/stored_orbit.hpp"
+#include "graze/results/stored_orbit.hpp"
 
+#include "graze/results/name_advice.hpp"
 #include "graze/symbolic/input_error.hpp"
-#include "program/values.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -18,15 +19,6 @@ constexpr const char* no_branches_remedy =
 
 bool is_number(const std::string& text) {
     return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
-std::vector<std::string> labels_of(const ResultFile& file, const RunRecord& run) {
-    std::vector<std::string> labels;
-    auto rows = file.query(fmt::format("SELECT label FROM {} WHERE label IS NOT NULL ORDER BY number",
-                                       StoredRun(file, run.name, {}).points));
-    while (rows.next())
-        labels.push_back(rows.text(0));
-    return labels;
 }
 
 /// The one with that label or number, if there is one.
@@ -76,7 +68,8 @@ OrbitRecord orbit_of_run(const ResultFile& file, const RunRecord& run, const std
             place, fmt::format("run '{}' has no orbit number {}", run.name, point),
             fmt::format("graze points --run {} --all lists its {} orbits", run.name, file.point_count(run.name)));
     throw InputError(place, fmt::format("run '{}' has no orbit '{}'", run.name, point),
-                     name_advice(point, labels_of(file, run), "none of its orbits has a label; give a number"));
+                     name_advice(point, StoredRun(file, run.name, place).special_labels(),
+                                 "none of its orbits has a label; give a number"));
 }
 
 StoredOrbit find_stored_orbit(const ResultFile& file, const std::string& point, const Place& place) {

@@ -1,9 +1,8 @@
 #pragma once
 
-#include "graze/results/result_file.hpp"
-#include "graze/study/study.hpp"
-#include "program/result_query.hpp"
-#include "program/study_pictures.hpp"
+#include "graze/model/model.hpp"
+#include "graze/results/stored_run.hpp"
+#include "graze/study/picture.hpp"
 
 #include <cstddef>
 #include <string>
@@ -13,8 +12,6 @@ namespace graze {
 
 // What the kinds of pictures have in common: which values, samplings and axes of a run are shown.
 
-/// Names as SQL lists them, quoted.
-std::string in_list(const std::vector<std::string>& names);
 /// The values asked for, or all of the run.
 std::vector<std::string> chosen_values(const StudyPicture& picture, const StoredRun& run);
 /// @throws InputError naming the first that the run does not have
@@ -22,6 +19,8 @@ void require_values(const StudyPicture& picture, const StoredRun& run, const std
 /// What is drawn along x: as asked for, or what the run varies first.
 std::string first_coordinate(const StudyPicture& picture, const StoredRun& run);
 std::vector<std::string> shown_samplings(const StudyPicture& picture, const StoredRun& run);
+/// A number of a title.
+std::string title_number(double value);
 FigurePanel panel_of(const StudyPicture& picture, const std::string& x, const std::string& x_unit, const std::string& y,
                      const std::string& y_unit);
 /// A value at the samples of one point. @param times where to add their times; may be null

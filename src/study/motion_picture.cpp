@@ -1,7 +1,6 @@
-#include "program/picture_kinds.hpp"
+#include "study/picture_kinds.hpp"
 
-#include "program/gnuplot_text.hpp"
-#include "program/values.hpp"
+#include "graze/results/point_motion.hpp"
 
 #include <fmt/format.h>
 
@@ -25,10 +24,10 @@ Figure motion_picture(const StudyPicture& picture, const ResultFile& file, bool 
         const std::vector<std::string> values = chosen_values(picture, run);
         const std::string x = !portrait ? "t" : picture.x.empty() ? values.front() : picture.x;
         for (const StudyPicture& one : chosen) {
-            const PointRecord point = chosen_point(file, run, one);
+            const PointRecord point = chosen_point(run, one.at, one.directions, one.place);
             std::string title = one.at.empty()
                                     ? name
-                                    : fmt::format("{} = {}", one.at.front().first, number_text(one.at.front().second));
+                                    : fmt::format("{} = {}", one.at.front().first, title_number(one.at.front().second));
             if (point.result.label == Label::periodic)
                 title += fmt::format(": period {}", point.result.period);
             else if (run.record.kind != "simulate")

@@ -1,4 +1,4 @@
-#include "program/orbit_motion.hpp"
+#include "graze/results/orbit_motion.hpp"
 
 #include "graze/orbit/signature.hpp"
 #include "graze/symbolic/function.hpp"

@@ -1,4 +1,4 @@
-#include "program/orbit_motion.hpp"
+#include "graze/results/orbit_motion.hpp"
 
 #include "graze/study/runner.hpp"
 #include "graze/study/study_catalogue.hpp"

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace graze {
+
+/// Rows of numbers and words under named columns, as they go to a user.
+class Table {
+public:
+    struct Column {
+        std::string name, unit;
+    };
+
+    Table() = default;
+    explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
+
+    /// Adds one cell; cells fill row after row. A number that is not finite counts as missing.
+    void add(double value);
+    void add(std::string_view text);
+
+    const std::vector<Column>& columns() const { return columns_; }
+    std::size_t rows() const { return columns_.empty() ? 0 : cells_.size() / columns_.size(); }
+    bool is_text(std::size_t row, std::size_t column) const { return cell(row, column).text != none; }
+    /// Whether a number is missing.
+    bool is_missing(std::size_t row, std::size_t column) const;
+    double number(std::size_t row, std::size_t column) const { return cell(row, column).number; }
+    const std::string& text(std::size_t row, std::size_t column) const { return *texts_[cell(row, column).text]; }
+    /// Names of the columns in which a number is missing.
+    std::vector<std::string> incomplete_columns() const;
+    /// Keeps only the rows 0, 2, 4, ...
+    void drop_odd_rows();
+
+private:
+    static constexpr std::uint32_t none = 0xffffffff;
+    struct Cell {
+        double number;
+        std::uint32_t text; ///< index of a text, or `none`
+    };
+    const Cell& cell(std::size_t row, std::size_t column) const { return cells_[row * columns_.size() + column]; }
+
+    std::vector<Column> columns_;
+    std::vector<Cell> cells_;
+    std::map<std::string, std::uint32_t, std::less<>> text_indices_; ///< texts repeat; each is kept once
+    std::vector<const std::string*> texts_;
+};
+
+} // namespace graze

@@ -1,0 +1,264 @@
+#include "graze/results/result_table.hpp"
+
+#include "graze/results/name_advice.hpp"
+#include "results/run_query.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace graze {
+
+namespace {
+
+/// Units of columns by their names: several where they are not the same in all of the runs.
+using Units = std::map<std::string, std::set<std::string>>;
+
+void note(Units& units, const StoredRun& run, const std::vector<RunColumn>& columns) {
+    for (const RunColumn& column : columns)
+        units[column.column].insert(unit_of(column, run));
+}
+
+/// What views over all runs call what is varied first.
+void note_views(Units& units, const StoredRun& run) {
+    for (const char* column : {"coordinate", "coordinate_before", "value"})
+        units[column].insert(unit_of(ColumnUnit::followed, run));
+}
+
+ResultTable with_units(ResultFile::Rows rows, const Units& units) {
+    std::vector<std::string> of_columns;
+    for (std::size_t c = 0; c < rows.columns(); ++c) {
+        const auto found = units.find(rows.column_name(c));
+        of_columns.push_back(found != units.end() && found->second.size() == 1 ? *found->second.begin() : "");
+    }
+    return {std::move(rows), std::move(of_columns), {}};
+}
+
+/// A column that is shown, and its unit.
+struct ShownColumn {
+    std::string sql, unit;
+};
+
+/// Units of columns of several runs, where all have the same.
+void merge(std::vector<std::string>& units, const std::vector<ShownColumn>& columns, bool first) {
+    if (first)
+        for (const ShownColumn& column : columns)
+            units.push_back(column.unit);
+    else
+        for (std::size_t c = 0; c < std::min(units.size(), columns.size()); ++c)
+            if (units[c] != columns[c].unit)
+                units[c].clear();
+}
+
+/// All runs, with how many of their points are there.
+ResultTable table_of_runs(const ResultFile& file) {
+    std::string counts;
+    for (const RunRecord& run : file.runs())
+        counts += fmt::format(" WHEN {} THEN (SELECT count(*) FROM {})", text_literal(run.name), RunTables(run).points);
+    return with_units(
+        file.query(fmt::format("SELECT r.name AS run, r.kind, r.status, r.points, {} AS done, r.model_name AS model, "
+                               "r.version FROM runs AS r ORDER BY r.number",
+                               counts.empty() ? "0" : fmt::format("CASE r.name{} END", counts))),
+        {});
+}
+
+/// Which rows are asked for. @param type column of another name that a label may be
+std::string condition_of(const ResultTableRequest& request, const std::string& type, const std::string& direction) {
+    std::string where = "1";
+    if (!request.label.empty())
+        where += fmt::format(" AND {} IN (p.label, {})", text_literal(request.label), type);
+    if (!request.direction.empty())
+        where += fmt::format(" AND {} = {}", direction, text_literal(request.direction));
+    return where;
+}
+
+ResultTable table_of_details(const ResultFile& file, const ResultTableRequest& request, const DetailTable& table) {
+    const std::vector<std::string> names = chosen_runs(file, request.runs, request.place_of_runs);
+    std::vector<std::string> views;
+    for (const RunRecord& run : file.runs())
+        // Of a branch, its parts are directions, and the parameter that is followed the coordinate.
+        views.emplace_back(
+            run.is_branch()
+                ? "SELECT run, number, part AS direction, value AS coordinate, label, type FROM branch_points"
+                : "SELECT run, number, direction, coordinate, label, label AS type FROM all_points");
+    std::sort(views.begin(), views.end(), std::greater<>());
+    views.erase(std::unique(views.begin(), views.end()), views.end());
+    if (views.empty())
+        throw InputError("there are no runs in the file", "run the study first");
+    std::vector<std::string> units;
+    for (const std::string& name : names) {
+        const StoredRun run(file, name, request.place_of_runs);
+        std::vector<ShownColumn> columns{{"m.run", ""}, {"m.point", ""}, {"p.direction", ""}};
+        columns.push_back({"p.coordinate", unit_of(ColumnUnit::followed, run)});
+        if (table.position_matters)
+            columns.push_back({"m.position", ""});
+        for (const ColumnKind& column : table.columns)
+            columns.push_back({std::string("m.") + column.name, unit_of(column.unit, run)});
+        merge(units, columns, units.empty());
+    }
+    return {file.query(fmt::format(
+                "SELECT m.run, m.point, p.direction, p.coordinate, {}{} FROM {} AS m JOIN ({}) AS p ON p.run = m.run "
+                "AND p.number = m.point WHERE m.run IN ({}) AND {} ORDER BY m.run, m.point, m.position",
+                table.position_matters ? "m.position, " : "", listed(table.columns, "m."), table.name,
+                fmt::join(views, " UNION ALL "), text_literals(names), condition_of(request, "p.type", "p.direction"))),
+            std::move(units),
+            {}};
+}
+
+/// Columns of one run's rows, with those of their points by which they are told apart.
+std::vector<ShownColumn> columns_of(const StoredRun& run, const std::string& what) {
+    const RunQuery query(run.record);
+    const RunTables& tables = query.run_tables();
+    std::vector<ShownColumn> columns;
+    const auto add = [&](const char* table, const RunColumn& column) {
+        columns.push_back({table + quoted_name(column.column), unit_of(column, run)});
+    };
+    if (what == "points") {
+        for (const RunColumn& column : tables.point_columns)
+            add("p.", column);
+        return columns;
+    }
+    columns.push_back({"s.point", ""});
+    if (what == "segments")
+        columns.insert(columns.end(), {{"p.part", ""}, {"p.type", ""}, {"p.label", ""}});
+    else
+        columns.push_back({"p.direction", ""});
+    std::size_t shown = what == "samples" ? run.record.coordinates.size() : 1; // of a branch what is followed
+    for (const RunColumn& column : tables.point_columns)
+        if (column.kind.group == ColumnGroup::coordinates && shown > 0) {
+            add("p.", column);
+            --shown;
+        }
+    for (const RunColumn& column : tables.sample_columns)
+        if (column.column != "point")
+            add("s.", column);
+    return columns;
+}
+
+std::string listed(const std::vector<ShownColumn>& columns) {
+    std::vector<std::string> texts;
+    for (const ShownColumn& column : columns)
+        texts.push_back(column.sql);
+    return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+/// Which runs have a table: branches have segments and no samples, other runs the reverse; points of both kinds do not
+/// go into one table. @param left_out receives names of those that were not named and have other columns
+std::vector<StoredRun> runs_with(const ResultFile& file, const ResultTableRequest& request,
+                                 std::vector<std::string>& left_out) {
+    const std::string& what = request.what;
+    std::vector<StoredRun> branches, others;
+    for (const std::string& name : chosen_runs(file, request.runs, request.place_of_runs)) {
+        StoredRun run(file, name, {});
+        (run.record.is_branch() ? branches : others).push_back(std::move(run));
+    }
+    const bool named = !request.runs.empty();
+    const bool wants_branches = what == "segments" || (what == "points" && others.empty());
+    std::vector<StoredRun>& chosen = wants_branches ? branches : others;
+    const std::vector<StoredRun>& rest = wants_branches ? others : branches;
+    if (chosen.empty() && rest.empty())
+        throw InputError("there are no runs in the file", "run the study first");
+    if (chosen.empty() || (named && !rest.empty()))
+        throw InputError(request.place_of_what,
+                         fmt::format("run '{}' is of kind {}, which has no {}{}", rest.front().record.name,
+                                     rest.front().record.kind, what, what == "points" ? " like the others" : ""),
+                         what == "points" ? "export one of them at a time, by --run NAME"
+                                          : fmt::format("export its {}", wants_branches ? "samples" : "segments"));
+    if (what == "points")
+        for (const StoredRun& run : rest)
+            left_out.push_back(run.record.name);
+    return std::move(chosen);
+}
+
+/// @throws InputError for runs that do not have the same columns
+void require_same_shape(const std::vector<StoredRun>& runs) {
+    const auto shape_of = [](const StoredRun& run) {
+        std::vector<std::string> shape;
+        for (const auto* list : {&run.record.coordinates, &run.record.values, &run.record.states})
+            for (const ResultColumn& column : *list)
+                shape.push_back(column.name);
+        return shape;
+    };
+    const std::vector<std::string> first = shape_of(runs.front());
+    for (const StoredRun& run : runs) {
+        const std::vector<std::string> here = shape_of(run);
+        const bool branch = run.record.is_branch();
+        if (branch ? first != here : first.size() != here.size())
+            throw InputError("the runs do not have the same columns",
+                             branch ? "export one of them at a time, by --run NAME, or see graze points FILE --all"
+                                    : "export one of them at a time, by --run NAME");
+    }
+}
+
+ResultTable table_of_rows(const ResultFile& file, const ResultTableRequest& request) {
+    std::vector<std::string> left_out;
+    const std::vector<StoredRun> runs = runs_with(file, request, left_out);
+    require_same_shape(runs);
+    const bool of_points = request.what == "points";
+    const bool several = runs.size() > 1;
+    std::string all;
+    std::vector<std::string> units;
+    for (const StoredRun& run : runs) {
+        const RunQuery query(run.record);
+        const bool branch = run.record.is_branch();
+        std::vector<ShownColumn> columns = columns_of(run, request.what);
+        if (several)
+            columns.insert(columns.begin(), {text_literal(run.record.name) + " AS run", ""});
+        merge(units, columns, units.empty());
+        all += fmt::format("{}SELECT {} FROM {} WHERE {}", all.empty() ? "" : " UNION ALL ", listed(columns),
+                           query.tables(!of_points, false),
+                           condition_of(request, branch ? "p.type" : "p.label", query.direction()));
+        if (!several)
+            all += of_points ? " ORDER BY p.number" : branch ? " ORDER BY s.point, s.segment" : " ORDER BY s.rowid";
+    }
+    return {file.query(all), std::move(units), std::move(left_out)};
+}
+
+} // namespace
+
+std::vector<std::string> chosen_runs(const ResultFile& file, const std::vector<std::string>& wanted,
+                                     const Place& place) {
+    std::vector<std::string> known;
+    for (const RunRecord& run : file.runs())
+        known.push_back(run.name);
+    for (const std::string& name : wanted)
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            throw InputError(place, fmt::format("there are no results of a run '{}'", name),
+                             name_advice(name, known, "there are none at all"));
+    return wanted.empty() ? known : wanted;
+}
+
+ResultTable result_table(const ResultFile& file, const ResultTableRequest& request) {
+    chosen_runs(file, request.runs, request.place_of_runs);
+    if (request.what == "runs")
+        return table_of_runs(file);
+    std::vector<std::string> tables{"points", "samples", "segments"};
+    if (std::find(tables.begin(), tables.end(), request.what) != tables.end())
+        return table_of_rows(file, request);
+    for (const DetailTable& table : detail_tables()) {
+        if (request.what == table.name)
+            return table_of_details(file, request, table);
+        tables.push_back(table.name);
+    }
+    tables.emplace_back("runs");
+    throw InputError(request.place_of_what, fmt::format("there is no table '{}'", request.what),
+                     name_advice(request.what, tables, ""));
+}
+
+ResultTable queried_table(const ResultFile& file, const std::string& sql, const std::vector<std::string>& runs,
+                          const Place& place_of_runs) {
+    Units units;
+    for (const std::string& name : chosen_runs(file, runs, place_of_runs)) {
+        const StoredRun run(file, name, place_of_runs);
+        const RunTables tables(run.record);
+        note(units, run, tables.point_columns);
+        note(units, run, tables.sample_columns);
+        note_views(units, run);
+    }
+    return with_units(file.query(sql), units);
+}
+
+} // namespace graze

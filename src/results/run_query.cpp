@@ -1,0 +1,96 @@
+#include "results/run_query.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace graze {
+
+namespace {
+
+bool has_column(const std::vector<RunColumn>& columns, const std::string& name) {
+    return std::any_of(columns.begin(), columns.end(), [&](const RunColumn& column) {
+        return column.kind.group == ColumnGroup::single && column.column == name;
+    });
+}
+
+bool has(const std::vector<ResultColumn>& things, const std::string& name) {
+    return std::any_of(things.begin(), things.end(), [&](const ResultColumn& thing) { return thing.name == name; });
+}
+
+} // namespace
+
+std::string RunQuery::column(const std::string& name, bool with_samples) const {
+    return (with_samples && has_column(tables_.sample_columns, name) ? "s." : "p.") + quoted_name(name);
+}
+
+std::string RunQuery::column_of(const std::vector<ResultColumn>& things, ColumnGroup group,
+                                const std::string& name) const {
+    const auto found =
+        std::find_if(things.begin(), things.end(), [&](const ResultColumn& thing) { return thing.name == name; });
+    return quoted_name(
+        found == things.end() ? name : tables_.names_of(group)[static_cast<std::size_t>(found - things.begin())]);
+}
+
+std::string RunQuery::value(const std::string& name) const {
+    return (run_->is_branch() ? "p." : "s.") + column_of(run_->values, ColumnGroup::values, name);
+}
+
+std::string RunQuery::quantity(const std::string& name) const {
+    if (has(run_->coordinates, name))
+        return "p." + column_of(run_->coordinates, ColumnGroup::coordinates, name);
+    if (has(run_->values, name))
+        return value(name);
+    if (run_->is_branch() && name == "multiplier")
+        return fmt::format("(SELECT sqrt(m.real * m.real + m.imaginary * m.imaginary) FROM multipliers AS m WHERE "
+                           "m.run = {} AND m.point = p.number AND m.position = 0)",
+                           text_literal(run_->name));
+    return has_column(tables_.point_columns, name) ? "p." + quoted_name(name) : name;
+}
+
+std::string RunQuery::tables(bool with_samples, bool all) const {
+    const std::string points = tables_.points + " AS p";
+    if (!with_samples)
+        return points;
+    if (run_->is_branch())
+        return fmt::format("{} JOIN {} AS s ON s.point = p.number", points, tables_.samples);
+    return fmt::format("{0} {1} JOIN {2} AS s ON s.rowid >= p.number * {3} AND s.rowid < (p.number + 1) * {3}", points,
+                       all ? "LEFT" : "CROSS", tables_.samples, RunTables::samples_of_a_point);
+}
+
+std::string RunQuery::condition(const std::vector<std::string>& directions,
+                                const std::vector<std::string>& samplings) const {
+    std::string text = "1";
+    if (!directions.empty())
+        text += fmt::format(" AND {} IN ({})", direction(), text_literals(directions));
+    if (!samplings
+             .empty()) // by its sign SQLite makes no index of samplings, by which each point would meet all samples
+        text += fmt::format(" AND +s.sampling IN ({})", text_literals(samplings));
+    return text;
+}
+
+std::string RunQuery::order(bool with_samples) const {
+    return !with_samples ? "p.number" : run_->is_branch() ? "p.number, s.segment" : "p.number, s.rowid";
+}
+
+std::string unit_of(ColumnUnit unit, const StoredRun& run) {
+    const std::string& time = run.model.time_unit;
+    switch (unit) {
+    case ColumnUnit::time:
+        return time;
+    case ColumnUnit::per_time:
+        return time.empty() ? "" : "1/" + time;
+    case ColumnUnit::followed:
+        return run.record.coordinates.empty() ? "" : run.record.coordinates.front().unit;
+    case ColumnUnit::none:
+    case ColumnUnit::own:
+        break;
+    }
+    return "";
+}
+
+std::string unit_of(const RunColumn& column, const StoredRun& run) {
+    return column.kind.unit == ColumnUnit::own ? column.own_unit : unit_of(column.kind.unit, run);
+}
+
+} // namespace graze

@@ -1,0 +1,179 @@
+#include "graze/results/stored_run.hpp"
+
+#include "graze/results/name_advice.hpp"
+#include "results/run_query.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace graze {
+
+namespace {
+
+RunRecord record_named(const ResultFile& file, const std::string& name, const Place& place) {
+    if (auto found = file.find_run(name))
+        return std::move(*found);
+    std::vector<std::string> known;
+    for (const RunRecord& run : file.runs())
+        known.push_back(run.name);
+    throw InputError(place, fmt::format("there are no results of a run '{}'", name),
+                     name_advice(name, known, "run the study first"));
+}
+
+std::vector<std::string> names_of(const std::vector<ResultColumn>& columns) {
+    std::vector<std::string> names;
+    for (const ResultColumn& column : columns)
+        names.push_back(column.name);
+    return names;
+}
+
+std::vector<std::string> texts_of(ResultFile::Rows rows) {
+    std::vector<std::string> texts;
+    while (rows.next())
+        texts.push_back(rows.text(0));
+    return texts;
+}
+
+} // namespace
+
+StoredRun::StoredRun(const ResultFile& from, const std::string& name, const Place& place)
+    : file(&from), record(record_named(from, name, place)), model(stored_model(record)) {}
+
+std::vector<StoredColumn> StoredRun::columns(bool of_samples) const {
+    const RunTables tables(record);
+    std::vector<StoredColumn> result;
+    for (const RunColumn& column : of_samples ? tables.sample_columns : tables.point_columns)
+        result.push_back({column.column, unit_of(column, *this), column.kind.type});
+    return result;
+}
+
+std::string StoredRun::unit(const std::string& name) const {
+    for (const auto* columns : {&record.coordinates, &record.values})
+        for (const ResultColumn& column : *columns)
+            if (column.name == name)
+                return column.unit;
+    for (const bool of_samples : {false, true})
+        for (const StoredColumn& column : columns(of_samples))
+            if (column.name == name)
+                return column.unit;
+    return "";
+}
+
+bool StoredRun::has_value(const std::string& name) const {
+    return std::any_of(record.values.begin(), record.values.end(),
+                       [&](const ResultColumn& column) { return column.name == name; });
+}
+
+std::vector<std::string> StoredRun::coordinate_names() const {
+    return names_of(record.coordinates);
+}
+
+std::vector<std::string> StoredRun::value_names() const {
+    return names_of(record.values);
+}
+
+std::vector<std::string> StoredRun::number_columns() const {
+    std::vector<std::string> names;
+    for (const RunColumn& column : RunTables(record).point_columns)
+        if (column.kind.group == ColumnGroup::single && column.kind.type != ColumnType::text)
+            names.push_back(column.column);
+    return names;
+}
+
+ResultFile::Rows StoredRun::rows(const Selection& selection) const {
+    const RunQuery query(record);
+    const bool grouped = !selection.statistics.empty(), samples = selection.samples || grouped;
+    std::vector<std::string> columns;
+    for (const std::string& name : selection.columns)
+        columns.push_back(query.column(name, samples));
+    for (const std::string& name : selection.quantities)
+        columns.push_back(query.quantity(name));
+    for (const std::string& name : selection.values)
+        columns.push_back(query.value(name));
+    for (const std::string& name : selection.statistics)
+        for (const char* statistic : {"avg", "min", "max"})
+            columns.push_back(fmt::format("{}({})", statistic, query.value(name)));
+    std::string order = query.order(samples && !grouped);
+    if (!selection.sorted_by.empty())
+        order = fmt::format("{}, {}", query.quantity(selection.sorted_by), order);
+    return file->query(fmt::format(
+        "SELECT {} FROM {} WHERE {}{} ORDER BY {}", fmt::join(columns, ", "), query.tables(samples, grouped),
+        query.condition(selection.directions, samples ? selection.samplings : std::vector<std::string>()),
+        grouped ? " GROUP BY p.number" : "", order));
+}
+
+std::size_t StoredRun::points() const {
+    return file->point_count(record.name);
+}
+
+std::optional<std::pair<double, double>> StoredRun::extent(const std::string& quantity) const {
+    const RunQuery query(record);
+    auto rows = file->query(
+        fmt::format("SELECT min({0}), max({0}) FROM {1}", query.quantity(quantity), query.tables(false, false)));
+    if (!rows.next() || rows.is_null(0) || !(rows.number(0) < rows.number(1)))
+        return std::nullopt;
+    return std::pair(rows.number(0), rows.number(1));
+}
+
+std::vector<double> StoredRun::value_spreads() const {
+    std::vector<double> spreads;
+    if (record.values.empty() || record.is_branch())
+        return spreads;
+    const RunQuery query(record);
+    std::vector<std::string> columns;
+    for (const ResultColumn& value : record.values)
+        columns.push_back(fmt::format("max({0}) - min({0})", query.value(value.name)));
+    auto rows = file->query(fmt::format("SELECT {} FROM {} AS s", fmt::join(columns, ", "), RunTables(record).samples));
+    if (rows.next())
+        for (std::size_t v = 0; v < columns.size(); ++v)
+            spreads.push_back(rows.number(v));
+    return spreads;
+}
+
+std::vector<std::pair<std::string, std::size_t>> StoredRun::label_counts() const {
+    std::vector<std::pair<std::string, std::size_t>> counts;
+    auto rows = file->query(
+        fmt::format("SELECT label, count(*) FROM {} GROUP BY label ORDER BY 2 DESC, 1", RunTables(record).points));
+    while (rows.next())
+        counts.emplace_back(rows.text(0), static_cast<std::size_t>(rows.integer(1)));
+    return counts;
+}
+
+std::vector<std::string> StoredRun::parts() const {
+    if (!record.is_branch())
+        return {};
+    return texts_of(file->query("SELECT DISTINCT part FROM " + RunTables(record).points));
+}
+
+std::vector<std::string> StoredRun::special_labels() const {
+    if (!record.is_branch())
+        return {};
+    return texts_of(file->query(
+        fmt::format("SELECT label FROM {} WHERE label IS NOT NULL ORDER BY number", RunTables(record).points)));
+}
+
+std::optional<std::size_t> StoredRun::nearest(const std::vector<std::pair<std::string, double>>& at,
+                                              const std::vector<std::string>& directions) const {
+    const RunQuery query(record);
+    const std::vector<std::string> known = coordinate_names();
+    std::string order;
+    std::vector<double> values;
+    for (const auto& [name, value] : at) {
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            throw std::out_of_range(fmt::format("run '{}' does not vary '{}'", record.name, name));
+        values.push_back(value);
+        order += fmt::format("abs({} - ?{}), ", query.quantity(name), values.size());
+    }
+    auto rows = file->query(fmt::format("SELECT p.number FROM {} WHERE {} ORDER BY {}p.number {} LIMIT 1",
+                                        query.tables(false, false), query.condition(directions, {}), order,
+                                        at.empty() ? "DESC" : "ASC"),
+                            values);
+    if (!rows.next())
+        return std::nullopt;
+    return static_cast<std::size_t>(rows.integer(0));
+}
+
+} // namespace graze

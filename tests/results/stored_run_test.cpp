@@ -1,0 +1,169 @@
+#include "graze/results/stored_run.hpp"
+
+#include "graze/model/catalogue.hpp"
+#include "graze/model/model_file.hpp"
+#include "graze/results/result_table.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace graze {
+namespace {
+
+using testing::ElementsAre;
+using testing::Pair;
+
+/// A sweep over omega, whose values are called like columns and coordinates, in both directions.
+class StoredRunTest : public testing::Test {
+protected:
+    void SetUp() override {
+        path_ =
+            (std::filesystem::temp_directory_path() / ("graze-stored-run-" + std::to_string(getpid()) + "-" +
+                                                       testing::UnitTest::GetInstance()->current_test_info()->name()))
+                .string();
+        remove();
+        file_ = std::make_unique<ResultFile>(path_, ResultFile::Access::write);
+        const Model model = load_model("impact-oscillator");
+        RunRecord run;
+        run.name = "r";
+        run.kind = "sweep";
+        run.model_name = model.name;
+        run.model = write_model(model);
+        run.coordinates = {{"omega", "rad/s"}, {"e", ""}};
+        for (const State& state : model.states)
+            run.states.push_back({state.name, "m"});
+        run.values = {{"v", "m/s"}, {"omega", "1"}, {"time", "s"}};
+        run.samplings = {"low", "it's"};
+        for (const Mode& mode : model.modes)
+            run.modes.push_back(mode.name);
+        run.directions = {"up", "down"};
+        file_->begin_run(run);
+        for (std::size_t number = 0; number < 4; ++number)
+            file_->add_point("r", point_numbered(number));
+        file_->flush();
+    }
+    void TearDown() override {
+        file_.reset();
+        remove();
+    }
+    void remove() const {
+        for (const char* ending : {"", ".lock"})
+            std::filesystem::remove(path_ + ending);
+    }
+    static PointRecord point_numbered(std::size_t number) {
+        const auto n = static_cast<double>(number);
+        PointRecord point;
+        point.number = number;
+        point.direction = number < 2 ? 0 : 1;
+        point.coordinates = {number < 2 ? 1 + n : 4 - n, 0.5};
+        point.result.label = number == 3 ? Label::chaotic : Label::periodic;
+        point.result.state = {n, 0, 0};
+        point.result.samples.width = 3;
+        for (std::size_t s = 0; s < number; ++s) { // none of the first
+            point.result.samples.samplings.push_back(s % 2);
+            point.result.samples.times.push_back(0.25 * static_cast<double>(s));
+            for (const double value : {10 * n + static_cast<double>(s), -n, 7.0})
+                point.result.samples.values.push_back(value);
+        }
+        return point;
+    }
+    StoredRun run() const { return {*file_, "r", {}}; }
+    static std::vector<double> column(ResultFile::Rows rows, std::size_t index) {
+        std::vector<double> values;
+        while (rows.next())
+            values.push_back(rows.number(index));
+        return values;
+    }
+
+    std::string path_;
+    std::unique_ptr<ResultFile> file_;
+};
+
+TEST_F(StoredRunTest, columns_have_names_units_and_types) {
+    const std::vector<StoredColumn> points = run().columns(false), samples = run().columns(true);
+    EXPECT_EQ(points.front().name, "number");
+    EXPECT_EQ(points.front().type, ColumnType::whole);
+    EXPECT_EQ(points[3].name, "omega");
+    EXPECT_EQ(points[3].unit, "rad/s");
+    EXPECT_EQ(points.back().name, "end_theta");
+    EXPECT_EQ(points.back().unit, "m");
+    ASSERT_EQ(samples.size(), 6u);
+    EXPECT_EQ(samples[1].type, ColumnType::text);
+    EXPECT_EQ(samples[5].name, "time_2"); // the table has a time already
+    EXPECT_EQ(samples[5].unit, "s");
+    EXPECT_EQ(run().unit("v"), "m/s");
+    EXPECT_EQ(run().unit("label"), "");
+}
+
+TEST_F(StoredRunTest, points_are_read_by_direction) {
+    EXPECT_THAT(column(run().rows({.quantities = {"omega"}}), 0), ElementsAre(1, 2, 2, 1));
+    EXPECT_THAT(column(run().rows({.columns = {"number"}, .directions = {"down"}}), 0), ElementsAre(2, 3));
+    EXPECT_THAT(column(run().rows({.quantities = {"omega * 2 + e"}}), 0), ElementsAre(2.5, 4.5, 4.5, 2.5));
+}
+
+TEST_F(StoredRunTest, samples_are_read_with_what_their_points_have) {
+    EXPECT_THAT(column(run().rows({.samples = true, .quantities = {"omega"}, .values = {"v"}}), 1),
+                ElementsAre(10, 20, 21, 30, 31, 32));
+    // A value may be called as what is varied: then it has to be said which is meant.
+    EXPECT_THAT(column(run().rows({.samples = true, .values = {"omega"}}), 0), ElementsAre(-1, -2, -2, -3, -3, -3));
+    EXPECT_THAT(column(run().rows({.samples = true, .values = {"v"}, .samplings = {"it's"}}), 0), ElementsAre(21, 31));
+    EXPECT_THAT(column(run().rows({.samples = true, .columns = {"time"}, .directions = {"up"}}), 0), ElementsAre(0));
+    EXPECT_THAT(column(run().rows({.samples = true, .values = {"v"}, .sorted_by = "omega"}), 0),
+                ElementsAre(30, 31, 32, 10, 20, 21));
+}
+
+TEST_F(StoredRunTest, samples_are_summed_up_by_point) {
+    auto rows = run().rows({.columns = {"number"}, .statistics = {"v"}});
+    ASSERT_TRUE(rows.next());
+    EXPECT_TRUE(rows.is_null(1)); // a point without samples is there too
+    ASSERT_TRUE(rows.next());
+    ASSERT_TRUE(rows.next());
+    EXPECT_EQ(rows.number(1), 20.5);
+    EXPECT_EQ(rows.number(2), 20);
+    EXPECT_EQ(rows.number(3), 21);
+    EXPECT_THAT(run().value_spreads(), ElementsAre(22, 2, 0));
+}
+
+TEST_F(StoredRunTest, points_are_counted_and_found) {
+    EXPECT_EQ(run().points(), 4u);
+    EXPECT_THAT(run().label_counts(), ElementsAre(Pair("periodic", 3u), Pair("chaotic", 1u)));
+    EXPECT_EQ(run().extent("omega"), std::pair(1.0, 2.0));
+    EXPECT_FALSE(run().extent("e"));
+    EXPECT_EQ(run().nearest({{"omega", 1.1}}, {}), 0u);
+    EXPECT_EQ(run().nearest({{"omega", 1.1}}, {"down"}), 3u);
+    EXPECT_EQ(run().nearest({}, {"up"}), 1u);
+    EXPECT_FALSE(run().nearest({}, {"sideways"}));
+    EXPECT_THROW(run().nearest({{"sigma", 1}}, {}), std::out_of_range);
+    EXPECT_TRUE(run().parts().empty());
+}
+
+TEST_F(StoredRunTest, tables_come_with_units) {
+    ResultTable table = result_table(*file_, {.what = "samples", .direction = "down"});
+    ASSERT_EQ(table.rows.columns(), 9u);
+    EXPECT_EQ(table.rows.column_name(2), "omega");
+    EXPECT_EQ(table.units[2], "rad/s");
+    EXPECT_EQ(table.units[6], "m/s");
+    std::size_t rows = 0;
+    while (table.rows.next())
+        ++rows;
+    EXPECT_EQ(rows, 5u);
+    ResultTable chaotic = result_table(*file_, {.what = "points", .label = "chaotic"});
+    ASSERT_TRUE(chaotic.rows.next());
+    EXPECT_FALSE(chaotic.rows.next());
+    EXPECT_THROW(result_table(*file_, {.what = "point"}), InputError);
+    EXPECT_THROW(result_table(*file_, {.runs = {"s"}}), InputError);
+    EXPECT_THROW(result_table(*file_, {.what = "segments"}), InputError);
+}
+
+TEST_F(StoredRunTest, nothing_but_one_query_is_run) {
+    for (const char* expression : {"1; DROP TABLE runs", "(DELETE FROM runs)", "none_such", "load_extension('x')"})
+        EXPECT_THROW(run().rows({.quantities = {expression}}), InputError) << expression;
+    EXPECT_EQ(file_->runs().size(), 1u);
+}
+
+} // namespace
+} // namespace graze
