@@ -1,5 +1,6 @@
 #include "graze/results/stored_run.hpp"
 #include "graze/study/runner.hpp"
+#include "graze/study/stored_study.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "program/commands.hpp"
 #include "program/interrupt.hpp"
@@ -188,6 +189,36 @@ int list_studies(const RunArguments& arguments, const Console& console) {
     return exit_success;
 }
 
+/// A study, and where its results go.
+struct AskedFor {
+    Study study;
+    std::string folder, file;
+};
+
+/// A shipped study, one in a file, or the one that a result file has of itself.
+AskedFor asked_for(const RunArguments& arguments) {
+    const std::string stored = result_path(arguments.study);
+    const bool from_results =
+        stored.ends_with(".sqlite") && (stored == arguments.study || std::filesystem::exists(stored));
+    const std::vector<std::string> shipped = shipped_studies();
+    const bool is_shipped = std::find(shipped.begin(), shipped.end(), arguments.study) != shipped.end();
+    AskedFor result;
+    if (is_shipped || !from_results) {
+        result.study = load_study(arguments.study);
+        result.folder = arguments.folder.empty() ? result.study.name : arguments.folder;
+    } else {
+        result.study = stored_study(ResultFile(stored, ResultFile::Access::read));
+        result.folder = arguments.folder;
+        result.file = stored;
+    }
+    const std::filesystem::path own = std::filesystem::path(result.file).parent_path();
+    if (result.folder.empty()) // it goes on where it is
+        result.folder = own.empty() ? "." : own.string();
+    else
+        result.file = (std::filesystem::path(result.folder) / "results.sqlite").string();
+    return result;
+}
+
 } // namespace
 
 int run_command(const RunArguments& arguments, const Console& console) {
@@ -199,10 +230,11 @@ int run_command(const RunArguments& arguments, const Console& console) {
         console.out << shipped_study_text(arguments.study);
         return exit_success;
     }
-    const Study study = load_study(arguments.study);
+    const AskedFor request = asked_for(arguments);
+    const Study& study = request.study;
     check_names(study, split_list(arguments.only));
-    const std::string folder = made_folder(arguments.folder.empty() ? study.name : arguments.folder);
-    ResultFile file((std::filesystem::path(folder) / "results.sqlite").string(), ResultFile::Access::write);
+    const std::string folder = made_folder(request.folder);
+    ResultFile file(request.file, ResultFile::Access::write);
     std::vector<RunReport> reports;
     {
         const InterruptGuard guard;

@@ -10,13 +10,15 @@ constexpr const char* run_text = R"(Do what a study asks for, and keep the resul
 A study is a text file of named runs (simulations, sweeps of parameters, basins of attraction, periodic orbits and
 branches of them) and of the pictures to be made from them. Results go to FOLDER/results.sqlite as they come, pictures
 beside it. Run again, it only does what is not there yet or has changed; so a run that was interrupted, even by a power
-cut, goes on where it stopped.)";
+cut, goes on where it stopped. The results are enough for that: instead of the study, name their folder or file.)";
 
 constexpr const char* run_examples = R"(Examples:
   graze run --list
   graze run electromagnetic-testbed --output testbed
   graze run my-study.toml --output results --jobs 8
   graze run my-study.toml --only chain --steps
+  graze run results                               go on with what is in results/results.sqlite
+  graze run results --output again                do all of it again, elsewhere
   graze run mems-switch --show > my-switch.toml)";
 
 constexpr const char* export_text = R"(Take results out of the file of a study.
@@ -58,7 +60,7 @@ void declare_format(CLI::App& command, OutputArguments& output) {
 void declare_run(CLI::App& app, RunArguments& arguments) {
     CLI::App& command = *app.add_subcommand("run", run_text);
     command.footer(run_examples);
-    add(command, "STUDY", arguments.study, "", "Name of a shipped study, or a file");
+    add(command, "STUDY", arguments.study, "", "Name of a shipped study, a file, or results to go on with");
     add(command, "--output", arguments.folder, "FOLDER", "Where results and pictures go (the study's name)");
     add(command, "--jobs", arguments.jobs, "N", "Threads (as many as there are cores); results do not depend on it")
         ->check(CLI::Range(1, 1024));

@@ -180,6 +180,19 @@ void ResultFile::begin_run(const RunRecord& given) {
     });
 }
 
+void ResultFile::set_note(const std::string& key, const std::string& text) {
+    state_->at_once([&] {
+        Statement insert = state_->database.prepare("INSERT OR REPLACE INTO meta(key, value) VALUES(?,?)");
+        insert.bind(1, std::string_view(key)).bind(2, std::string_view(text)).run();
+    });
+}
+
+std::optional<std::string> ResultFile::note(const std::string& key) const {
+    Statement row = state_->database.prepare("SELECT value FROM meta WHERE key = ?");
+    row.bind(1, std::string_view(key));
+    return row.step() ? std::optional(row.text(0)) : std::nullopt;
+}
+
 void ResultFile::complete_run(const std::string& name) {
     state_->begin();
     state_->database.prepare("UPDATE runs SET status = 'complete' WHERE name = ?")

@@ -53,7 +53,11 @@ std::optional<Orbit> orbit_asked_for(const StudyRun& run, const System& system, 
 
 /// A candidate from a table: given by its half if it leads to an orbit that is its own image.
 Orbit orbit_of_table(const StudyRun& run, const System& system) {
-    const Orbit candidate = read_orbit_table(run.model, run.branch.table, run.branch.signature);
+    const BranchRequest& branch = run.branch;
+    const Orbit candidate =
+        branch.table_text.empty()
+            ? read_orbit_table(run.model, branch.table, branch.signature)
+            : parse_orbit_table(run.model, branch.table_text, branch.signature, fmt::format("table of '{}'", run.name));
     if (run.model.symmetries.empty())
         return candidate;
     return at_place(run.place, run, [&] {
@@ -160,7 +164,7 @@ std::vector<Part> parts_of(const Study& study, const StudyRun& run, const System
         const auto orbit = settled(run, system_at(run, point_to_start_from(run, study, file)), options);
         return orbit ? both_directions(run, *orbit) : std::vector<Part>();
     }
-    if (!branch.table.empty())
+    if (branch.has_table())
         return both_directions(run, orbit_of_table(run, system));
     const auto orbit = branch.signature.empty() ? settled(run, system, options) : orbit_asked_for(run, system, options);
     return orbit ? both_directions(run, *orbit) : std::vector<Part>();

@@ -1,6 +1,7 @@
 #include "graze/study/runner.hpp"
 
 #include "graze/model/model_file.hpp"
+#include "graze/study/stored_study.hpp"
 #include "graze/symbolic/require.hpp"
 #include "study/branch_run.hpp"
 #include "study/start_point.hpp"
@@ -319,7 +320,10 @@ private:
 } // namespace
 
 std::vector<RunReport> run_study(const Study& study, ResultFile& file, const RunnerOptions& options) {
-    return Runner(study, file, options).run();
+    Runner runner(study, file, options);
+    if (study.file != file.path()) // otherwise it has been read from there
+        store_study(study, file);
+    return runner.run();
 }
 
 } // namespace graze

@@ -26,9 +26,6 @@ std::string_view name_of(RunKind kind) {
     return "simulate";
 }
 
-namespace {
-
-/// Each run after the one that it starts from, otherwise as in the file.
 std::vector<StudyRun> in_order(std::vector<StudyRun> runs) {
     std::vector<std::string> names;
     for (const StudyRun& run : runs)
@@ -53,6 +50,8 @@ std::vector<StudyRun> in_order(std::vector<StudyRun> runs) {
     }
     return ordered;
 }
+
+namespace {
 
 void check_pictures(const Study& study) {
     std::vector<std::string> names;

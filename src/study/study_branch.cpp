@@ -199,7 +199,7 @@ void read_branch(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
                             "leave that out, or choose kind = \"continue\"");
     try {
         settings.validate(run.model);
-        if (!run.start && branch.table.empty() && branch.signature.empty())
+        if (!run.start && !branch.has_table() && branch.signature.empty())
             run.attractor.validate(run.model);
     } catch (const InputError& error) {
         throw InputError(entry.place, fmt::format("{}: {}", entry.path, error.problem()), error.remedy());

@@ -49,6 +49,9 @@ using RunKeys = std::map<std::string, TomlEntry>;
 /// @param keys receives those of the run, for checks that need other runs
 StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const StudyDefaults& defaults, RunKeys& keys);
 StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry);
+/// Each run after the one that it starts from, otherwise in their order.
+/// @throws InputError for a run that starts from one that is not there, or from itself
+std::vector<StudyRun> in_order(std::vector<StudyRun> runs);
 /// The values of one entry of `vary`.
 Variation read_variation(const StudyReader& reader, const Model& model, const TomlEntry& entry, bool& random);
 

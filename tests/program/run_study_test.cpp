@@ -163,5 +163,30 @@ TEST_F(RunStudySlow, killed_at_a_hundred_moments_it_ends_with_the_same_results) 
 }
 #endif
 
+TEST_F(RunStudyTest, results_are_gone_on_with_and_done_again_from_their_file_alone) {
+    ASSERT_EQ(study_run("a").code, 0);
+    const std::string before = everything("a");
+    std::filesystem::remove(path("study.toml"));
+    const testing::Printed on = run_graze({"run", path("a"), "--no-pictures", "--format", "csv"});
+    EXPECT_EQ(on.code, 0) << on.err;
+    EXPECT_THAT(on.out, HasSubstr("was there"));
+    EXPECT_EQ(on.out.find("done"), std::string::npos);
+    const testing::Printed again =
+        run_graze({"run", path("a/results.sqlite"), "--output", path("b"), "--only", "sweep,basin"});
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_EQ(everything("a"), before);
+    EXPECT_EQ(everything("b"), before);
+    const testing::Printed drawn = run_graze({"run", path("a")});
+    EXPECT_EQ(drawn.code, 0) << drawn.err;
+    EXPECT_TRUE(std::filesystem::exists(path("a/sweep.png")));
+}
+
+TEST_F(RunStudyTest, what_is_neither_study_nor_results_is_refused) {
+    EXPECT_THAT(run_graze({"run", path("none.sqlite")}).err, HasSubstr("there is no such result file"));
+    std::ofstream(path("no.sqlite")) << "this is something else, however long it may be";
+    EXPECT_THAT(run_graze({"run", path("no.sqlite")}).err, HasSubstr("no result file of graze"));
+    EXPECT_NE(run_graze({"run", folder_.string()}).code, 0);
+}
+
 } // namespace
 } // namespace graze

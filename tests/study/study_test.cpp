@@ -1,6 +1,7 @@
 #include "graze/study/study.hpp"
 
 #include "graze/study/runner.hpp"
+#include "graze/study/stored_study.hpp"
 #include "graze/study/study_catalogue.hpp"
 
 #include <gmock/gmock.h>

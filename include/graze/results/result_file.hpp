@@ -86,6 +86,10 @@ public:
     /// Marks a run as complete.
     void complete_run(const std::string& run);
 
+    /// Keeps a text that belongs to no run, in place of one with the same key.
+    void set_note(const std::string& key, const std::string& text);
+    std::optional<std::string> note(const std::string& key) const;
+
     /// How many points of a run are there.
     std::size_t point_count(const std::string& run) const;
     /// The last point of each chain (by number / chain_length), without samples; those without any are left out.

@@ -51,12 +51,11 @@ Plan plan_of(const StudyRun& run, const System& system, const PointRecord* start
 /// Coordinates and direction of a point of that plan: what its axes have there.
 std::vector<double> coordinates_of(const StudyRun& run, std::size_t point);
 std::size_t direction_of(const StudyRun& run, std::size_t point);
-/// Everything that the numbers of a run depend on, as a JSON object.
-std::string settings_of(const StudyRun& run);
 
 /// Does what a study asks for, and keeps it. Complete runs whose settings have not changed are left as they are,
 /// unfinished ones are gone on with (branches, which take little time, begun again), and others are done anew.
-/// Runs that fail do not keep those from being done that do not start from them.
+/// The file then has all that is needed to do so again (`stored_study`). Runs that fail do not keep those from being
+/// done that do not start from them.
 /// @return reports of the runs, in their order; the last may be unfinished when it was interrupted
 /// @throws InputError when the file cannot be written
 std::vector<RunReport> run_study(const Study& study, ResultFile& file, const RunnerOptions& options);

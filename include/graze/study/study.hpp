@@ -49,8 +49,11 @@ struct BranchRequest {
     std::string signature; ///< of the orbit; empty: whatever is found
     Place signature_place;
     std::string table;            ///< file of a motion to start from; empty: none
+    std::string table_text;       ///< its contents, where they are known already and no file is read
     std::vector<std::size_t> set; ///< parameters that the run itself sets, rather than the orbit that it starts from
     BranchSettings settings;
+
+    bool has_table() const { return !table.empty() || !table_text.empty(); }
 };
 
 /// One named computation.

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "graze/results/result_file.hpp"
+#include "graze/study/study.hpp"
+
+#include <string>
+#include <vector>
+
+namespace graze {
+
+/// Everything that the numbers of a run depend on, besides its model and the run that it starts from, as a JSON object.
+std::string settings_of(const StudyRun& run);
+/// A run as it was asked for, from what a result file has of it: `run_study` goes on with it, or does it again.
+/// @throws InputError when the settings cannot be read, or are of another version with more of them
+StudyRun stored_run(const RunRecord& record);
+
+/// Keeps in a result file what it needs besides the runs: the study's name, words and pictures.
+void store_study(const Study& study, ResultFile& file);
+/// The study of a result file, made of nothing else: those of its runs that were begun, and the pictures of these.
+/// @throws InputError when something cannot be read
+Study stored_study(const ResultFile& file);
+
+} // namespace graze

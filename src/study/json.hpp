@@ -1,0 +1,33 @@
+#pragma once
+
+#include "graze/symbolic/input_error.hpp"
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace graze {
+
+/// A value of JSON, as it stands in a text.
+struct Json {
+    enum class Kind { nothing, truth, number, text, list, object };
+
+    Kind kind = Kind::nothing;
+    bool truth = false;
+    std::string text; ///< of texts; of numbers their digits, for none to be lost
+    std::vector<Json> items;
+    std::vector<std::pair<std::string, Json>> members;
+
+    /// The member of that name, or null.
+    const Json* find(std::string_view name) const;
+};
+
+/// @param place for messages
+/// @throws InputError when the text is no JSON, or nested deeper than anything that graze writes
+Json parse_json(std::string_view text, const Place& place);
+
+/// A text between JSON's quotes.
+std::string json_text(std::string_view text);
+
+} // namespace graze

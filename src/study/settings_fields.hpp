@@ -1,0 +1,224 @@
+#pragma once
+
+#include "graze/model/named_value.hpp"
+#include "graze/symbolic/transform.hpp"
+#include "study/json.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace graze {
+
+// Settings are described once, as the fields of an object, by functions that are given one of two: what writes these
+// fields as JSON, or what reads them from it.
+
+/// Writes the members of a JSON object, in the order in which they are named.
+class SettingsWriter {
+public:
+    static constexpr bool reading = false;
+
+    template <class Value>
+    void field(std::string_view name, const Value& value) {
+        begin(name);
+        write(value);
+    }
+    template <class Value>
+    void optional(std::string_view name, const std::optional<Value>& value) {
+        if (value)
+            field(name, *value);
+    }
+    /// Whether what is told by a field is to be written.
+    bool has(std::string_view, bool written) const { return written; }
+    /// What follows from fields, and has to be set when they are read.
+    template <class Value>
+    void follows(const Value&, const Value&) const {}
+    /// One of several words.
+    template <class Choice>
+    void word(std::string_view name, Choice choice, const std::vector<std::string>& words) {
+        field(name, words.at(static_cast<std::size_t>(choice)));
+    }
+    template <class Choice>
+    void words(std::string_view name, const std::vector<Choice>& choices, const std::vector<std::string>& words) {
+        std::vector<std::string> texts;
+        for (const Choice choice : choices)
+            texts.push_back(words.at(static_cast<std::size_t>(choice)));
+        field(name, texts);
+    }
+    /// One of so many, by its number.
+    template <class Choice>
+    void number(std::string_view name, Choice choice, std::size_t) {
+        field(name, static_cast<int>(choice));
+    }
+    /// Something by its name among others.
+    void named(std::string_view name, std::size_t index, const std::vector<std::string>& names) {
+        field(name, names.at(index));
+    }
+    void named(std::string_view name, const std::vector<std::size_t>& indices, const std::vector<std::string>& names) {
+        std::vector<std::string> texts;
+        for (const std::size_t index : indices)
+            texts.push_back(names.at(index));
+        field(name, texts);
+    }
+    void expression(std::string_view name, const Expression& value) { field(name, to_string(value)); }
+    void expressions(std::string_view name, const std::vector<Expression>& values) {
+        std::vector<std::string> texts;
+        for (const Expression& value : values)
+            texts.push_back(to_string(value));
+        field(name, texts);
+    }
+    /// @param describe given what writes an item's fields, and the item
+    template <class Item, class Describe>
+    void list(std::string_view name, const std::vector<Item>& items, Describe describe) {
+        begin(name);
+        text_ += '[';
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            SettingsWriter one;
+            describe(one, items[i]);
+            text_ += (i > 0 ? "," : "") + one.text();
+        }
+        text_ += ']';
+    }
+    template <class Describe>
+    void object(std::string_view name, Describe describe) {
+        SettingsWriter one;
+        describe(one);
+        begin(name);
+        text_ += one.text();
+    }
+    std::string text() const { return "{" + text_ + "}"; }
+
+private:
+    void begin(std::string_view name) { text_ += fmt::format("{}\"{}\":", text_.empty() ? "" : ",", name); }
+    void write(double value) {
+        text_ += std::isfinite(value) ? fmt::format("{:.17g}", value)
+                 : std::isnan(value)  ? "null"
+                 : value > 0          ? "\"inf\""
+                                      : "\"-inf\"";
+    }
+    void write(bool value) { text_ += value ? "true" : "false"; }
+    void write(std::uint64_t value) { text_ += fmt::format("{}", value); }
+    void write(int value) { text_ += fmt::format("{}", value); }
+    void write(const std::string& value) { text_ += json_text(value); }
+    void write(const std::pair<double, double>& range) { write(std::vector<double>{range.first, range.second}); }
+    template <class Item>
+    void write(const std::vector<Item>& items) {
+        text_ += '[';
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            text_ += i > 0 ? "," : "";
+            write(items[i]);
+        }
+        text_ += ']';
+    }
+    std::string text_;
+};
+
+/// Reads the fields of a JSON object, those that it has: others keep their values.
+class SettingsReader {
+public:
+    static constexpr bool reading = true;
+
+    /// @param model in whose words expressions are; may be null
+    SettingsReader(const Json& object, const Model* model, const Place& place)
+        : object_(&object), model_(model), place_(&place) {
+        if (object.kind != Json::Kind::object)
+            fail("", "an object");
+    }
+
+    template <class Value>
+    void field(std::string_view name, Value& value) const {
+        if (const Json* found = object_->find(name))
+            read(name, *found, value);
+    }
+    template <class Value>
+    void optional(std::string_view name, std::optional<Value>& value) const {
+        if (const Json* found = object_->find(name))
+            read(name, *found, value.emplace());
+    }
+    bool has(std::string_view name, bool) const { return object_->find(name) != nullptr; }
+    template <class Value>
+    void follows(Value& target, const Value& value) const {
+        target = value;
+    }
+    template <class Choice>
+    void word(std::string_view name, Choice& choice, const std::vector<std::string>& words) const {
+        std::size_t index = static_cast<std::size_t>(choice);
+        named(name, index, words);
+        choice = static_cast<Choice>(index);
+    }
+    template <class Choice>
+    void words(std::string_view name, std::vector<Choice>& choices, const std::vector<std::string>& words) const {
+        std::vector<std::size_t> indices;
+        named(name, indices, words);
+        choices.clear();
+        for (const std::size_t index : indices)
+            choices.push_back(static_cast<Choice>(index));
+    }
+    template <class Choice>
+    void number(std::string_view name, Choice& choice, std::size_t count) const {
+        std::size_t index = static_cast<std::size_t>(choice);
+        field(name, index);
+        if (index >= count)
+            fail(name, fmt::format("a number below {}", count));
+        choice = static_cast<Choice>(index);
+    }
+    void named(std::string_view name, std::size_t& index, const std::vector<std::string>& names) const;
+    void named(std::string_view name, std::vector<std::size_t>& indices, const std::vector<std::string>& names) const;
+    void expression(std::string_view name, Expression& value) const;
+    void expressions(std::string_view name, std::vector<Expression>& values) const;
+    template <class Item, class Describe>
+    void list(std::string_view name, std::vector<Item>& items, Describe describe) const {
+        const Json* found = object_->find(name);
+        if (!found)
+            return;
+        items.clear();
+        for (const Json& one : items_of(name, *found)) {
+            SettingsReader reader(one, model_, *place_);
+            describe(reader, items.emplace_back());
+        }
+    }
+    template <class Describe>
+    void object(std::string_view name, Describe describe) const {
+        if (const Json* found = object_->find(name)) {
+            SettingsReader reader(*found, model_, *place_);
+            describe(reader);
+        }
+    }
+    /// @throws InputError saying what a field should be
+    [[noreturn]] void fail(std::string_view name, const std::string& wanted) const;
+
+private:
+    const std::vector<Json>& items_of(std::string_view name, const Json& json) const;
+    std::size_t index_of(std::string_view name, const std::string& text, const std::vector<std::string>& names) const;
+    Expression parsed(const std::string& text) const;
+
+    void read(std::string_view name, const Json& json, double& value) const;
+    void read(std::string_view name, const Json& json, bool& value) const;
+    void read(std::string_view name, const Json& json, std::string& value) const;
+    void read(std::string_view name, const Json& json, std::uint64_t& value) const;
+    void read(std::string_view name, const Json& json, int& value) const;
+    void read(std::string_view name, const Json& json, std::pair<double, double>& range) const;
+    template <class Item>
+    void read(std::string_view name, const Json& json, std::vector<Item>& items) const {
+        items.clear();
+        for (const Json& one : items_of(name, json))
+            read(name, one, items.emplace_back());
+    }
+
+    const Json* object_;
+    const Model* model_;
+    const Place* place_;
+};
+
+} // namespace graze

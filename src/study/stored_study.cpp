@@ -1,0 +1,99 @@
+#include "graze/study/stored_study.hpp"
+
+#include "graze/symbolic/file_name.hpp"
+#include "study/settings_fields.hpp"
+#include "study/study_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace graze {
+
+namespace {
+
+constexpr const char* key_of_study = "study";
+
+template <class Fields, class Picture>
+void describe_picture(Fields& fields, Picture& picture) {
+    fields.field("name", picture.name);
+    fields.field("kind", picture.kind);
+    fields.field("title", picture.title);
+    fields.field("runs", picture.runs);
+    fields.field("x", picture.x);
+    fields.field("y", picture.y);
+    fields.field("samples", picture.samplings);
+    fields.field("directions", picture.directions);
+    fields.optional("x_range", picture.x_range);
+    fields.optional("y_range", picture.y_range);
+    fields.optional("fit", picture.fit);
+    fields.list("at", picture.at, [](auto& one, auto& at) {
+        one.field("name", at.first);
+        one.field("value", at.second);
+    });
+    fields.field("points", picture.points);
+    fields.field("logarithmic_x", picture.logarithmic_x);
+    fields.field("logarithmic_y", picture.logarithmic_y);
+    fields.field("successive", picture.successive);
+    fields.field("group", picture.group);
+    fields.field("format", picture.format);
+}
+
+template <class Fields, class One>
+void describe_study(Fields& fields, One& study) {
+    fields.field("name", study.name);
+    fields.field("text", study.text);
+    fields.field("source", study.source);
+    fields.list("pictures", study.pictures, [](auto& one, auto& picture) { describe_picture(one, picture); });
+}
+
+/// Names end up in names of files, and texts in pictures. @throws InputError as for those of study files
+void check(StudyPicture& picture, const Place& place) {
+    picture.place = place;
+    require_file_name(picture.name, "name of a picture", place);
+    for (const std::string* text : {&picture.kind, &picture.title, &picture.x, &picture.group, &picture.format})
+        require_plain_line(*text, "text of a picture", place);
+    for (const auto* texts : {&picture.y, &picture.samplings, &picture.directions, &picture.points})
+        for (const std::string& text : *texts)
+            require_plain_line(text, "text of a picture", place);
+    for (const auto& [name, value] : picture.at)
+        require_plain_line(name, "coordinate", place);
+    const std::vector<std::string> formats{"png", "svg", "pdf"};
+    if (std::find(formats.begin(), formats.end(), picture.format) == formats.end())
+        throw InputError(place, fmt::format("pictures cannot be '{}'", picture.format), study_name_remedy("", formats));
+}
+
+} // namespace
+
+void store_study(const Study& study, ResultFile& file) {
+    SettingsWriter fields;
+    describe_study(fields, study);
+    file.set_note(key_of_study, fields.text());
+}
+
+Study stored_study(const ResultFile& file) {
+    const Place place{"stored study", 0, 0};
+    Study study;
+    study.file = file.path();
+    const Json json = parse_json(file.note(key_of_study).value_or("{}"), place);
+    const SettingsReader fields(json, nullptr, place);
+    describe_study(fields, study);
+    if (study.name.empty())
+        study.name = "results";
+    require_file_name(study.name, "name of a study, which its folder bears", place);
+    std::vector<StudyRun> runs;
+    for (const RunRecord& record : file.runs())
+        runs.push_back(stored_run(record));
+    study.runs = in_order(std::move(runs));
+    const auto is_there = [&](const std::string& name) {
+        return std::any_of(study.runs.begin(), study.runs.end(), [&](const StudyRun& run) { return run.name == name; });
+    };
+    std::erase_if(study.pictures, [&](const StudyPicture& picture) {
+        return picture.runs.empty() || !std::all_of(picture.runs.begin(), picture.runs.end(), is_there);
+    });
+    for (StudyPicture& picture : study.pictures)
+        check(picture, place);
+    return study;
+}
+
+} // namespace graze

@@ -1,0 +1,298 @@
+#include "graze/study/stored_study.hpp"
+
+#include "graze/model/catalogue.hpp"
+#include "graze/study/picture.hpp"
+#include "graze/study/runner.hpp"
+#include "graze/study/study_catalogue.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+
+namespace graze {
+namespace {
+
+using testing::HasSubstr;
+
+/// A study with a run of every kind, of a model in a file of its own, from a table in a file.
+constexpr const char* text = R"(
+name = "all"
+text = "one of each kind"
+model = "model.toml"
+[runs.sweep]
+kind = "sweep"
+set = { zeta = 0.03 }
+vary = { omega = { from = 2.7, to = 2.9, step = 0.02 } }
+direction = "both"
+cycles = 60
+values = ["v", "energy = v^2/2 + x^2/2"]
+[runs.sweep.sample]
+contacts = { contacts = true }
+highest = { maxima = "x" }
+[runs.basin]
+kind = "basin"
+draws = 9
+seed = 7
+vary = { x = { random = [-1, 0] } }
+set = { e = 0.7 }
+bounds = { v = [-50, 50] }
+cycles = 60
+start = { run = "sweep", at = { omega = 2.8 }, direction = "up" }
+[runs.motion]
+kind = "simulate"
+contacts = 20
+skip = { time = 1.5 }
+[runs.orbit]
+kind = "orbit"
+set = { omega = 2.8 }
+[runs.chain]
+kind = "continue"
+start = { run = "orbit" }
+along = { omega = [2.7, 2.9] }
+direction = "both"
+monitors = { slowest = { minimum = "v" }, whole = { duration = "period", report = [2.3] }, m = { multiplier = 1 } }
+stop = ["GR", "SN"]
+[runs.from_table]
+kind = "orbit"
+set = { omega = 2.8 }
+table = "orbit.csv"
+[pictures.diagram]
+run = "sweep"
+y = "v"
+samples = "contacts"
+x_range = [2.7, 2.8]
+[pictures.chain]
+run = "chain"
+logarithmic = "x"
+[pictures.portrait]
+run = "sweep"
+kind = "portrait"
+at = [{ omega = 2.8 }]
+)";
+
+class StoredStudyTest : public testing::Test {
+protected:
+    void SetUp() override {
+        folder_ =
+            std::filesystem::temp_directory_path() / ("graze-stored-" + std::to_string(getpid()) + "-" +
+                                                      testing::UnitTest::GetInstance()->current_test_info()->name());
+        std::filesystem::remove_all(folder_);
+        std::filesystem::create_directories(folder_);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    void write(const std::string& name, const std::string& contents) const { std::ofstream(path(name)) << contents; }
+
+    /// Runs the study, and removes all that it was read from.
+    void run_and_forget() const {
+        write("study.toml", text);
+        write("model.toml", model_text("impact-oscillator"));
+        write("orbit.csv", "segment,t,x,v,theta,end\n" + orbit_rows());
+        const Study study = read_study(path("study.toml"));
+        ResultFile file(path("results.sqlite"), ResultFile::Access::write);
+        for (const RunReport& report : run_study(study, file, {}))
+            ASSERT_TRUE(report.complete()) << report.name << ": " << report.problem;
+        for (const char* name : {"study.toml", "model.toml", "orbit.csv"})
+            std::filesystem::remove(path(name));
+    }
+
+    std::filesystem::path folder_;
+
+private:
+    static std::string model_text(const std::string& name) { return std::string(find_in_catalogue(name)->text); }
+    /// An orbit with one impact, found by simulation.
+    static std::string orbit_rows();
+};
+
+std::string StoredStudyTest::orbit_rows() {
+    Model model = load_model("impact-oscillator");
+    model.set_parameter("omega", 2.8);
+    AttractorOptions settle;
+    settle.section = model.sections.front().name;
+    const Orbit orbit = find_orbit(System(model), settle).orbit;
+    std::string rows;
+    double time = 0;
+    for (std::size_t s = 0; s < orbit.segments(); ++s) {
+        for (const double at : {0.0, orbit.durations[s]}) {
+            rows += std::to_string(s + 1) + ',' + std::to_string(time + at);
+            for (const double value : orbit.starts[s])
+                rows += ',' + std::to_string(value);
+            rows += ',' + end_name(model, orbit.signature[s]) + '\n';
+        }
+        time += orbit.durations[s];
+    }
+    return rows;
+}
+
+/// Every number that runs leave in a file, bit for bit.
+std::string contents(const ResultFile& file) {
+    std::string all;
+    for (const RunRecord& run : file.runs()) {
+        all += run.name + run.fingerprint + run.settings + '\n';
+        for (const char* table : {"points_", "samples_", "branch_", "segments_"}) {
+            if ((table[0] == 'b' || table[1] == 'e') != run.is_branch())
+                continue;
+            auto rows = file.query("SELECT * FROM \"" + (table + run.name) + "\" ORDER BY 1, 2");
+            while (rows.next())
+                for (std::size_t c = 0; c < rows.columns(); ++c)
+                    all += rows.is_text(c) || rows.is_null(c)
+                               ? rows.text(c) + '|'
+                               : std::to_string(std::bit_cast<std::uint64_t>(rows.number(c))) + '|';
+        }
+    }
+    return all;
+}
+
+std::vector<PlanePoint> points_of(const Figure& figure) {
+    std::vector<PlanePoint> points;
+    for (const FigurePanel& panel : figure.panels)
+        for (const FigureSeries& series : panel.series)
+            points.insert(points.end(), series.points.begin(), series.points.end());
+    return points;
+}
+
+TEST_F(StoredStudyTest, a_file_alone_gives_back_every_run) {
+    run_and_forget();
+    const ResultFile file(path("results.sqlite"), ResultFile::Access::read);
+    const Study study = stored_study(file);
+    EXPECT_EQ(study.name, "all");
+    EXPECT_EQ(study.text, "one of each kind");
+    ASSERT_EQ(study.runs.size(), 6u);
+    ASSERT_EQ(study.pictures.size(), 3u);
+    EXPECT_EQ(study.pictures[0].x_range, std::pair(2.7, 2.8));
+    EXPECT_TRUE(study.pictures[1].logarithmic_x);
+    EXPECT_EQ(study.pictures[2].at.front().first, "omega");
+    EXPECT_EQ(study.runs[0].value_units, (std::vector<std::string>{"", ""}));
+}
+
+TEST_F(StoredStudyTest, what_is_there_is_not_done_again) {
+    run_and_forget();
+    ResultFile file(path("results.sqlite"), ResultFile::Access::write);
+    for (const RunReport& report : run_study(stored_study(file), file, {})) {
+        EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
+        EXPECT_EQ(report.computed, 0u) << report.name;
+    }
+}
+
+TEST_F(StoredStudyTest, every_run_can_be_repeated_elsewhere_bit_for_bit) {
+    run_and_forget();
+    const ResultFile file(path("results.sqlite"), ResultFile::Access::read);
+    ResultFile again(path("again.sqlite"), ResultFile::Access::write);
+    for (const RunReport& report : run_study(stored_study(file), again, {}))
+        EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
+    EXPECT_EQ(contents(again), contents(file));
+    EXPECT_EQ(again.note("study"), file.note("study"));
+}
+
+TEST_F(StoredStudyTest, an_interrupted_sweep_goes_on) {
+    run_and_forget();
+    std::string whole;
+    {
+        const ResultFile file(path("results.sqlite"), ResultFile::Access::read);
+        whole = contents(file);
+        ResultFile half(path("half.sqlite"), ResultFile::Access::write);
+        std::size_t done = 0;
+        RunnerOptions options;
+        options.interrupted = [&] { return done > 6; };
+        options.progress = [&](const std::string&, std::size_t, std::size_t) { ++done; };
+        EXPECT_EQ(run_study(stored_study(file), half, options).back().outcome, RunOutcome::interrupted);
+    }
+    std::filesystem::remove(path("results.sqlite"));
+    ResultFile half(path("half.sqlite"), ResultFile::Access::write);
+    Study study = stored_study(half);
+    ASSERT_EQ(study.runs.size(), 1u); // others were not begun
+    const auto reports = run_study(study, half, {});
+    EXPECT_TRUE(reports.front().complete());
+    EXPECT_LT(reports.front().computed, reports.front().points);
+}
+
+TEST_F(StoredStudyTest, a_branch_is_continued_from_its_last_point) {
+    run_and_forget();
+    ResultFile file(path("results.sqlite"), ResultFile::Access::write);
+    Study study = stored_study(file);
+    StudyRun longer =
+        *std::find_if(study.runs.begin(), study.runs.end(), [](const StudyRun& run) { return run.name == "chain"; });
+    const auto before = file.orbits("chain", false);
+    longer.name = "longer";
+    longer.start->run = "chain";
+    longer.start->point = std::to_string(before.back().number);
+    longer.branch.settings.greatest = 3.0;
+    longer.branch.settings.least = 2.6;
+    study.runs.push_back(longer);
+    const auto reports = run_study(study, file, {});
+    EXPECT_TRUE(reports.back().complete()) << reports.back().problem;
+    const auto after = file.orbits("longer", false);
+    ASSERT_GT(after.size(), 2u);
+    EXPECT_EQ(after.front().point.solution.orbit.signature, before.back().point.solution.orbit.signature);
+    EXPECT_NEAR(after.front().point.parameter, before.back().point.parameter, 1e-9);
+}
+
+TEST_F(StoredStudyTest, pictures_are_redrawn) {
+    run_and_forget();
+    const ResultFile file(path("results.sqlite"), ResultFile::Access::read);
+    const Study study = stored_study(file);
+    for (const StudyPicture& picture : study.pictures)
+        EXPECT_GT(points_of(make_picture(picture, file).figure).size(), 5u) << picture.name;
+    for (const StudyRun& run : study.runs)
+        EXPECT_FALSE(points_of(make_picture(default_picture(*file.find_run(run.name)), file).figure).empty())
+            << run.name;
+}
+
+TEST_F(StoredStudyTest, shipped_studies_are_stored_whole) {
+    for (const std::string& name : shipped_studies()) {
+        const Study study = load_study(name);
+        ResultFile file(path(name), ResultFile::Access::write);
+        RunnerOptions options;
+        options.interrupted = [] { return true; };
+        run_study(study, file, options);
+        const Study stored = stored_study(file);
+        ASSERT_FALSE(stored.runs.empty());
+        for (const StudyRun& run : stored.runs)
+            for (const StudyRun& given : study.runs)
+                if (given.name == run.name && !run.start) {
+                    EXPECT_EQ(settings_of(run), settings_of(given)) << name << ' ' << run.name;
+                }
+    }
+}
+
+std::string refusal(const RunRecord& record) {
+    try {
+        stored_run(record);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST_F(StoredStudyTest, says_what_is_wrong_with_settings) {
+    run_and_forget();
+    const ResultFile file(path("results.sqlite"), ResultFile::Access::read);
+    const RunRecord good = *file.find_run("sweep");
+    EXPECT_EQ(refusal(good), "");
+    const auto changed = [&](const std::string& from, const std::string& to) {
+        RunRecord record = good;
+        const std::size_t at = record.settings.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        record.settings.replace(at, from.size(), to);
+        return refusal(record);
+    };
+    EXPECT_THAT(changed("{", ""), HasSubstr("no JSON"));
+    EXPECT_THAT(changed("\"cycles\":60", "\"cycles\":\"many\""), HasSubstr("'cycles' is not a whole number"));
+    EXPECT_THAT(changed("\"cycles\":60", "\"cycles\":-1"), HasSubstr("'cycles' is not a whole number"));
+    EXPECT_THAT(changed("\"omega\"", "\"omicron\""), HasSubstr("'omicron'"));
+    EXPECT_THAT(changed("\"kind\":\"sweep\"", "\"kind\":\"basin\""), HasSubstr("settings"));
+    EXPECT_THAT(changed("\"cycles\":60", "\"cycles\":60,\"new\":1"), HasSubstr("more than this version"));
+    RunRecord deep = good;
+    deep.settings = std::string(100'000, '[');
+    EXPECT_THAT(refusal(deep), HasSubstr("nested"));
+}
+
+} // namespace
+} // namespace graze
