@@ -83,7 +83,8 @@ private:
                 fail("a name is missing");
             std::string name = read_text();
             require(':');
-            value.members.emplace_back(std::move(name), read_value(depth + 1));
+            value.names.push_back(std::move(name));
+            value.items.push_back(read_value(depth + 1));
         } while (take(','));
         require('}');
     }
@@ -147,9 +148,8 @@ private:
 } // namespace
 
 const Json* Json::find(std::string_view name) const {
-    const auto found =
-        std::find_if(members.begin(), members.end(), [&](const auto& member) { return member.first == name; });
-    return found == members.end() ? nullptr : &found->second;
+    const auto found = std::find(names.begin(), names.end(), name);
+    return found == names.end() ? nullptr : &items[static_cast<std::size_t>(found - names.begin())];
 }
 
 Json parse_json(std::string_view text, const Place& place) {

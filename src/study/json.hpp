@@ -4,7 +4,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace graze {
@@ -15,9 +14,9 @@ struct Json {
 
     Kind kind = Kind::nothing;
     bool truth = false;
-    std::string text; ///< of texts; of numbers their digits, for none to be lost
-    std::vector<Json> items;
-    std::vector<std::pair<std::string, Json>> members;
+    std::string text;               ///< of texts; of numbers their digits, for none to be lost
+    std::vector<Json> items;        ///< of lists; of objects the members,
+    std::vector<std::string> names; ///< and what they are called
 
     /// The member of that name, or null.
     const Json* find(std::string_view name) const;

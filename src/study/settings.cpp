@@ -25,8 +25,8 @@ const std::vector<std::string>& kinds_of_runs() {
 
 std::vector<std::string> short_names() {
     std::vector<std::string> names;
-    for (int type = 0; type <= static_cast<int>(PointType::regular); ++type)
-        names.emplace_back(short_name(static_cast<PointType>(type)));
+    for (const PointKind& kind : point_kinds())
+        names.emplace_back(kind.short_name);
     return names;
 }
 
