@@ -11,16 +11,35 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace graze {
 
 namespace {
 
+/// Columns of the file that machines are shown as they stand there.
+const std::vector<std::string>& stored_columns() {
+    static const std::vector<std::string> names{"slowest_approach"};
+    return names;
+}
+
 struct ListedPoint {
     const StoredRun* run = nullptr;
     OrbitRecord record;
     std::vector<double> parameters; ///< of the run's columns
+    std::vector<double> stored;     ///< in the columns above
 };
+
+/// What a run's orbits have in these columns, by their numbers.
+std::map<std::size_t, std::vector<double>> stored_values(const StoredRun& run) {
+    std::map<std::size_t, std::vector<double>> values;
+    auto rows = run.rows({.columns = {"number"}, .quantities = stored_columns()});
+    while (rows.next())
+        for (std::size_t c = 1; c < rows.columns(); ++c)
+            values[static_cast<std::size_t>(rows.integer(0))].push_back(
+                rows.is_null(c) ? std::numeric_limits<double>::quiet_NaN() : rows.number(c));
+    return values;
+}
 
 /// Points with the parameters by which they differ.
 struct PointList {
@@ -91,6 +110,7 @@ PointList listed_points(const PointsArguments& arguments, const ResultFile& file
         }
         const bool wants_regular = arguments.all || run.kind == "orbit" ||
                                    std::find(types.begin(), types.end(), PointType::regular) != types.end();
+        auto stored = stored_values(list.runs[r]);
         for (OrbitRecord& record : file.orbits(run.name, !wants_regular)) {
             if (!types.empty() && std::find(types.begin(), types.end(), record.point.type) == types.end())
                 continue;
@@ -99,7 +119,7 @@ PointList listed_points(const PointsArguments& arguments, const ResultFile& file
                 ++list.twins;
                 continue;
             }
-            ListedPoint point{&list.runs[r], std::move(record), {}};
+            ListedPoint point{&list.runs[r], std::move(record), {}, stored[record.number]};
             point.parameters = parameters_of(list.runs[r], point.record);
             list.points.push_back(std::move(point));
         }
@@ -159,6 +179,7 @@ private:
         add_columns({"located", "low", "high"}, with_bracket_);
         add_columns({"detail"}, with_detail_);
         add_columns({"residual"}, !for_people_);
+        add_columns(stored_columns(), !for_people_);
     }
     void add_columns(const std::vector<std::string>& names, bool wanted) {
         for (const std::string& name : names)
@@ -208,8 +229,11 @@ private:
         }
         if (with_detail_)
             table_.add(detail_of(record));
-        if (!for_people_)
-            table_.add(solution.residual);
+        if (for_people_)
+            return;
+        table_.add(solution.residual);
+        for (const double value : point.stored)
+            table_.add(value);
     }
     /// To people also why it is unphysical.
     std::string detail_of(const OrbitRecord& record) const {

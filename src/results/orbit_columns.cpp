@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -62,6 +63,17 @@ std::vector<double> listed_numbers(const std::string& json) {
 template <class Write>
 void write_of_event(const OrbitRecord& record, CellWriter& cell, Write write) {
     kind_of(record.point.type).limits ? write() : cell.nothing();
+}
+
+/// The least speed with which an event is met; unknown where none is. It goes to zero where a contact is about to be
+/// lost.
+double slowest_approach(const OrbitSolution& solution) {
+    double slowest = unknown;
+    const std::vector<double>& speeds = solution.certificate.approach_speeds;
+    for (std::size_t s = 0; s < std::min(speeds.size(), solution.orbit.segments()); ++s)
+        if (solution.orbit.signature[s].end == SegmentEnd::event)
+            slowest = std::fmin(slowest, speeds[s]);
+    return slowest;
 }
 
 /// A segment's number in the file, where they begin with 1.
@@ -143,6 +155,8 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
          [](const Context&, Record& r, CellReader& cell) { r.stable = cell.truth(); }},
         {{"unstable", Type::whole, Unit::none, true}, // and this from the multipliers
          [](const Context&, const Record& r, CellWriter& cell) { cell.whole(unstable_directions(r.point.solution)); }},
+        {{"slowest_approach", Type::real, Unit::none, true}, // this from the segments again
+         [](const Context&, const Record& r, CellWriter& cell) { cell.real(slowest_approach(r.point.solution)); }},
         {{"admissible", Type::whole, Unit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) { cell.truth(r.point.solution.certificate.admissible); },
          [](const Context&, Record& r, CellReader& cell) { r.point.solution.certificate.admissible = cell.truth(); }},

@@ -2,10 +2,12 @@
 #include "graze/model/model_file.hpp"
 #include "graze/results/hdf5.hpp"
 #include "graze/results/result_file.hpp"
+#include "graze/results/stored_run.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -129,6 +131,29 @@ TEST_F(OrbitRows, what_is_infinite_or_undefined_comes_back_as_such) {
     auto infinite = file.query("SELECT count(*) FROM multipliers WHERE real > 1e308");
     ASSERT_TRUE(infinite.next());
     EXPECT_GT(infinite.integer(0), 10);
+}
+
+TEST_F(OrbitRows, the_slowest_approach_is_that_of_an_event) {
+    const Model model = load_model("impact-oscillator");
+    OrbitRecord record = Draw(model).record(0), none = record;
+    record.point.solution.certificate.approach_speeds = {0.5, 0.25};
+    none.number = 1;
+    none.point.solution.certificate.approach_speeds.clear();
+    ResultFile file(path_, ResultFile::Access::write);
+    file.begin_run(run_of(model));
+    file.add_orbit("b", record);
+    file.add_orbit("b", none);
+    const StoredRun run(file, "b", {});
+    auto rows = run.rows({.quantities = {"slowest_approach"}});
+    ASSERT_TRUE(rows.next());
+    EXPECT_EQ(rows.number(0), 0.25);
+    ASSERT_TRUE(rows.next());
+    EXPECT_TRUE(rows.is_null(0));
+    const auto names = run.number_columns();
+    EXPECT_NE(std::find(names.begin(), names.end(), "slowest_approach"), names.end()); // it can be drawn
+    auto view = file.query("SELECT slowest_approach FROM branch_points WHERE number = 0");
+    ASSERT_TRUE(view.next());
+    EXPECT_EQ(view.number(0), 0.25);
 }
 
 TEST_F(OrbitRows, what_earlier_files_have_as_missing_was_infinite) {
