@@ -249,7 +249,7 @@ void take_units(StudyRun& run, const RunRecord& record) {
 
 /// @throws InputError for what no study has, and what would be out of range
 void check(const StudyRun& run, const SettingsReader& fields) {
-    constexpr double most_points = 1e9;
+    constexpr double most_points = 1e9, most_chains = 2e7; // of which something is kept in memory
     double points = static_cast<double>(std::max<std::size_t>(run.draws, 1));
     for (const Variation& axis : run.axes)
         points *= static_cast<double>(std::max<std::size_t>(axis.values.size(), 1));
@@ -257,6 +257,10 @@ void check(const StudyRun& run, const SettingsReader& fields) {
         fields.fail("vary", "something with less than a thousand million points");
     if (run.kind == RunKind::sweep && (run.axes.empty() || run.axes.front().values.empty()))
         fields.fail("vary", "something to sweep along");
+    if (run.kind == RunKind::sweep)
+        points /= static_cast<double>(run.axes.front().values.size());
+    if (!(points <= most_chains))
+        fields.fail("vary", "something with less than twenty million points that begin by themselves");
     if (run.value_names.size() != run.values.size())
         fields.fail("value_names", "a name for each value");
     for (const Sampling& sampling : run.samplings) {

@@ -289,6 +289,9 @@ TEST_F(StoredStudyTest, says_what_is_wrong_with_settings) {
     EXPECT_THAT(changed("\"omega\"", "\"omicron\""), HasSubstr("'omicron'"));
     EXPECT_THAT(changed("\"kind\":\"sweep\"", "\"kind\":\"basin\""), HasSubstr("settings"));
     EXPECT_THAT(changed("\"cycles\":60", "\"cycles\":60,\"new\":1"), HasSubstr("more than this version"));
+    RunRecord many = *file.find_run("basin");
+    many.settings.replace(many.settings.find("\"draws\":9"), 9, "\"draws\":999999999");
+    EXPECT_THAT(refusal(many), HasSubstr("twenty million"));
     RunRecord deep = good;
     deep.settings = std::string(100'000, '[');
     EXPECT_THAT(refusal(deep), HasSubstr("nested"));
