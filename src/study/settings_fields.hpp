@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/model/named_value.hpp"
+#include "graze/symbolic/require.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "study/json.hpp"
 
@@ -23,6 +24,12 @@ namespace graze {
 
 // Settings are described once, as the fields of an object, by functions that are given one of two: what writes these
 // fields as JSON, or what reads them from it.
+
+/// @throws InputError when there is none of that place, which a study may have been given in C++
+inline const std::string& word_of(const std::vector<std::string>& words, std::size_t index) {
+    require_index(index, words.size(), "setting");
+    return words[index];
+}
 
 /// Writes the members of a JSON object, in the order in which they are named.
 class SettingsWriter {
@@ -47,13 +54,13 @@ public:
     /// One of several words.
     template <class Choice>
     void word(std::string_view name, Choice choice, const std::vector<std::string>& words) {
-        field(name, words.at(static_cast<std::size_t>(choice)));
+        field(name, word_of(words, static_cast<std::size_t>(choice)));
     }
     template <class Choice>
     void words(std::string_view name, const std::vector<Choice>& choices, const std::vector<std::string>& words) {
         std::vector<std::string> texts;
         for (const Choice choice : choices)
-            texts.push_back(words.at(static_cast<std::size_t>(choice)));
+            texts.push_back(word_of(words, static_cast<std::size_t>(choice)));
         field(name, texts);
     }
     /// One of so many, by its number.
@@ -63,12 +70,12 @@ public:
     }
     /// Something by its name among others.
     void named(std::string_view name, std::size_t index, const std::vector<std::string>& names) {
-        field(name, names.at(index));
+        field(name, word_of(names, index));
     }
     void named(std::string_view name, const std::vector<std::size_t>& indices, const std::vector<std::string>& names) {
         std::vector<std::string> texts;
         for (const std::size_t index : indices)
-            texts.push_back(names.at(index));
+            texts.push_back(word_of(names, index));
         field(name, texts);
     }
     void expression(std::string_view name, const Expression& value) { field(name, to_string(value)); }

@@ -182,6 +182,7 @@ inline constexpr std::string_view unchecked[] = {
     "moved_monitors",
     "moved_simulation",
     "moved_system",
+    "moved_variational_system",
     "moved_trajectory_start",
     "moved_trajectory_extend",
     "moved_trajectory_carry",
