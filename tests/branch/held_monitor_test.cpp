@@ -107,5 +107,52 @@ TEST(HeldMonitors, a_touch_can_be_held) {
     }
 }
 
+/// Of Newton's method, for each point of a branch.
+double mean_iterations(const Branch& branch) {
+    double sum = 0;
+    for (const BranchPoint& point : branch.points)
+        sum += static_cast<double>(point.iterations);
+    return sum / static_cast<double>(branch.points.size());
+}
+
+TEST(HeldMonitors, whatever_is_held_a_branch_goes_as_fast_as_a_free_one) {
+    Model model = load_model("impact-oscillator");
+    model.set_parameter("sigma", 0.5);
+    model.set_parameter("zeta", 0.1);
+    model.set_parameter("omega", 1.7);
+    model.set_parameter("amplitude", 1.3);
+    const Orbit orbit = settled(model, "phase0").orbit;
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("omega");
+    settings.least = 1.3;
+    const auto follow_down = [&](const BranchSettings& given) {
+        BranchSettings own = given;
+        own.direction = -1;
+        return follow_branch(model, orbit, own);
+    };
+    const Branch free = follow_down(settings);
+    ASSERT_EQ(free.outcome, BranchOutcome::bound) << free.detail;
+    using Kind = Monitor::Kind;
+    for (const auto& [kind, expression] : {std::pair{Kind::minimum, "x"},
+                                           {Kind::maximum, "v"},
+                                           {Kind::mean, "x^2"},
+                                           {Kind::norm, "v"},
+                                           {Kind::value, "v"},
+                                           {Kind::start, "v"}}) {
+        BranchSettings holding = settings;
+        holding.free = {model.independent_parameter("amplitude")};
+        Monitor monitor = held(model, kind, expression, 0);
+        monitor.held.reset(); // what it is
+        holding.monitors = {monitor};
+        const Branch branch = follow_down(holding);
+        ASSERT_EQ(branch.outcome, BranchOutcome::bound) << expression << ' ' << branch.detail << names(branch);
+        const double value = branch.points.front().monitors[0];
+        for (const BranchPoint& point : branch.points)
+            EXPECT_NEAR(point.monitors[0], value, 1e-9 * std::abs(value)) << expression;
+        EXPECT_LT(mean_iterations(branch), mean_iterations(free) + 0.5) << expression;
+        EXPECT_LT(branch.points.size(), 2 * free.points.size() + 10) << expression;
+    }
+}
+
 } // namespace
 } // namespace graze
