@@ -249,7 +249,7 @@ std::vector<BranchStart> leave_order(const System& system, const SpecialPoint& p
 }
 
 // Extrema of the period. Where a parameter fixes it, as the frequency of a force, it turns with the parameter at each
-// fold, which says nothing more.
+// fold, which says nothing more. A parameter that stands still, as the damping of a conservative model, fixes nothing.
 
 void test_extremum(const TestedPoint& point, Tests& tests) {
     constexpr double least_change = 1e-8; // in units of the period: less is round-off
@@ -261,10 +261,15 @@ void test_extremum(const TestedPoint& point, Tests& tests) {
 }
 
 bool confirm_extremum(BranchState& state, SpecialPoint& special, const BranchTest&) {
-    constexpr double turning = 1e-5; // share of the parameter in the direction of a branch that turns
-    const double unit = state.problem().scales()[state.problem().parameter_place()];
+    constexpr double turning = 1e-5;  // share of the parameter where it turns, of what it is beside that
+    constexpr double standing = 1e-8; // in units of the scales: what moves less is round-off
+    const std::size_t place = state.problem().parameter_place();
+    const double beside = std::max(std::abs(state.continuation().previous().tangent[place]),
+                                   std::abs(state.continuation().point().tangent[place]));
+    const bool turns = beside > standing * state.problem().scales()[place] &&
+                       std::abs(special.tangent.parameters.front()) < turning * beside;
     special.detail = fmt::format("period = {:.10g}", special.solution.orbit.period());
-    return special.located && std::abs(special.tangent.parameters.front()) > turning * unit;
+    return special.located && !turns;
 }
 
 // Bounds and values of the parameter and of monitors.

@@ -155,7 +155,7 @@ double StepCheck::longest(std::size_t mode, std::span<const Series> series, doub
         require_room(series.size(), needed, "series");
     if (!floors.empty())
         require_room(floors.size(), series.size(), "floors of series");
-    series_ = series;
+    series_ = series.first(std::min(series.size(), needed)); // of more there is nothing to compare with
     floors_ = floors;
     std::fill(seen_.begin(), seen_.end(), 0.0);
     const double last_power = -1.0 / static_cast<double>(order_ + 1);

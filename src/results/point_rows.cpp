@@ -20,6 +20,10 @@ void require_fitting(const RunRecord& run, const PointRecord& point) {
         (samples.size() > 0 && samples.width != run.values.size()))
         throw InputError(fmt::format("a point does not fit run '{}'", run.name),
                          "give a value for each of its columns");
+    if (samples.size() >= static_cast<std::size_t>(samples_of_a_point))
+        throw InputError(fmt::format("point {} of run '{}' has {} samples, and a result file takes {} of each",
+                                     point.number, run.name, samples.size(), samples_of_a_point - 1),
+                         "sample less often, or end the motion sooner");
     require_size(samples.samplings.size(), samples.size(), "samplings of samples");
     require_size(samples.values.size(), samples.size() * samples.width, "values of samples");
     for (const std::size_t sampling : samples.samplings)

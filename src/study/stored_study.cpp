@@ -1,5 +1,6 @@
 #include "graze/study/stored_study.hpp"
 
+#include "graze/model/model_file.hpp"
 #include "graze/symbolic/file_name.hpp"
 #include "study/settings_fields.hpp"
 #include "study/study_reader.hpp"
@@ -47,6 +48,57 @@ void describe_study(Fields& fields, One& study) {
     fields.list("pictures", study.pictures, [](auto& one, auto& picture) { describe_picture(one, picture); });
 }
 
+/// A run as it was asked for, which may not have been begun when the program ended.
+struct AskedRun {
+    std::string name, kind, model, settings, version;
+    std::vector<std::string> units; ///< of its values, or monitors
+};
+
+template <class Fields, class Runs>
+void describe_runs(Fields& fields, Runs& runs) {
+    fields.list("runs", runs, [](auto& one, auto& run) {
+        one.field("name", run.name);
+        one.field("kind", run.kind);
+        one.field("model", run.model);
+        one.field("settings", run.settings);
+        one.field("version", run.version);
+        one.field("units", run.units);
+    });
+}
+
+AskedRun asked_run(const StudyRun& run) {
+    AskedRun result{
+        run.name,       std::string(name_of(run.kind)), write_model(run.model), settings_of(run), GRAZE_VERSION,
+        run.value_units};
+    if (run.is_branch()) {
+        result.units.clear();
+        for (const Monitor& monitor : run.branch.settings.monitors)
+            result.units.push_back(monitor.unit);
+    }
+    return result;
+}
+
+/// What the file would have of the run, had it been begun.
+RunRecord record_of(const AskedRun& run, const Place& place) {
+    require_file_name(run.name, "name of a run", place);
+    RunRecord record;
+    record.name = run.name;
+    record.kind = run.kind;
+    record.model = run.model;
+    record.settings = run.settings;
+    record.version = run.version;
+    const Model model = parse_model(run.model, run.name + ".toml");
+    for (const State& state : model.states)
+        record.states.push_back({state.name, state.unit});
+    for (const Mode& mode : model.modes)
+        record.modes.push_back(mode.name);
+    for (const std::string& unit : run.units) {
+        require_plain_line(unit, "unit of a value", place);
+        record.values.push_back({"", unit});
+    }
+    return record;
+}
+
 /// Names end up in names of files, and texts in pictures. @throws InputError as for those of study files
 void check(StudyPicture& picture, const Place& place) {
     picture.place = place;
@@ -66,8 +118,12 @@ void check(StudyPicture& picture, const Place& place) {
 } // namespace
 
 void store_study(const Study& study, ResultFile& file) {
+    std::vector<AskedRun> runs;
+    for (const StudyRun& run : study.runs)
+        runs.push_back(asked_run(run));
     SettingsWriter fields;
     describe_study(fields, study);
+    describe_runs(fields, runs);
     file.set_note(key_of_study, fields.text());
 }
 
@@ -81,13 +137,19 @@ Study stored_study(const ResultFile& file) {
     if (study.name.empty())
         study.name = "results";
     require_file_name(study.name, "name of a study, which its folder bears", place);
+    std::vector<AskedRun> asked;
+    describe_runs(fields, asked);
     std::vector<StudyRun> runs;
+    const auto is_in = [](const std::vector<StudyRun>& some, const std::string& name) {
+        return std::any_of(some.begin(), some.end(), [&](const StudyRun& run) { return run.name == name; });
+    };
     for (const RunRecord& record : file.runs())
         runs.push_back(stored_run(record));
+    for (const AskedRun& run : asked)
+        if (!is_in(runs, run.name))
+            runs.push_back(stored_run(record_of(run, place)));
     study.runs = in_order(std::move(runs));
-    const auto is_there = [&](const std::string& name) {
-        return std::any_of(study.runs.begin(), study.runs.end(), [&](const StudyRun& run) { return run.name == name; });
-    };
+    const auto is_there = [&](const std::string& name) { return is_in(study.runs, name); };
     std::erase_if(study.pictures, [&](const StudyPicture& picture) {
         return picture.runs.empty() || !std::all_of(picture.runs.begin(), picture.runs.end(), is_there);
     });

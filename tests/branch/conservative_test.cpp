@@ -160,6 +160,49 @@ TEST(Conservative, damping_stays_zero_while_amplitude_is_held_and_the_push_passe
     }
 }
 
+/// Period of x'' + x - 0.2 x^3 + 0.02 x^5 = 0 with an amplitude, by the substitution x = amplitude sin(angle).
+double quintic_period(double amplitude) {
+    double sum = 0;
+    constexpr int parts = 400;
+    for (int i = 0; i < parts; ++i) {
+        const double a = amplitude * amplitude, x = std::pow(amplitude * std::sin(2 * pi * i / parts), 2);
+        sum += 1 / std::sqrt(1 - 0.1 * (a + x) + 0.02 / 3 * (a * a + a * x + x * x));
+    }
+    return 2 * pi * sum / parts;
+}
+
+TEST(Conservative, longest_period_of_a_family_is_found_though_no_parameter_moves) {
+    const Model model = model_from(R"toml(
+[parameters]
+damping = 0
+[states]
+x = 1
+v = 0
+[modes.m]
+rates = { x = "v", v = "-damping*v - x + 0.2*x^3 - 0.02*x^5" }
+[sections.turn]
+function = "v"
+direction = "falling"
+)toml");
+    const Orbit start{parse_signature(model, "turn"), model.parameter_values(), {{1, 0}}, {quintic_period(1)}, {}};
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("damping");
+    settings.steps = 400;
+    settings.monitors = {{"reach", "", Monitor::Kind::start, model.symbol("x"), "", false, {}, {}, {}, 5}};
+    std::size_t found = 0;
+    for (const int direction : {1, -1}) {
+        settings.direction = direction;
+        for (const SpecialPoint& special : of_type(follow_branch(model, start, settings), PointType::extremum)) {
+            const double amplitude = std::abs(special.solution.orbit.starts[0][0]);
+            EXPECT_NEAR(amplitude, 2.433356, 1e-5);
+            EXPECT_NEAR(special.solution.orbit.period(), quintic_period(amplitude), 1e-9);
+            EXPECT_NEAR(special.solution.orbit.period(), 8.495414580788, 1e-9);
+            ++found;
+        }
+    }
+    EXPECT_GE(found, 1U); // the other way leads through the state of rest to the same orbit
+}
+
 TEST(Conservative, forced_oscillator_without_damping_has_no_torus_points) {
     const Model model = model_from(R"toml(
 [parameters]

@@ -14,9 +14,10 @@ std::string settings_of(const StudyRun& run);
 /// @throws InputError when the settings cannot be read, or are of another version with more of them
 StudyRun stored_run(const RunRecord& record);
 
-/// Keeps in a result file what it needs besides the runs: the study's name, words and pictures.
+/// Keeps in a result file what it needs besides the runs that are begun: the study's name, words and pictures, and all
+/// of its runs as they were asked for.
 void store_study(const Study& study, ResultFile& file);
-/// The study of a result file, made of nothing else: those of its runs that were begun, and the pictures of these.
+/// The study of a result file, made of nothing else.
 /// @throws InputError when something cannot be read
 Study stored_study(const ResultFile& file);
 
