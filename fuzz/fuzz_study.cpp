@@ -1,6 +1,7 @@
 // Whatever the bytes, reading a study either works or throws an InputError; what was read can be told again.
 
 #include "graze/study/runner.hpp"
+#include "graze/study/stored_study.hpp"
 #include "graze/study/study.hpp"
 #include "graze/symbolic/input_error.hpp"
 
