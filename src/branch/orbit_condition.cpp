@@ -146,11 +146,14 @@ std::vector<Expression> OrbitCondition::expressions_of(const OrbitEquations& equ
 }
 
 OrbitCondition::OrbitCondition(const OrbitEquations& equations, const Description& description)
+    : OrbitCondition(equations, description, expressions_of(equations, description)) {}
+
+OrbitCondition::OrbitCondition(const OrbitEquations& equations, const Description& description,
+                               const std::vector<Expression>& expressions)
     : quantity_(description.quantity), segment_(description.segment), target_(description.target),
-      share_(description.share),
-      simulation_(equations.system(), {}, expressions_of(equations, description), equations.simulation().options()),
+      share_(description.share), simulation_(equations.system(), {}, expressions, equations.simulation().options()),
       flow_(flow_of(simulation_, equations.free())), roots_(simulation_.order()) {
-    for (const Expression& expression : expressions_of(equations, description))
+    for (const Expression& expression : expressions)
         watched_.push_back({simulation_.system().with_gradient(expression), watched_.size()});
 }
 

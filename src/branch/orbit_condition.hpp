@@ -58,6 +58,8 @@ private:
         double target = 0, share = 0;
     };
     OrbitCondition(const OrbitEquations& equations, const Description& description);
+    OrbitCondition(const OrbitEquations& equations, const Description& description,
+                   const std::vector<Expression>& expressions);
     static std::vector<Expression> expressions_of(const OrbitEquations& equations, const Description& description);
 
     /// An expression along the orbit: its own or, for the second half of a symmetric orbit, its image.

@@ -15,8 +15,8 @@ namespace graze {
 namespace {
 
 /// The largest difference of two states, in units of how far each state goes along the orbit.
-double distance(std::span<const double> a, std::span<const double> b, const OrbitEquations& equations) {
-    const std::vector<double>& periods = equations.periods();
+double distance(std::span<const double> a, std::span<const double> b, const OrbitEquations& equations,
+                std::span<const double> periods) {
     double result = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         if (equations.model().states[i].drifting)
@@ -56,7 +56,7 @@ bool cut_in_half(const Simulation& simulation, Orbit& orbit, const Symmetry& sym
 
 /// Whether the second half of an orbit's segments is the image of the first.
 bool repeats_as_image(const Orbit& orbit, const Symmetry& symmetry, const Function& map,
-                      const OrbitEquations& equations, double tolerance) {
+                      const OrbitEquations& equations, std::span<const double> periods, double tolerance) {
     const std::size_t half = orbit.segments() / 2;
     if (orbit.segments() % 2 != 0)
         return false;
@@ -68,7 +68,7 @@ bool repeats_as_image(const Orbit& orbit, const Symmetry& symmetry, const Functi
             (orbit.signature[k].end == SegmentEnd::section &&
              orbit.signature[k].index != orbit.signature[k + half].index) ||
             std::abs(orbit.durations[k] - orbit.durations[k + half]) > tolerance * orbit.period() ||
-            distance(map(state), orbit.starts[k], equations) > tolerance)
+            distance(map(state), orbit.starts[k], equations, periods) > tolerance)
             return false;
     }
     return true;
@@ -80,12 +80,13 @@ std::optional<Orbit> half_of(const OrbitEquations& equations, const Orbit& orbit
     const Model& model = equations.model();
     if (orbit.symmetry)
         return std::nullopt;
+    const std::vector<double> periods = equations.system().periods()(orbit.parameters);
     for (std::size_t index = 0; index < model.symmetries.size(); ++index) {
         const Symmetry& symmetry = model.symmetries[index];
         const Function& map = equations.system().symmetry(index).map;
         Orbit half = orbit;
         half.symmetry = index;
-        if (repeats_as_image(orbit, symmetry, map, equations, tolerance)) {
+        if (repeats_as_image(orbit, symmetry, map, equations, periods, tolerance)) {
             half.signature.resize(orbit.segments() / 2);
             half.starts.resize(orbit.segments() / 2);
             half.durations.resize(orbit.segments() / 2);
@@ -94,7 +95,7 @@ std::optional<Orbit> half_of(const OrbitEquations& equations, const Orbit& orbit
         if (is_smooth(orbit) && cut_in_half(equations.simulation(), half, symmetry)) {
             std::vector<double> state = half.starts.back();
             state.insert(state.end(), orbit.parameters.begin(), orbit.parameters.end());
-            if (distance(map(state), orbit.starts[0], equations) < tolerance) {
+            if (distance(map(state), orbit.starts[0], equations, periods) < tolerance) {
                 half.starts.pop_back();
                 return half;
             }

@@ -94,31 +94,30 @@ void OrbitEquations::clear_remnants(Eigen::VectorXd& unknowns) const {
                 unknowns[index(layout_.start_of(k) + i)] = 0;
 }
 
+/// Starts and durations of the segments, of an orbit or of what it gains.
+void OrbitEquations::take_segments(const Eigen::VectorXd& unknowns, std::vector<std::vector<double>>& starts,
+                                   std::vector<double>& durations) const {
+    for (std::size_t s = 0; s < layout_.segments(); ++s) {
+        const double* start = unknowns.data() + layout_.start_of(layout_.first_piece(s));
+        starts.emplace_back(start, start + layout_.states());
+        double duration = 0;
+        for (std::size_t k = layout_.first_piece(s); k <= layout_.last_piece(s); ++k)
+            duration += unknowns[index(layout_.duration_of(k))];
+        durations.push_back(duration);
+    }
+}
+
 Orbit OrbitEquations::orbit_of(const Eigen::VectorXd& unknowns) const {
     Orbit orbit{signature(), parameters_, {}, {}, symmetry()};
     for (std::size_t f = 0; f < layout_.free(); ++f)
         orbit.parameters[free()[f]] = unknowns[index(layout_.parameter(f))];
-    for (std::size_t s = 0; s < layout_.segments(); ++s) {
-        const double* start = unknowns.data() + layout_.start_of(layout_.first_piece(s));
-        orbit.starts.emplace_back(start, start + layout_.states());
-        double duration = 0;
-        for (std::size_t k = layout_.first_piece(s); k <= layout_.last_piece(s); ++k)
-            duration += unknowns[index(layout_.duration_of(k))];
-        orbit.durations.push_back(duration);
-    }
+    take_segments(unknowns, orbit.starts, orbit.durations);
     return orbit;
 }
 
 OrbitDirection OrbitEquations::direction_of(const Eigen::VectorXd& unknowns) const {
     OrbitDirection direction;
-    for (std::size_t s = 0; s < layout_.segments(); ++s) {
-        const double* start = unknowns.data() + layout_.start_of(layout_.first_piece(s));
-        direction.starts.emplace_back(start, start + layout_.states());
-        double duration = 0;
-        for (std::size_t k = layout_.first_piece(s); k <= layout_.last_piece(s); ++k)
-            duration += unknowns[index(layout_.duration_of(k))];
-        direction.durations.push_back(duration);
-    }
+    take_segments(unknowns, direction.starts, direction.durations);
     for (std::size_t f = 0; f < layout_.free(); ++f)
         direction.parameters.push_back(unknowns[index(layout_.parameter(f))]);
     return direction;

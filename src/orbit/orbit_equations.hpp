@@ -38,8 +38,6 @@ public:
     const std::vector<std::size_t>& free() const { return ends_.free(); }
     const OrbitLayout& layout() const { return layout_; }
     std::size_t unknowns() const { return layout_.unknowns(); }
-    /// Of cyclic states, 0 of others, where the equations have been looked at last.
-    const std::vector<double>& periods() const { return ends_.periods(); }
     std::size_t mode_of(std::size_t piece) const { return modes_[layout_.segment_of(piece)]; }
     /// Duration of each piece that is not its segment's last.
     double fixed_duration(std::size_t piece) const { return fixed_durations_[piece]; }
@@ -100,6 +98,8 @@ private:
     /// Sets the inner unknowns of an orbit, from its flow.
     virtual void set_inner(const Orbit&, Eigen::VectorXd&) {}
 
+    void take_segments(const Eigen::VectorXd& unknowns, std::vector<std::vector<double>>& starts,
+                       std::vector<double>& durations) const;
     double usual_change(const OrbitEvaluation& at, const Eigen::VectorXd& gradient) const;
     void set_parameters(const Eigen::VectorXd& unknowns, std::vector<double>& parameters);
     bool evaluate_piece(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at);

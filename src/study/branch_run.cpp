@@ -90,10 +90,6 @@ System system_at(const StudyRun& run, const StartPoint& start) {
     return System(model);
 }
 
-const StudyRun& run_named(const Study& study, const std::string& name) {
-    return *std::find_if(study.runs.begin(), study.runs.end(), [&](const StudyRun& run) { return run.name == name; });
-}
-
 /// An orbit of an earlier run, at the parameters that this run sets.
 Orbit taken_over(const StudyRun& run, Orbit orbit) {
     orbit.parameters = with_own_parameters(run, std::move(orbit.parameters));

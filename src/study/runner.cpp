@@ -124,15 +124,11 @@ std::vector<ChainProgress> progress_of(const ResultFile& file, const StudyRun& r
 }
 
 std::set<std::string> wanted_runs(const Study& study, const std::vector<std::string>& only) {
-    const auto require_run = [&](const std::string& name) {
-        if (std::none_of(study.runs.begin(), study.runs.end(), [&](const StudyRun& run) { return run.name == name; }))
-            throw InputError(fmt::format("the study has no run '{}'", name), "name one of its runs");
-    };
     for (const std::string& name : only)
-        require_run(name);
+        run_named(study, name);            // throws when there is none
     for (const StudyRun& run : study.runs) // of studies that were not read from a file
         if (run.start)
-            require_run(run.start->run);
+            run_named(study, run.start->run);
     std::set<std::string> wanted(only.begin(), only.end());
     for (auto run = study.runs.rbegin(); run != study.runs.rend(); ++run)
         if (only.empty() || wanted.contains(run->name)) {

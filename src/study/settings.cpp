@@ -2,7 +2,9 @@
 #include "graze/study/stored_study.hpp"
 #include "graze/symbolic/require.hpp"
 #include "graze/symbolic/text_file.hpp"
+#include "study/asked_run.hpp"
 #include "study/settings_fields.hpp"
+#include "study/study_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -27,14 +29,6 @@ std::vector<std::string> short_names() {
     std::vector<std::string> names;
     for (const PointKind& kind : point_kinds())
         names.emplace_back(kind.short_name);
-    return names;
-}
-
-template <class Item>
-std::vector<std::string> names_of(const std::vector<Item>& items) {
-    std::vector<std::string> names;
-    for (const Item& item : items)
-        names.push_back(item.name);
     return names;
 }
 
@@ -237,10 +231,8 @@ void complete(Variation& axis, const Model& model, const SettingsReader& fields)
 }
 
 /// Units of values and monitors, which do not change numbers and so are no settings.
-void take_units(StudyRun& run, const RunRecord& record) {
-    const auto unit = [&](std::size_t value) {
-        return value < record.values.size() ? record.values[value].unit : std::string();
-    };
+void take_units(StudyRun& run, const std::vector<std::string>& units) {
+    const auto unit = [&](std::size_t value) { return value < units.size() ? units[value] : std::string(); };
     for (std::size_t v = 0; v < run.values.size(); ++v)
         run.value_units.push_back(run.is_branch() ? "" : unit(v));
     for (std::size_t m = 0; m < run.branch.settings.monitors.size(); ++m)
@@ -287,15 +279,15 @@ std::string settings_of(const StudyRun& run) {
     return fields.text();
 }
 
-StudyRun stored_run(const RunRecord& record) {
+StudyRun run_of(const AskedRun& asked, Model model) {
     StudyRun run;
-    run.name = record.name;
-    run.place = Place{fmt::format("settings of run '{}'", record.name), 0, 0};
-    run.model = stored_model(record);
-    const Json json = parse_json(record.settings, run.place);
+    run.name = asked.name;
+    run.place = Place{fmt::format("settings of run '{}'", asked.name), 0, 0};
+    run.model = std::move(model);
+    const Json json = parse_json(asked.settings, run.place);
     const SettingsReader fields(json, &run.model, run.place);
     describe(fields, run);
-    if (name_of(run.kind) != record.kind)
+    if (name_of(run.kind) != asked.kind)
         fields.fail("kind", "that of the run");
     for (Variation& axis : run.axes)
         complete(axis, run.model, fields);
@@ -306,12 +298,19 @@ StudyRun stored_run(const RunRecord& record) {
     run.branch.signature_place = run.place;
     if (run.start)
         run.start->place = run.place;
-    take_units(run, record);
+    take_units(run, asked.units);
     check(run, fields);
-    if (settings_of(run) != record.settings)
+    if (settings_of(run) != asked.settings)
         throw InputError(run.place, "the stored settings say more than this version of graze knows",
-                         fmt::format("use graze {}, which wrote them", record.version));
+                         fmt::format("use graze {}, which wrote them", asked.version));
     return run;
+}
+
+StudyRun stored_run(const RunRecord& record) {
+    AskedRun asked{record.name, record.kind, record.settings, record.version, {}};
+    for (const ResultColumn& value : record.values)
+        asked.units.push_back(value.unit);
+    return run_of(asked, stored_model(record));
 }
 
 } // namespace graze

@@ -34,6 +34,14 @@ std::size_t number_of(const StartFrom& start) {
 
 } // namespace
 
+const StudyRun& run_named(const Study& study, const std::string& name) {
+    const auto found =
+        std::find_if(study.runs.begin(), study.runs.end(), [&](const StudyRun& run) { return run.name == name; });
+    if (found == study.runs.end())
+        throw InputError(fmt::format("the study has no run '{}'", name), "name one of its runs");
+    return *found;
+}
+
 std::vector<double> with_own_parameters(const StudyRun& run, std::vector<double> parameters) {
     const std::vector<double> values = run.model.parameter_values();
     for (const std::size_t parameter : run.branch.set)
@@ -93,10 +101,9 @@ OrbitRecord orbit_to_start_from(const StartFrom& start, const StudyRun& parent, 
 
 StartPoint point_to_start_from(const StudyRun& run, const Study& study, const ResultFile& file) {
     const StartFrom& start = *run.start;
-    const auto parent = std::find_if(study.runs.begin(), study.runs.end(),
-                                     [&](const StudyRun& other) { return other.name == start.run; });
-    if (parent->is_branch()) {
-        const Orbit orbit = orbit_to_start_from(start, *parent, file).point.solution.orbit;
+    const StudyRun& parent = run_named(study, start.run);
+    if (parent.is_branch()) {
+        const Orbit orbit = orbit_to_start_from(start, parent, file).point.solution.orbit;
         StartPoint result;
         result.point.result.state = orbit.starts.front();
         result.point.result.mode = orbit.signature.front().mode;
@@ -106,7 +113,7 @@ StartPoint point_to_start_from(const StudyRun& run, const Study& study, const Re
     }
     std::optional<std::size_t> direction;
     if (start.direction) {
-        const auto names = direction_names(*parent);
+        const auto names = direction_names(parent);
         direction = static_cast<std::size_t>(std::find(names.begin(), names.end(), *start.direction) - names.begin());
         if (*direction == names.size())
             throw InputError(start.place, fmt::format("run '{}' has no direction '{}'", start.run, *start.direction),

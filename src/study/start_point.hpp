@@ -2,6 +2,7 @@
 
 #include "graze/study/runner.hpp"
 
+#include <string>
 #include <vector>
 
 namespace graze {
@@ -11,6 +12,9 @@ struct StartPoint {
     PointRecord point;              ///< state and mode
     std::vector<double> parameters; ///< all independent ones: of that point, except those that the run itself sets
 };
+
+/// The run of that name. @throws InputError when the study has none
+const StudyRun& run_named(const Study& study, const std::string& name);
 
 /// The point of an earlier run of kind orbit or continue that another one starts from.
 /// @throws InputError when there is none

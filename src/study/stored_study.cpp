@@ -2,6 +2,7 @@
 
 #include "graze/model/model_file.hpp"
 #include "graze/symbolic/file_name.hpp"
+#include "study/asked_run.hpp"
 #include "study/settings_fields.hpp"
 #include "study/study_reader.hpp"
 
@@ -48,55 +49,41 @@ void describe_study(Fields& fields, One& study) {
     fields.list("pictures", study.pictures, [](auto& one, auto& picture) { describe_picture(one, picture); });
 }
 
-/// A run as it was asked for, which may not have been begun when the program ended.
-struct AskedRun {
-    std::string name, kind, model, settings, version;
-    std::vector<std::string> units; ///< of its values, or monitors
+/// A run that may not have been begun when the program ended.
+struct PlannedRun {
+    AskedRun asked;
+    std::string model; ///< text of its file
 };
 
 template <class Fields, class Runs>
 void describe_runs(Fields& fields, Runs& runs) {
     fields.list("runs", runs, [](auto& one, auto& run) {
-        one.field("name", run.name);
-        one.field("kind", run.kind);
+        one.field("name", run.asked.name);
+        one.field("kind", run.asked.kind);
         one.field("model", run.model);
-        one.field("settings", run.settings);
-        one.field("version", run.version);
-        one.field("units", run.units);
+        one.field("settings", run.asked.settings);
+        one.field("version", run.asked.version);
+        one.field("units", run.asked.units);
     });
 }
 
-AskedRun asked_run(const StudyRun& run) {
-    AskedRun result{
-        run.name,       std::string(name_of(run.kind)), write_model(run.model), settings_of(run), GRAZE_VERSION,
-        run.value_units};
+PlannedRun planned(const StudyRun& run) {
+    PlannedRun result{{run.name, std::string(name_of(run.kind)), settings_of(run), GRAZE_VERSION, run.value_units},
+                      write_model(run.model)};
     if (run.is_branch()) {
-        result.units.clear();
+        result.asked.units.clear();
         for (const Monitor& monitor : run.branch.settings.monitors)
-            result.units.push_back(monitor.unit);
+            result.asked.units.push_back(monitor.unit);
     }
     return result;
 }
 
-/// What the file would have of the run, had it been begun.
-RunRecord record_of(const AskedRun& run, const Place& place) {
-    require_file_name(run.name, "name of a run", place);
-    RunRecord record;
-    record.name = run.name;
-    record.kind = run.kind;
-    record.model = run.model;
-    record.settings = run.settings;
-    record.version = run.version;
-    const Model model = parse_model(run.model, run.name + ".toml");
-    for (const State& state : model.states)
-        record.states.push_back({state.name, state.unit});
-    for (const Mode& mode : model.modes)
-        record.modes.push_back(mode.name);
-    for (const std::string& unit : run.units) {
+/// @throws InputError as for runs that were begun
+StudyRun run_of(const PlannedRun& run, const Place& place) {
+    require_file_name(run.asked.name, "name of a run", place);
+    for (const std::string& unit : run.asked.units)
         require_plain_line(unit, "unit of a value", place);
-        record.values.push_back({"", unit});
-    }
-    return record;
+    return graze::run_of(run.asked, parse_model(run.model, run.asked.name + ".toml"));
 }
 
 /// Names end up in names of files, and texts in pictures. @throws InputError as for those of study files
@@ -110,7 +97,7 @@ void check(StudyPicture& picture, const Place& place) {
             require_plain_line(text, "text of a picture", place);
     for (const auto& [name, value] : picture.at)
         require_plain_line(name, "coordinate", place);
-    const std::vector<std::string> formats{"png", "svg", "pdf"};
+    const std::vector<std::string> formats = picture_formats();
     if (std::find(formats.begin(), formats.end(), picture.format) == formats.end())
         throw InputError(place, fmt::format("pictures cannot be '{}'", picture.format), study_name_remedy("", formats));
 }
@@ -118,9 +105,9 @@ void check(StudyPicture& picture, const Place& place) {
 } // namespace
 
 void store_study(const Study& study, ResultFile& file) {
-    std::vector<AskedRun> runs;
+    std::vector<PlannedRun> runs;
     for (const StudyRun& run : study.runs)
-        runs.push_back(asked_run(run));
+        runs.push_back(planned(run));
     SettingsWriter fields;
     describe_study(fields, study);
     describe_runs(fields, runs);
@@ -137,17 +124,17 @@ Study stored_study(const ResultFile& file) {
     if (study.name.empty())
         study.name = "results";
     require_file_name(study.name, "name of a study, which its folder bears", place);
-    std::vector<AskedRun> asked;
-    describe_runs(fields, asked);
+    std::vector<PlannedRun> all;
+    describe_runs(fields, all);
     std::vector<StudyRun> runs;
     const auto is_in = [](const std::vector<StudyRun>& some, const std::string& name) {
         return std::any_of(some.begin(), some.end(), [&](const StudyRun& run) { return run.name == name; });
     };
     for (const RunRecord& record : file.runs())
         runs.push_back(stored_run(record));
-    for (const AskedRun& run : asked)
-        if (!is_in(runs, run.name))
-            runs.push_back(stored_run(record_of(run, place)));
+    for (const PlannedRun& run : all)
+        if (!is_in(runs, run.asked.name))
+            runs.push_back(run_of(run, place));
     study.runs = in_order(std::move(runs));
     const auto is_there = [&](const std::string& name) { return is_in(study.runs, name); };
     std::erase_if(study.pictures, [&](const StudyPicture& picture) {

@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/file_name.hpp"
 #include "graze/symbolic/text_file.hpp"
+#include "study/start_point.hpp"
 #include "study/study_reader.hpp"
 
 #include <fmt/format.h>
@@ -26,10 +27,12 @@ std::string_view name_of(RunKind kind) {
     return "simulate";
 }
 
+std::vector<std::string> picture_formats() {
+    return {"png", "svg", "pdf"};
+}
+
 std::vector<StudyRun> in_order(std::vector<StudyRun> runs) {
-    std::vector<std::string> names;
-    for (const StudyRun& run : runs)
-        names.push_back(run.name);
+    const std::vector<std::string> names = names_of(runs);
     for (const StudyRun& run : runs)
         if (run.start && std::find(names.begin(), names.end(), run.start->run) == names.end())
             throw InputError(run.start->place, fmt::format("the study has no run '{}'", run.start->run),
@@ -54,9 +57,7 @@ std::vector<StudyRun> in_order(std::vector<StudyRun> runs) {
 namespace {
 
 void check_pictures(const Study& study) {
-    std::vector<std::string> names;
-    for (const StudyRun& run : study.runs)
-        names.push_back(run.name);
+    const std::vector<std::string> names = names_of(study.runs);
     for (const StudyPicture& picture : study.pictures)
         for (const std::string& run : picture.runs)
             if (std::find(names.begin(), names.end(), run) == names.end())
@@ -121,7 +122,7 @@ StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
         } else if (key == "group") {
             picture.group = reader.toml().line(item);
         } else {
-            const std::vector<std::string> formats{"png", "svg", "pdf"};
+            const std::vector<std::string> formats = picture_formats();
             picture.format = formats[reader.choice(item, formats)];
         }
     }
@@ -179,10 +180,7 @@ Study parse_study(std::string_view text, const std::string& file) {
     study.runs = in_order(std::move(study.runs));
     for (const StudyRun& run : study.runs)
         if (run.start)
-            check_start(reader, run,
-                        *std::find_if(study.runs.begin(), study.runs.end(),
-                                      [&](const StudyRun& other) { return other.name == run.start->run; }),
-                        keys[run.name]);
+            check_start(reader, run, run_named(study, run.start->run), keys[run.name]);
     if (pictures)
         for (const TomlEntry& entry : toml.entries(toml.table(*pictures), "pictures"))
             study.pictures.push_back(read_picture(reader, entry));

@@ -170,14 +170,6 @@ namespace {
     throw InputError(start.place, problem, remedy);
 }
 
-template <class Item>
-std::vector<std::string> names_of(const std::vector<Item>& items) {
-    std::vector<std::string> names;
-    for (const Item& item : items)
-        names.push_back(item.name);
-    return names;
-}
-
 /// Whether states, modes, transitions and parameters are the same, so that one's points mean the same to the other.
 bool are_alike(const Model& one, const Model& other) {
     const auto labels = [](const Model& model) {
