@@ -1,5 +1,6 @@
 #include "branch/branch_state.hpp"
 
+#include "branch/orbit_quantity.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "orbit/newton.hpp"
 
@@ -59,9 +60,9 @@ void BranchState::hold_monitors() {
         if (!monitor.fixed)
             continue;
         if (at == held_.size())
-            held_.push_back(OrbitCondition::of_monitor(problem_->equations(), monitor, monitors_->segment(m),
-                                                       monitor.held.value()));
-        held_[at++].set_segment(monitors_->segment(m));
+            held_.push_back(std::make_unique<OrbitQuantity>(OrbitQuantity::of_monitor(
+                problem_->equations(), monitor, monitors_->segment(m), monitor.held.value())));
+        held_[at++]->set_segment(monitors_->segment(m));
     }
     problem_->hold(held_);
 }

@@ -48,7 +48,7 @@ private:
     Simulation simulation_;
     std::optional<Simulation> tighter_; ///< once it has been asked for
     std::unique_ptr<OrbitMonitors> monitors_;
-    std::vector<OrbitCondition> held_; ///< one for each free parameter
+    std::vector<std::unique_ptr<OrbitCondition>> held_; ///< one for each free parameter
     std::unique_ptr<OrbitProblem> problem_;
     std::unique_ptr<Continuation> continuation_;
     double arclength_ = 0, growth_ = 1;

@@ -1,8 +1,8 @@
 #include "branch/grazing_switch.hpp"
 
 #include "branch/inserted_contact.hpp"
-#include "branch/orbit_condition.hpp"
 #include "branch/orbit_problem.hpp"
+#include "branch/orbit_quantity.hpp"
 #include "flow/guard.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "orbit/certify.hpp"
@@ -111,7 +111,7 @@ double sum(const std::vector<double>& values) {
 OrbitDirection meet_at_speed(const Simulation& simulation, Orbit& orbit, double speed, const BranchSettings& settings) {
     constexpr double far = 1e3; // in units of the scales: Newton's method has lost its way
     Shooting shooting(simulation, orbit, {settings.parameter});
-    OrbitCondition condition = OrbitCondition::of_speed(shooting, orbit.segments() - 1, speed);
+    OrbitQuantity condition = OrbitQuantity::of_speed(shooting, orbit.segments() - 1, speed);
     Eigen::VectorXd unknowns = shooting.unknowns_of(orbit), step;
     OrbitEvaluation at = shooting.evaluation();
     const auto solve = [&](double right, bool homogeneous) {

@@ -71,7 +71,7 @@ bool OrbitProblem::evaluate_held() {
     rows_.resize(index(held_.size()), index(unknowns()));
     residuals_.resize(index(held_.size()));
     for (std::size_t h = 0; h < held_.size(); ++h) {
-        OrbitCondition& condition = held_[h];
+        OrbitCondition& condition = *held_[h];
         if (!condition.evaluate(*equations_, at_))
             return false;
         const double unit = condition.gradient().transpose().cwiseProduct(at_.scales).norm();

@@ -24,7 +24,8 @@ public:
     explicit OrbitProblem(std::unique_ptr<OrbitEquations> equations);
     /// With further free parameters, as many as conditions are to be held.
     OrbitProblem(const Simulation& simulation, const Orbit& orbit, const BranchSettings& settings);
-    void hold(std::span<OrbitCondition> conditions) { held_ = conditions; } ///< which must outlive this
+    /// @param conditions which must outlive this
+    void hold(std::span<const std::unique_ptr<OrbitCondition>> conditions) { held_ = conditions; }
 
     OrbitEquations& equations() { return *equations_; }
     const OrbitEquations& equations() const { return *equations_; }
@@ -78,7 +79,7 @@ private:
     std::unique_ptr<OrbitEquations> equations_;
     OrbitEvaluation at_;
     std::vector<double> weights_;
-    std::span<OrbitCondition> held_;
+    std::span<const std::unique_ptr<OrbitCondition>> held_;
     Eigen::MatrixXd rows_;      ///< gradients of the conditions that are held
     Eigen::VectorXd residuals_; ///< how far they are off
     std::size_t accepted_ = 0;

@@ -2,8 +2,10 @@
 
 #include "branch/branch_state.hpp"
 #include "branch/grazing_switch.hpp"
+#include "branch/orbit_quantity.hpp"
 #include "branch/other_branch.hpp"
 #include "branch/reordering.hpp"
+#include "branch/singular_condition.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
 #include "orbit/certify.hpp"
@@ -23,6 +25,10 @@ namespace {
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 using Tests = std::vector<BranchTest>;
+
+std::unique_ptr<OrbitCondition> held(OrbitQuantity quantity) {
+    return std::make_unique<OrbitQuantity>(std::move(quantity));
+}
 
 /// The event that ends a segment; the first one for sections, where it is of no interest.
 std::size_t own_event(const TestedPoint& point, std::size_t segment) {
@@ -46,6 +52,11 @@ void test_fold(const TestedPoint& point, Tests& tests) {
     tests.push_back(test);
 }
 
+std::unique_ptr<OrbitCondition> condition_of_fold(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                  const SpecialPoint&) {
+    return SingularCondition::of_multiplier(equations, at, 1);
+}
+
 // Flips: the half of a symmetric orbit that changes into its image loses the symmetry instead of doubling its period.
 
 void test_flip(const TestedPoint& point, Tests& tests) {
@@ -56,6 +67,11 @@ void test_flip(const TestedPoint& point, Tests& tests) {
 void test_asymmetry(const TestedPoint& point, Tests& tests) {
     tests.push_back({.type = PointType::asymmetry,
                      .value = point.equations.symmetry() ? point.at.system.antiperiodic_determinant() : nothing});
+}
+
+std::unique_ptr<OrbitCondition> condition_of_flip(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                  const SpecialPoint&) {
+    return SingularCondition::of_multiplier(equations, at, -1);
 }
 
 std::vector<BranchStart> leave_flip(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
@@ -111,6 +127,11 @@ bool confirm_torus(BranchState&, SpecialPoint& special, const BranchTest&) {
            });
 }
 
+std::unique_ptr<OrbitCondition> condition_of_torus(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                   const SpecialPoint&) {
+    return TorusCondition::of_pair(equations, at);
+}
+
 // Grazing: an event is met without speed at the end of its arc, or another touched inside of one.
 
 void test_grazing(const TestedPoint& point, Tests& tests) {
@@ -160,12 +181,12 @@ int rank_of_grazing(const SpecialPoint& point) {
     return point.time > at_edge * duration && point.time < (1 - at_edge) * duration ? 0 : 2;
 }
 
-std::optional<OrbitCondition> condition_of_grazing(const OrbitEquations& equations, const OrbitEvaluation&,
-                                                   const SpecialPoint& point) {
+std::unique_ptr<OrbitCondition> condition_of_grazing(const OrbitEquations& equations, const OrbitEvaluation&,
+                                                     const SpecialPoint& point) {
     if (point.at_end)
-        return OrbitCondition::of_speed(equations, point.segment, 0);
+        return held(OrbitQuantity::of_speed(equations, point.segment, 0));
     const double duration = point.solution.orbit.durations[point.segment];
-    return OrbitCondition::of_touch(equations, point.segment, point.event, point.time / duration);
+    return held(OrbitQuantity::of_touch(equations, point.segment, point.event, point.time / duration));
 }
 
 std::vector<BranchStart> leave_grazing(const System& system, const SpecialPoint& point,
@@ -189,9 +210,9 @@ bool confirm_vanishing(BranchState&, SpecialPoint& special, const BranchTest&) {
     return true;
 }
 
-std::optional<OrbitCondition> condition_of_vanishing(const OrbitEquations& equations, const OrbitEvaluation&,
-                                                     const SpecialPoint& point) {
-    return OrbitCondition::of_vanishing(equations, point.segment);
+std::unique_ptr<OrbitCondition> condition_of_vanishing(const OrbitEquations& equations, const OrbitEvaluation&,
+                                                       const SpecialPoint& point) {
+    return held(OrbitQuantity::of_vanishing(equations, point.segment));
 }
 
 void test_two_events(const TestedPoint& point, Tests& tests) {
@@ -218,9 +239,9 @@ bool confirm_two_events(BranchState& state, SpecialPoint& special, const BranchT
     return true;
 }
 
-std::optional<OrbitCondition> condition_of_two_events(const OrbitEquations& equations, const OrbitEvaluation&,
-                                                      const SpecialPoint& point) {
-    return OrbitCondition::of_two_events(equations, point.segment, point.event);
+std::unique_ptr<OrbitCondition> condition_of_two_events(const OrbitEquations& equations, const OrbitEvaluation&,
+                                                        const SpecialPoint& point) {
+    return held(OrbitQuantity::of_two_events(equations, point.segment, point.event));
 }
 
 void test_guard(const TestedPoint& point, Tests& tests) {
@@ -239,9 +260,10 @@ bool confirm_guard(BranchState& state, SpecialPoint& special, const BranchTest&)
     return true;
 }
 
-std::optional<OrbitCondition> condition_of_guard(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                                 const SpecialPoint& point) {
-    return OrbitCondition::of_guard(equations, at, point.segment);
+std::unique_ptr<OrbitCondition> condition_of_guard(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                   const SpecialPoint& point) {
+    auto condition = OrbitQuantity::of_guard(equations, at, point.segment);
+    return condition ? held(std::move(*condition)) : nullptr;
 }
 
 std::vector<BranchStart> leave_order(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
@@ -333,7 +355,8 @@ constexpr std::array table{
     PointRule{
         .kind =
             {.type = PointType::fold, .short_name = "SN", .name = "fold", .changes = true, .may_stop = true, .mark = 7},
-        .test = test_fold},
+        .test = test_fold,
+        .condition = condition_of_fold},
     PointRule{.kind = {.type = PointType::flip,
                        .short_name = "PD",
                        .name = "flip",
@@ -342,6 +365,7 @@ constexpr std::array table{
                        .may_stop = true,
                        .mark = 9},
               .test = test_flip,
+              .condition = condition_of_flip,
               .leave = leave_flip},
     PointRule{.kind = {.type = PointType::torus,
                        .short_name = "NS",
@@ -350,7 +374,8 @@ constexpr std::array table{
                        .may_stop = true,
                        .mark = 13},
               .test = test_torus,
-              .confirm = confirm_torus},
+              .confirm = confirm_torus,
+              .condition = condition_of_torus},
     PointRule{.kind = {.type = PointType::branch_point,
                        .short_name = "BP",
                        .name = "branch point",
@@ -368,6 +393,7 @@ constexpr std::array table{
                        .may_stop = true,
                        .mark = 5},
               .test = test_asymmetry,
+              .condition = condition_of_flip,
               .leave = leave_asymmetry},
     PointRule{.kind = {.type = PointType::grazing,
                        .short_name = "GR",

@@ -6,6 +6,7 @@
 #include "orbit/orbit_equations.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -50,10 +51,10 @@ struct PointRule {
     bool (*confirm)(BranchState& state, SpecialPoint& special, const BranchTest& test) = nullptr;
     /// Of several things at one place, the one that tells most has the lowest rank. Null: it excludes no other.
     int (*rank)(const SpecialPoint& point) = nullptr;
-    /// What is zero at it, as a condition that can be held: the same thing in the other role. Null: not known yet, as
-    /// for those that determinants find; none: not for this point.
-    std::optional<OrbitCondition> (*condition)(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                               const SpecialPoint& point) = nullptr;
+    /// What is zero at it, as a condition that can be held: the same thing in the other role. Null: it has none, as a
+    /// branch point, of which any change of the equations leaves nothing; none: not for this point.
+    std::unique_ptr<OrbitCondition> (*condition)(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                 const SpecialPoint& point) = nullptr;
     /// Where one can go on from it. Null: nowhere.
     std::vector<BranchStart> (*leave)(const System& system, const SpecialPoint& point,
                                       const BranchSettings& settings) = nullptr;

@@ -63,9 +63,11 @@ Collocation::Collocation(const Simulation& simulation, const Orbit& orbit, std::
     Model scratch = model();
     for (const Segment& segment : orbit.signature) {
         Rates rates;
-        for (const Expression& rate : scratch.expand(scratch.modes[segment.mode].rates))
-            rates.push_back(system().with_gradient(rate));
-        for (const Function& rate : rates)
+        for (const Expression& rate : scratch.expand(scratch.modes[segment.mode].rates)) {
+            rates.functions.push_back(system().with_gradient(rate));
+            rates.resting.push_back(rate.is_number(0));
+        }
+        for (const Function& rate : rates.functions)
             work_.resize(std::max(work_.size(), rate.workspace()));
         rates_.push_back(std::move(rates));
     }
@@ -98,7 +100,7 @@ void Collocation::rates_at(const Rates& rates, const double* state, const OrbitE
     std::copy(state, state + n, inputs_.begin());
     std::copy(at.parameters.begin(), at.parameters.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(n));
     for (std::size_t i = 0; i < n; ++i) {
-        rates[i].evaluate(inputs_, values_, work_);
+        rates.functions[i].evaluate(inputs_, values_, work_);
         values[index(i)] = values_[0];
         derivatives.row(index(i)) = ends().gradient_of(values_).transpose();
     }
@@ -147,6 +149,12 @@ bool Collocation::follow(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEv
         }
     }
     start += changes.rightCols(1);
+    for (Eigen::Index i = 0; i < n; ++i) // whatever round-off says
+        if (rates_[k].resting[static_cast<std::size_t>(i)]) {
+            start[i] = unknowns[index(layout().start_of(k)) + i];
+            changes.row(i).setZero();
+            changes(i, i) = 1;
+        }
     piece.end.assign(start.begin(), start.end());
     piece.flow.resize(n, n + q);
     piece.flow << changes.leftCols(n), changes.middleCols(n + 1, q);

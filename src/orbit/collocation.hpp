@@ -24,8 +24,11 @@ public:
                 std::vector<double> ranges = {});
 
 private:
-    /// Of a mode: for each state its rate and the derivatives of that.
-    using Rates = std::vector<Function>;
+    /// Of a mode: for each state its rate and the derivatives of that, and whether nothing moves it there.
+    struct Rates {
+        std::vector<Function> functions;
+        std::vector<bool> resting;
+    };
 
     bool follow(std::size_t piece, const Eigen::VectorXd& unknowns, OrbitEvaluation& at) override;
     void set_inner(const Orbit& orbit, Eigen::VectorXd& unknowns) override;

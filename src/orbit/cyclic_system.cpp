@@ -137,12 +137,13 @@ CyclicSystem::Condensed CyclicSystem::condense(const Eigen::MatrixXd& borders, c
     return result;
 }
 
-/// All unknowns, from the first start and the parameters.
-Eigen::VectorXd CyclicSystem::expand(const Eigen::VectorXd& first, bool homogeneous) const {
+/// All unknowns, from the first start and the parameters, and the start after the last segment.
+Eigen::VectorXd CyclicSystem::expand(const Eigen::VectorXd& first, const Eigen::VectorXd& last,
+                                     bool homogeneous) const {
     const Eigen::Index n = index(n_), q = index(q_);
     Eigen::VectorXd solution(index(unknowns()));
     solution.tail(q) = first.tail(q);
-    Eigen::VectorXd following = first.head(n); // x_{k+1}, going backwards
+    Eigen::VectorXd following = last; // x_{k+1}, going backwards
     for (std::size_t k = count_; k-- > 0;) {
         const Eliminated& gone = eliminated_[k];
         Eigen::VectorXd sum = homogeneous ? Eigen::VectorXd::Zero(n + 1) : Eigen::VectorXd(gone.rest.rightCols(1));
@@ -163,7 +164,8 @@ bool CyclicSystem::solve(const Eigen::MatrixXd& borders, const Eigen::VectorXd& 
         *determinant = sign_ * lu.determinant();
     if (!condensed.matrix.allFinite() || !lu.isInvertible())
         return false;
-    solution = expand(lu.solve(condensed.values), homogeneous);
+    const Eigen::VectorXd first = lu.solve(condensed.values);
+    solution = expand(first, first.head(index(n_)), homogeneous);
     return solution.allFinite();
 }
 
@@ -172,8 +174,20 @@ bool CyclicSystem::null_vector(const Eigen::MatrixXd& borders, Eigen::VectorXd& 
     if (!condensed.matrix.allFinite())
         return false;
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(condensed.matrix, Eigen::ComputeFullV);
-    vector = expand(svd.matrixV().rightCols(1), true);
+    const Eigen::VectorXd first = svd.matrixV().rightCols(1);
+    vector = expand(first, first.head(index(n_)), true);
     return vector.allFinite();
+}
+
+std::pair<Eigen::MatrixXd, Eigen::MatrixXd> CyclicSystem::relation() const {
+    const Eigen::Index n = index(n_);
+    return {final_.leftCols(n), final_.middleCols(n, n)};
+}
+
+Eigen::VectorXd CyclicSystem::between(const Eigen::VectorXd& first, const Eigen::VectorXd& last) const {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(index(n_ + q_));
+    all.head(index(n_)) = first;
+    return expand(all, last, true).head(index(count_ * (n_ + 1)));
 }
 
 } // namespace graze

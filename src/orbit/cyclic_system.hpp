@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -54,6 +55,12 @@ public:
     /// they are singular, in the null space. @return false when a number is not finite
     bool null_vector(const Eigen::MatrixXd& borders, Eigen::VectorXd& vector) const;
 
+    /// What is left of the homogeneous equations without parameters: first * x_0 + last * x_m = 0. To be called after
+    /// `factor`, like those above.
+    std::pair<Eigen::MatrixXd, Eigen::MatrixXd> relation() const;
+    /// Starts and durations between such x_0 and x_m: (x_0, T_0, x_1, ..., T_{m-1}).
+    Eigen::VectorXd between(const Eigen::VectorXd& first, const Eigen::VectorXd& last) const;
+
 private:
     /// Equations of x_0 and p alone: matrix (x_0, p) = values.
     struct Condensed {
@@ -61,7 +68,7 @@ private:
         Eigen::VectorXd values;
     };
     Condensed condense(const Eigen::MatrixXd& borders, const Eigen::VectorXd& right, bool homogeneous) const;
-    Eigen::VectorXd expand(const Eigen::VectorXd& first, bool homogeneous) const;
+    Eigen::VectorXd expand(const Eigen::VectorXd& first, const Eigen::VectorXd& last, bool homogeneous) const;
 
     /// What is left of a segment: triangle (x_k, T_k) + rest (x_0, x_{k+1}, p) = rest's last column.
     struct Eliminated {

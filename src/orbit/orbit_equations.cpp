@@ -246,12 +246,13 @@ void OrbitEquations::assemble(const Eigen::VectorXd& unknowns, OrbitEvaluation& 
 /// the scales.
 void OrbitEquations::assemble_end(std::size_t k, OrbitEvaluation& at) const {
     const auto n = index(layout_.states()), q = index(layout_.free());
-    const OrbitEvaluation::Piece& piece = at.pieces[k];
+    OrbitEvaluation::Piece& piece = at.pieces[k];
     CyclicSystem::Block& block = at.system.block(k);
     const Eigen::VectorXd state_scales = scales_.head(n), parameter_scales = scales_.tail(q);
     const Eigen::RowVectorXd gradient = piece.condition.head(n).transpose();
     const double size = gradient.cwiseAbs() * state_scales;
     const double unit = size > 0 ? size : 1;
+    piece.condition_unit = unit;
     const Eigen::RowVectorXd by_start = gradient * piece.flow.leftCols(n) * state_scales.asDiagonal();
     const Eigen::RowVectorXd by_parameters = gradient * piece.flow.rightCols(q) + piece.condition.tail(q).transpose();
     at.effects = at.effects.cwiseMax(by_parameters.transpose().cwiseAbs() / unit);

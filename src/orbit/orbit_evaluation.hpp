@@ -27,6 +27,7 @@ struct OrbitEvaluation {
         Eigen::MatrixXd jump;       ///< derivatives of `after`, states x (states + free)
         Eigen::VectorXd condition;  ///< gradient of the end condition, if it is its segment's last: states + free
         double condition_value = 0; ///< zero on the orbit
+        double condition_unit = 1;  ///< by which its row is divided
     };
 
     Eigen::VectorXd unknowns; ///< at which it was made; empty: it failed, and `problem` says why

@@ -1,4 +1,4 @@
-#include "branch/orbit_condition.hpp"
+#include "branch/orbit_quantity.hpp"
 
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
@@ -55,8 +55,8 @@ Expression rate_of(const System& system, std::size_t mode, std::size_t event) {
     return rate;
 }
 
-OrbitCondition OrbitCondition::of_monitor(const OrbitEquations& equations, const Monitor& monitor,
-                                          std::optional<std::size_t> segment, double value) {
+OrbitQuantity OrbitQuantity::of_monitor(const OrbitEquations& equations, const Monitor& monitor,
+                                        std::optional<std::size_t> segment, double value) {
     const auto quantity = [&] {
         switch (monitor.kind) {
         case Monitor::Kind::value:
@@ -82,32 +82,32 @@ OrbitCondition OrbitCondition::of_monitor(const OrbitEquations& equations, const
     return {equations, {quantity, monitor.expression, segment, value, 0}};
 }
 
-OrbitCondition OrbitCondition::of_speed(const OrbitEquations& equations, std::size_t segment, double speed) {
+OrbitQuantity OrbitQuantity::of_speed(const OrbitEquations& equations, std::size_t segment, double speed) {
     const Transition& transition = transition_of(equations, segment);
     return {equations,
             {Quantity::end, rate_of(equations.system(), transition.mode, transition.event), segment, -speed, 0}};
 }
 
-OrbitCondition OrbitCondition::of_touch(const OrbitEquations& equations, std::size_t segment, std::size_t event,
-                                        double share) {
+OrbitQuantity OrbitQuantity::of_touch(const OrbitEquations& equations, std::size_t segment, std::size_t event,
+                                      double share) {
     require_index(segment, equations.signature().size(), "segment");
     require_index(event, equations.model().events.size(), "event");
     return {equations, {Quantity::touch, equations.model().events[event].function, segment, 0, share}};
 }
 
-OrbitCondition OrbitCondition::of_two_events(const OrbitEquations& equations, std::size_t segment, std::size_t event) {
+OrbitQuantity OrbitQuantity::of_two_events(const OrbitEquations& equations, std::size_t segment, std::size_t event) {
     require_index(segment, equations.signature().size(), "segment");
     require_index(event, equations.model().events.size(), "event");
     return {equations, {Quantity::end, equations.model().events[event].function, segment, 0, 0}};
 }
 
-OrbitCondition OrbitCondition::of_vanishing(const OrbitEquations& equations, std::size_t segment) {
+OrbitQuantity OrbitQuantity::of_vanishing(const OrbitEquations& equations, std::size_t segment) {
     require_index(segment, equations.signature().size(), "segment");
     return {equations, {Quantity::duration, {}, segment, 0, 0}};
 }
 
-std::optional<OrbitCondition> OrbitCondition::of_guard(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                                       std::size_t segment) {
+std::optional<OrbitQuantity> OrbitQuantity::of_guard(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                     std::size_t segment) {
     const Transition& transition = transition_of(equations, segment);
     Model model = equations.model();
     std::vector<double> inputs = at.pieces[equations.layout().last_piece(segment)].end;
@@ -128,12 +128,11 @@ std::optional<OrbitCondition> OrbitCondition::of_guard(const OrbitEquations& equ
         }
     if (!nearest)
         return std::nullopt;
-    return OrbitCondition(equations, {Quantity::end, *nearest, segment, 0, 0});
+    return OrbitQuantity(equations, {Quantity::end, *nearest, segment, 0, 0});
 }
 
 /// The quantity's expression and, for the second half of a symmetric orbit, the same of the image.
-std::vector<Expression> OrbitCondition::expressions_of(const OrbitEquations& equations,
-                                                       const Description& description) {
+std::vector<Expression> OrbitQuantity::expressions_of(const OrbitEquations& equations, const Description& description) {
     if (description.quantity == Quantity::duration)
         return {};
     Model model = equations.model();
@@ -145,11 +144,11 @@ std::vector<Expression> OrbitCondition::expressions_of(const OrbitEquations& equ
     return result;
 }
 
-OrbitCondition::OrbitCondition(const OrbitEquations& equations, const Description& description)
-    : OrbitCondition(equations, description, expressions_of(equations, description)) {}
+OrbitQuantity::OrbitQuantity(const OrbitEquations& equations, const Description& description)
+    : OrbitQuantity(equations, description, expressions_of(equations, description)) {}
 
-OrbitCondition::OrbitCondition(const OrbitEquations& equations, const Description& description,
-                               const std::vector<Expression>& expressions)
+OrbitQuantity::OrbitQuantity(const OrbitEquations& equations, const Description& description,
+                             const std::vector<Expression>& expressions)
     : quantity_(description.quantity), segment_(description.segment), target_(description.target),
       share_(description.share), simulation_(equations.system(), {}, expressions, equations.simulation().options()),
       flow_(flow_of(simulation_, equations.free())), roots_(simulation_.order()) {
@@ -157,7 +156,7 @@ OrbitCondition::OrbitCondition(const OrbitEquations& equations, const Descriptio
         watched_.push_back({simulation_.system().with_gradient(expression), watched_.size()});
 }
 
-bool OrbitCondition::evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) {
+bool OrbitQuantity::evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) {
     gradient_ = Eigen::RowVectorXd::Zero(at.unknowns.size());
     flow_.set_parameters(at.parameters);
     bool defined = false;
@@ -181,10 +180,11 @@ bool OrbitCondition::evaluate(const OrbitEquations& equations, const OrbitEvalua
         defined = mean(equations, at);
         break;
     }
+    value_ -= target_;
     return defined && std::isfinite(value_) && gradient_.allFinite();
 }
 
-std::vector<std::size_t> OrbitCondition::pieces(const OrbitLayout& layout) const {
+std::vector<std::size_t> OrbitQuantity::pieces(const OrbitLayout& layout) const {
     std::vector<std::size_t> result;
     for (std::size_t s = 0; s < layout.segments(); ++s)
         if (!segment_ || *segment_ == s)
@@ -194,22 +194,22 @@ std::vector<std::size_t> OrbitCondition::pieces(const OrbitLayout& layout) const
 }
 
 /// With respect to states, then free parameters.
-Eigen::VectorXd OrbitCondition::gradient_at(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                            const Watched& watched, std::vector<double> state, double& value) const {
+Eigen::VectorXd OrbitQuantity::gradient_at(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                           const Watched& watched, std::vector<double> state, double& value) const {
     state.insert(state.end(), at.parameters.begin(), at.parameters.end());
     const std::vector<double> all = watched.function(state);
     value = all[0];
     return equations.gradient_of(all);
 }
 
-bool OrbitCondition::at_end(const OrbitEquations& equations, const OrbitEvaluation& at) {
+bool OrbitQuantity::at_end(const OrbitEquations& equations, const OrbitEvaluation& at) {
     const std::size_t piece = equations.layout().last_piece(segment_.value_or(0));
     const Eigen::VectorXd by_all = gradient_at(equations, at, watched_[0], at.pieces[piece].end, value_);
     gradient_ = equations.row_at_end(at, piece, by_all);
     return true;
 }
 
-bool OrbitCondition::at_start(const OrbitEquations& equations, const OrbitEvaluation& at) {
+bool OrbitQuantity::at_start(const OrbitEquations& equations, const OrbitEvaluation& at) {
     const auto n = index(equations.layout().states());
     const Eigen::Index place = index(equations.layout().start_of(equations.layout().first_piece(segment_.value_or(0))));
     const std::vector<double> state(at.unknowns.data() + place, at.unknowns.data() + place + n);
@@ -219,7 +219,7 @@ bool OrbitCondition::at_start(const OrbitEquations& equations, const OrbitEvalua
     return true;
 }
 
-bool OrbitCondition::duration(const OrbitEquations& equations, const OrbitEvaluation& at) {
+bool OrbitQuantity::duration(const OrbitEquations& equations, const OrbitEvaluation& at) {
     value_ = 0;
     const double times = !segment_ && equations.symmetry() ? 2 : 1;
     for (const std::size_t k : pieces(equations.layout())) {
@@ -229,8 +229,8 @@ bool OrbitCondition::duration(const OrbitEquations& equations, const OrbitEvalua
     return true;
 }
 
-std::optional<OrbitCondition::Place> OrbitCondition::find_extremum(const OrbitEquations& equations,
-                                                                   const OrbitEvaluation& at) {
+std::optional<OrbitQuantity::Place> OrbitQuantity::find_extremum(const OrbitEquations& equations,
+                                                                 const OrbitEvaluation& at) {
     const bool touch = quantity_ == Quantity::touch;
     const double sign = quantity_ == Quantity::maximum ? 1 : -1;
     double whole = 0, before = 0; // durations: of all pieces, of those that have been looked at
@@ -279,7 +279,7 @@ std::optional<OrbitCondition::Place> OrbitCondition::find_extremum(const OrbitEq
     return best;
 }
 
-bool OrbitCondition::extremum(const OrbitEquations& equations, const OrbitEvaluation& at) {
+bool OrbitQuantity::extremum(const OrbitEquations& equations, const OrbitEvaluation& at) {
     const auto place = find_extremum(equations, at);
     if (!place)
         return false;
@@ -304,7 +304,7 @@ bool OrbitCondition::extremum(const OrbitEquations& equations, const OrbitEvalua
 }
 
 /// Integrals of the function and of its changes, by Gauss's rule on each Taylor step.
-bool OrbitCondition::mean(const OrbitEquations& equations, const OrbitEvaluation& at) {
+bool OrbitQuantity::mean(const OrbitEquations& equations, const OrbitEvaluation& at) {
     const auto n = index(equations.layout().states()), q = index(equations.free().size());
     double integral = 0, time = 0;
     const double share = 1.0 / static_cast<double>(watched_.size());

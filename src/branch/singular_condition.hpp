@@ -1,0 +1,64 @@
+#pragma once
+
+#include "branch/orbit_condition.hpp"
+#include "orbit/cyclic_matrix.hpp"
+#include "orbit/second_variation.hpp"
+
+#include <Eigen/Core>
+
+#include <complex>
+#include <memory>
+
+namespace graze {
+
+/// Conditions on multipliers of an orbit, whose gradients have second derivatives of the flow in them.
+///
+/// They are made from the matrix of the equations by starts and durations, never from a product of saltation matrices:
+/// the speed of a contact is not divided by, and nothing is singular where one is lost.
+class MultiplierCondition : public OrbitCondition {
+protected:
+    /// Keeps the units of the equations there, so that the value is a smooth function.
+    MultiplierCondition(const OrbitEquations& equations, const OrbitEvaluation& at);
+    /// The matrix in these units. @param factor of its closing
+    CyclicMatrix matrix(const OrbitEquations& equations, const OrbitEvaluation& at, double factor) const;
+    /// Derivatives of left^T A right for vectors in these units: one row for each left vector, by all unknowns.
+    bool contract(const OrbitEquations& equations, const OrbitEvaluation& at, const Eigen::MatrixXd& left,
+                  const Eigen::VectorXd& right, Eigen::MatrixXd& gradients);
+
+private:
+    SecondVariation variation_;
+    Eigen::VectorXd columns_, rows_; ///< units of starts and durations, and of the equations
+};
+
+/// A real multiplier is 1 or -1, as at a fold, at a flip, and where a symmetric orbit loses its symmetry: the matrix
+/// with that closing is singular, and so is the number zero that borders it (Govaerts 2000).
+class SingularCondition final : public MultiplierCondition {
+public:
+    /// @param at evaluation at an orbit near which the condition is to be used; @param multiplier 1 or -1
+    /// @return none where the matrix is not finite
+    static std::unique_ptr<OrbitCondition> of_multiplier(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                         double multiplier);
+    bool evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) override;
+
+private:
+    SingularCondition(const OrbitEquations& equations, const OrbitEvaluation& at, double multiplier);
+
+    double multiplier_;
+    Eigen::VectorXd right_, left_; ///< the borders
+};
+
+/// A pair of complex multipliers has the modulus 1, as where a torus leaves the orbit: the value is |mu|^2 - 1.
+class TorusCondition final : public MultiplierCondition {
+public:
+    /// Of the complex pair that is nearest to the unit circle. @return none when there is none
+    static std::unique_ptr<OrbitCondition> of_pair(const OrbitEquations& equations, const OrbitEvaluation& at);
+    /// Follows the pair from one evaluation to the next: it is the one nearest to where it was.
+    bool evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) override;
+
+private:
+    TorusCondition(const OrbitEquations& equations, const OrbitEvaluation& at, std::complex<double> multiplier);
+
+    std::complex<double> multiplier_;
+};
+
+} // namespace graze

@@ -1,0 +1,139 @@
+#include "orbit/second_variation.hpp"
+
+#include "orbit/eigen_index.hpp"
+
+#include <algorithm>
+
+namespace graze {
+
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+} // namespace
+
+SecondVariation::SecondVariation(const OrbitEquations& equations)
+    : system_(equations.system(), equations.free()),
+      flow_(system_, equations.simulation().options().tolerance, equations.simulation().order()),
+      states_(equations.layout().states()), free_(equations.layout().free()),
+      work_(std::max(system_.workspace(), system_.modes().workspace())) {}
+
+bool SecondVariation::contract(const OrbitEquations& equations, const OrbitEvaluation& at, const Eigen::MatrixXd& left,
+                               const Eigen::VectorXd& right, Eigen::MatrixXd& gradients) {
+    const OrbitLayout& layout = equations.layout();
+    const auto n = index(states_), q = index(free_);
+    gradients = Eigen::MatrixXd::Zero(left.cols(), index(layout.unknowns()));
+    parameters_ = at.parameters;
+    flow_.set_parameters(parameters_);
+    Tangent tangent;
+    for (std::size_t k = 0; k < layout.pieces(); ++k) {
+        const Eigen::Index place = index(layout.start_of(k));
+        const Eigen::VectorXd gain = right.segment(place, n);
+        if (!follow(equations, at, k, gain, right[place + n], tangent))
+            return false;
+        Eigen::MatrixXd weights = left.middleRows(place, n + 1);
+        Eigen::MatrixXd change = Eigen::MatrixXd::Zero(left.cols(), n + 1 + q);
+        if (layout.is_last(k)) {
+            const std::size_t s = layout.segment_of(k);
+            const Segment& segment = equations.signature()[s];
+            const bool half = equations.symmetry() && s + 1 == layout.segments();
+            const bool event = segment.end == SegmentEnd::event;
+            const Transition* transition = event ? &equations.model().transitions[segment.index] : nullptr;
+            evaluate(event ? system_.event(transition->event)
+                           : system_.section(segment.index, half ? equations.symmetry() : std::nullopt),
+                     tangent);
+            change += weights.row(0).transpose() * derivative_of_gain(tangent, 1);
+            if (event)
+                pass(system_.jump(transition->jump), tangent);
+            if (half)
+                pass(system_.symmetry(*equations.symmetry()), tangent);
+        }
+        if (k + 1 == layout.pieces()) // states that are held instead of being closed
+            for (std::size_t i = 0; i < states_; ++i)
+                if (std::find(at.active.begin(), at.active.end(), i) == at.active.end())
+                    weights.row(1 + index(i)).setZero();
+        change -= weights.bottomRows(n).transpose() * tangent.of_gain;
+        gradients.middleCols(place, n + 1) += change.leftCols(n + 1);
+        gradients.rightCols(q) += change.rightCols(q);
+    }
+    return gradients.allFinite();
+}
+
+/// The end of a piece, and what it gains where its start and duration do.
+bool SecondVariation::follow(const OrbitEquations& equations, const OrbitEvaluation& at, std::size_t piece,
+                             const Eigen::VectorXd& gain, double longer, Tangent& result) {
+    const auto n = index(states_), q = index(free_);
+    const double* start = at.unknowns.data() + equations.layout().start_of(piece);
+    const std::size_t mode = equations.mode_of(piece);
+    result.state.assign(start, start + n);
+    std::vector<double> vector(gain.begin(), gain.end());
+    vector.resize(system_.variables(), 0.0);
+    RowMajor first(n, n + q), second(n, n + q);
+    const auto numbers = [](RowMajor& matrix) {
+        return std::span(matrix.data(), static_cast<std::size_t>(matrix.size()));
+    };
+    if (flow_.run(mode, result.state, at.unknowns[index(equations.layout().duration_of(piece))], vector, numbers(first),
+                  numbers(second)) != ModeFlow::Ending::done)
+        return false;
+    // The rates f at the end make the gain (x_e)_x v + f tau; their own derivatives do the rest.
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(q), carried = first.leftCols(n) * gain;
+    const Eigen::VectorXd by_time = rate_along(mode, result.state, carried, zero);
+    const Eigen::VectorXd field = Eigen::Map<const Eigen::VectorXd>(values_.data(), n);
+    result.gain = carried + longer * field;
+    result.of_state.resize(n, n + 1 + q);
+    result.of_gain.resize(n, n + 1 + q);
+    result.of_state << first.leftCols(n), field, first.rightCols(q);
+    result.of_gain << second.leftCols(n), by_time, second.rightCols(q);
+    for (Eigen::Index j = 0; j < n + 1 + q && longer != 0; ++j) {
+        Eigen::VectorXd by_parameters = zero;
+        if (j > n)
+            by_parameters[j - n - 1] = 1;
+        result.of_gain.col(j) += longer * rate_along(mode, result.state, result.of_state.col(j), by_parameters);
+    }
+    return true;
+}
+
+/// What the rates of a mode gain; the rates themselves are the first of the values.
+Eigen::VectorXd SecondVariation::rate_along(std::size_t mode, const std::vector<double>& state,
+                                            const Eigen::VectorXd& by_state, const Eigen::VectorXd& by_parameters) {
+    inputs_ = state;
+    inputs_.insert(inputs_.end(), by_state.begin(), by_state.end());
+    inputs_.insert(inputs_.end(), parameters_.begin(), parameters_.end());
+    inputs_.insert(inputs_.end(), by_parameters.begin(), by_parameters.end());
+    values_.resize(2 * states_);
+    system_.modes().mode(mode).rates.evaluate(inputs_, values_, work_);
+    return Eigen::Map<const Eigen::VectorXd>(values_.data() + states_, index(states_));
+}
+
+/// A function's values with derivatives and with second ones, contracted with what the state gains.
+void SecondVariation::evaluate(const Function& function, const Tangent& tangent) {
+    inputs_ = tangent.state;
+    inputs_.insert(inputs_.end(), parameters_.begin(), parameters_.end());
+    inputs_.insert(inputs_.end(), tangent.gain.begin(), tangent.gain.end());
+    inputs_.resize(inputs_.size() + free_, 0.0);
+    values_.resize(function.outputs());
+    function.evaluate(inputs_, values_, work_);
+}
+
+/// Of h_x times the gain, after `evaluate`, with respect to start, duration and free parameters.
+Eigen::MatrixXd SecondVariation::derivative_of_gain(const Tangent& tangent, std::size_t values) const {
+    const auto n = index(states_), q = index(free_), count = index(values);
+    const Eigen::Map<const RowMajor> first(values_.data() + values, count, n + q),
+        second(first.data() + first.size(), count, n + q);
+    Eigen::MatrixXd result = first.leftCols(n) * tangent.of_gain + second.leftCols(n) * tangent.of_state;
+    result.rightCols(q) += second.rightCols(q);
+    return result;
+}
+
+void SecondVariation::pass(const Function& map, Tangent& tangent) {
+    const auto n = index(states_), q = index(free_);
+    evaluate(map, tangent);
+    tangent.of_gain = derivative_of_gain(tangent, states_);
+    const Eigen::Map<const RowMajor> first(values_.data() + n, n, n + q);
+    tangent.of_state = Eigen::MatrixXd(first.leftCols(n) * tangent.of_state);
+    tangent.of_state.rightCols(q) += first.rightCols(q);
+    tangent.gain = Eigen::VectorXd(first.leftCols(n) * tangent.gain);
+    tangent.state.assign(values_.begin(), values_.begin() + n);
+}
+
+} // namespace graze

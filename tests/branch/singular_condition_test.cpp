@@ -1,0 +1,165 @@
+// Conditions on multipliers: gradients against differences, and zeros where special points have been found.
+
+#include "branch/singular_condition.hpp"
+
+#include "branch/point_kind.hpp"
+#include "graze/symbolic/function.hpp"
+#include "orbit/collocation.hpp"
+#include "orbit/eigen_index.hpp"
+#include "orbit/shooting.hpp"
+
+#include "conditions.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+constexpr double pi = std::numbers::pi;
+
+Factory of_multiplier(double multiplier) {
+    return [multiplier](const OrbitEquations& equations, const OrbitEvaluation& at) {
+        return SingularCondition::of_multiplier(equations, at, multiplier);
+    };
+}
+
+/// All that have the gradients of their values. @return whether the motion has a complex pair of multipliers
+bool check_gradients(OrbitEquations& equations, const Orbit& orbit, const std::string& what, std::mt19937& random) {
+    const Eigen::VectorXd unknowns = equations.unknowns_of(orbit);
+    constexpr double step = 3e-6; // determinants change faster than what they are made of
+    expect_gradient(equations, unknowns, of_multiplier(1), what + " fold", random, step);
+    expect_gradient(equations, unknowns, of_multiplier(-1), what + " flip", random, step);
+    OrbitEvaluation at = equations.evaluation();
+    EXPECT_TRUE(equations.evaluate(unknowns, at)) << what;
+    auto torus = TorusCondition::of_pair(equations, at);
+    // A pair that is next to nothing has a modulus that differences do not see.
+    if (!torus || !torus->evaluate(equations, at) || torus->value() < -0.999)
+        return false;
+    expect_gradient(equations, unknowns, TorusCondition::of_pair, what + " torus", random, step);
+    return true;
+}
+
+TEST(SingularConditions, gradients_are_those_of_the_values_for_every_shipped_model) {
+    std::mt19937 random(5);
+    for (const Motion& motion : motions) {
+        const std::string name = motion.model;
+        const Model model = load_model(name);
+        const Orbit orbit = candidate(model, motion.time);
+        const Simulation simulation(model, {}, {}, integration(1e-14));
+        Shooting equations(simulation, orbit, {0, 1});
+        check_gradients(equations, orbit, name, random);
+    }
+}
+
+TEST(SingularConditions, torus_has_its_closed_form) {
+    // (u, v) turn with the frequency w and grow with p: multipliers exp(2 pi (p +- i w)) on u = v = 0.
+    const Model model = model_from(R"toml(
+[parameters]
+p = -0.1
+w = 0.3
+[states]
+x = 1
+y = 0
+theta = { initial = 0, period = "2*pi" }
+[definitions]
+u = "x - cos(theta)"
+v = "y - sin(2*theta)/3"
+[modes.only]
+rates = { x = "p*u - w*v - u*(u^2 + v^2) - sin(theta)", y = "w*u + p*v - v*(u^2 + v^2) + 2*cos(2*theta)/3", theta = 1 }
+[sections.start]
+state = "theta"
+value = 0
+)toml");
+    const Orbit orbit{parse_signature(model, "start"), model.parameter_values(), {{1, 0, 0}}, {2 * pi}, {}};
+    const Simulation simulation(model, {}, {}, integration(1e-14));
+    Shooting equations(simulation, orbit, {0, 1});
+    OrbitEvaluation at = equations.evaluation();
+    ASSERT_TRUE(equations.evaluate(equations.unknowns_of(orbit), at));
+    auto condition = TorusCondition::of_pair(equations, at);
+    ASSERT_TRUE(condition && condition->evaluate(equations, at));
+    const double square = std::exp(-0.4 * pi);
+    EXPECT_NEAR(condition->value(), square - 1, 1e-13);
+    // Along the branch, on which the orbit stays where it is.
+    const auto& gradient = condition->gradient();
+    EXPECT_NEAR(gradient[gradient.size() - 2], 4 * pi * square, 1e-11);
+    EXPECT_NEAR(gradient[gradient.size() - 1], 0, 1e-11);
+    std::mt19937 random(6);
+    EXPECT_TRUE(check_gradients(equations, orbit, "torus", random));
+    Shooting with_p(simulation, orbit, {0});
+    const Meeting met = meet(with_p, orbit, TorusCondition::of_pair);
+    EXPECT_GT(met.iterations, 0U);
+    EXPECT_LT(met.iterations, 10U);
+    EXPECT_NEAR(met.orbit.parameters[0], 0, 1e-13);
+}
+
+TEST(SingularConditions, fold_and_flip_of_the_bouncing_ball_have_their_closed_forms) {
+    // A ball on a table a sin(w t), one contact a period: it folds where a w^2 = g pi (1 - e) / (1 + e) and doubles
+    // its period where cos of the phase is -2 (1 + e^2) g / ((1 + e)^2 a w^2); by Newton's method, from orbits between.
+    const Model model = load_model("bouncing-ball");
+    const auto value = [&](const char* name) { return model.parameter_values()[model.independent_parameter(name)]; };
+    const double g = value("g"), e = value("e"), w = 2 * pi * value("f");
+    const double rise = pi * (1 - e) / (1 + e), turn = 2 * (1 + e * e) / ((1 + e) * (1 + e));
+    const double fold = g / (w * w) * rise, flip = g / (w * w) * std::hypot(rise, turn);
+    const Simulation simulation(model, {}, {}, integration(1e-14));
+    for (const double share : {0.1, 0.3, 0.7, 0.95}) {
+        const double a = fold + share * (flip - fold), phase = std::acos(rise * g / (a * w * w));
+        Orbit orbit{parse_signature(model, "impact"),
+                    model.parameter_values(),
+                    {{a * std::sin(phase), g / (2 * value("f")), phase}},
+                    {1 / value("f")},
+                    {}};
+        orbit.parameters[model.independent_parameter("a")] = a;
+        const double multiplier = share < 0.5 ? 1 : -1;
+        for (const bool by_collocation : {false, true}) {
+            std::unique_ptr<OrbitEquations> equations =
+                std::make_unique<Shooting>(simulation, orbit, std::vector{model.independent_parameter("a")});
+            if (by_collocation)
+                equations =
+                    std::make_unique<Collocation>(simulation, orbit, std::vector{model.independent_parameter("a")}, 20);
+            const Meeting met = meet(*equations, orbit, of_multiplier(multiplier));
+            ASSERT_GT(met.iterations, 0U) << share << ' ' << multiplier;
+            EXPECT_LT(met.iterations, 10U);
+            EXPECT_NEAR(met.orbit.parameters[model.independent_parameter("a")], multiplier > 0 ? fold : flip,
+                        1e-12 * fold)
+                << share;
+        }
+    }
+}
+
+TEST(SingularConditions, vanish_where_their_tests_have_found_points_of_symmetric_orbits) {
+    Model model = load_model("electromagnetic-testbed");
+    model.set_initial("I", 0.1);
+    const OrbitSolution solution = settled(model, "phase0", 600);
+    ASSERT_TRUE(solution.orbit.symmetry);
+    std::size_t folds = 0, losses = 0;
+    for (const int direction : {1, -1}) {
+        BranchSettings settings;
+        settings.parameter = model.independent_parameter("V0");
+        settings.direction = direction;
+        for (const SpecialPoint& special : follow_branch(model, solution.orbit, settings).special) {
+            if (special.type != PointType::fold && special.type != PointType::asymmetry)
+                continue;
+            (special.type == PointType::fold ? folds : losses) += 1;
+            const Simulation simulation(model, {}, {}, integration(1e-13));
+            Shooting equations(simulation, special.solution.orbit, {settings.parameter});
+            OrbitEvaluation at = equations.evaluation();
+            ASSERT_TRUE(equations.evaluate(equations.unknowns_of(special.solution.orbit), at));
+            auto condition = rule_of(special.type).condition(equations, at, special);
+            ASSERT_TRUE(condition && condition->evaluate(equations, at));
+            const double size = condition->gradient().transpose().cwiseProduct(equations.scales()).norm();
+            EXPECT_LT(std::abs(condition->value()), 1e-9 * size) << short_name(special.type);
+            const Meeting met =
+                meet(equations, special.solution.orbit, of_multiplier(special.type == PointType::fold ? 1 : -1));
+            ASSERT_GT(met.iterations, 0U);
+            EXPECT_NEAR(met.orbit.parameters[settings.parameter], special.parameter, 1e-11);
+        }
+    }
+    EXPECT_GE(folds, 1U);
+    EXPECT_GE(losses, 1U);
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,132 @@
+// Cyclic matrices against the same ones written out.
+
+#include "orbit/cyclic_matrix.hpp"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace graze {
+namespace {
+
+struct Case {
+    Eigen::Index n, m;
+    CyclicSystem system;
+    Eigen::VectorXd rows, columns;
+
+    Case(std::size_t states, std::size_t segments, unsigned seed)
+        : n(Eigen::Index(states)), m(Eigen::Index(segments)), system(states, 2), rows(size()), columns(size()) {
+        std::mt19937 random(seed);
+        std::normal_distribution<double> normal;
+        const auto chance = [&] { return normal(random); };
+        system.resize(segments);
+        for (std::size_t k = 0; k < segments; ++k) {
+            CyclicSystem::Block& block = system.block(k);
+            block.own = Eigen::MatrixXd::NullaryExpr(n + 1, n + 1, chance);
+            block.next.setZero();
+            block.next.bottomRows(n).setIdentity();
+            block.parameters = Eigen::MatrixXd::NullaryExpr(n + 1, 2, chance);
+            block.right = Eigen::VectorXd::NullaryExpr(n + 1, chance);
+        }
+        rows = Eigen::VectorXd::NullaryExpr(size(), [&] { return std::exp(chance()); });
+        columns = Eigen::VectorXd::NullaryExpr(size(), [&] { return std::exp(chance()); });
+    }
+    Eigen::Index size() const { return m * (n + 1); }
+    CyclicMatrix matrix(double factor) const { return {system, factor, rows, columns}; }
+    Eigen::MatrixXcd written_out(std::complex<double> factor) const {
+        Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(size(), size());
+        for (Eigen::Index k = 0; k < m; ++k) {
+            const CyclicSystem::Block& block = system.block(std::size_t(k));
+            const Eigen::Index at = k * (n + 1), next = (k + 1) % m * (n + 1);
+            result.block(at, at, n + 1, n + 1) += block.own;
+            result.block(at, next, n + 1, n) += (k + 1 == m ? factor : 1.0) * block.next.cast<std::complex<double>>();
+        }
+        return rows.asDiagonal() * result * columns.asDiagonal();
+    }
+};
+
+TEST(CyclicMatrices, bordered_systems_are_those_of_the_matrix_written_out) {
+    for (const std::size_t n : {1, 2, 5})
+        for (const std::size_t m : {1, 2, 7})
+            for (const double factor : {1.0, -1.0}) {
+                const Case one(n, m, unsigned(10 * n + m));
+                const Eigen::MatrixXd matrix = one.written_out(factor).real();
+                const Eigen::VectorXd b = Eigen::VectorXd::Random(one.size()), c = Eigen::VectorXd::Random(one.size());
+                Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(one.size() + 1, one.size() + 1);
+                whole.topLeftCorner(one.size(), one.size()) = matrix;
+                whole.topRightCorner(one.size(), 1) = b;
+                whole.bottomLeftCorner(1, one.size()) = c.transpose();
+                const Eigen::VectorXd unit = Eigen::VectorXd::Unit(one.size() + 1, one.size());
+                const Eigen::VectorXd expected = whole.fullPivLu().solve(unit),
+                                      other = whole.transpose().fullPivLu().solve(unit);
+                Eigen::VectorXd right, left;
+                double value = 0;
+                ASSERT_TRUE(one.matrix(factor).bordered(b, c, right, left, value));
+                const double allowed = 1e-11 * (expected.norm() + other.norm());
+                EXPECT_LT((right - expected.head(one.size())).norm(), allowed);
+                EXPECT_LT((left - other.head(one.size())).norm(), allowed);
+                EXPECT_NEAR(value, expected[one.size()], allowed);
+            }
+}
+
+TEST(CyclicMatrices, multipliers_make_the_matrix_singular_and_their_vectors_change_them) {
+    for (const std::size_t n : {2, 4})
+        for (const std::size_t m : {1, 3}) {
+            const Case one(n, m, unsigned(100 * n + m));
+            const auto all = one.matrix(1).multipliers();
+            EXPECT_EQ(all.size(), n);
+            for (const std::complex<double> wanted : all) {
+                CyclicMatrix::Multiplier found;
+                ASSERT_TRUE(one.matrix(1).multiplier_near(wanted, found));
+                EXPECT_LT(std::abs(found.value - wanted), 1e-10 * std::abs(wanted));
+                const Eigen::MatrixXcd matrix = one.written_out(found.value);
+                EXPECT_LT((matrix * found.right).norm(), 1e-10 * matrix.norm() * found.right.norm());
+                EXPECT_LT((found.left.transpose() * matrix).norm(), 1e-10 * matrix.norm() * found.left.norm());
+                // Another matrix next to it: the change of the multiplier against a difference.
+                Case changed = one;
+                const Eigen::MatrixXd change = Eigen::MatrixXd::Random(one.n + 1, one.n + 1);
+                constexpr double step = 1e-6;
+                std::complex<double> difference = 0;
+                for (const double sign : {1.0, -1.0}) {
+                    changed.system.block(0).own = one.system.block(0).own + sign * step * change;
+                    CyclicMatrix::Multiplier moved;
+                    ASSERT_TRUE(changed.matrix(1).multiplier_near(found.value, moved));
+                    difference += sign * moved.value / (2 * step);
+                }
+                const Eigen::MatrixXd scaled =
+                    one.rows.head(one.n + 1).asDiagonal() * change * one.columns.head(one.n + 1).asDiagonal();
+                const std::complex<double> expected =
+                    -(found.left.head(one.n + 1).transpose() * scaled.cast<std::complex<double>>() *
+                      found.right.head(one.n + 1))(0, 0);
+                EXPECT_LT(std::abs(difference - expected), 1e-6 * (std::abs(expected) + std::abs(wanted)));
+            }
+        }
+}
+
+TEST(CyclicMatrices, null_vectors_of_a_singular_matrix) {
+    for (const double factor : {1.0, -1.0}) {
+        Case one(3, 4, 5);
+        // Its last block is changed so that a vector of chance is taken to nothing.
+        const Eigen::VectorXd vector = Eigen::VectorXd::Random(one.size());
+        one.rows.setOnes();
+        one.columns.setOnes();
+        for (std::size_t k = 0; k < 4; ++k) {
+            CyclicSystem::Block& block = one.system.block(k);
+            const Eigen::Index at = Eigen::Index(k) * 4, next = (Eigen::Index(k) + 1) % 4 * 4;
+            const Eigen::VectorXd own = vector.segment(at, 4),
+                                  rest = block.own * own + (k == 3 ? factor : 1) * block.next * vector.segment(next, 3);
+            block.own -= rest * own.transpose() / own.squaredNorm();
+        }
+        Eigen::VectorXd right, left;
+        ASSERT_TRUE(one.matrix(factor).null_vectors(right, left));
+        EXPECT_NEAR(std::abs(right.dot(vector.normalized())), 1, 1e-11);
+        const Eigen::MatrixXd matrix = one.written_out(factor).real();
+        EXPECT_LT((matrix.transpose() * left).norm(), 1e-11 * matrix.norm());
+    }
+}
+
+} // namespace
+} // namespace graze
