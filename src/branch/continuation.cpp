@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace graze {
@@ -61,7 +62,6 @@ std::string_view name_of(ContinuationOutcome outcome) {
 Continuation::Continuation(ContinuationProblem& problem, const ContinuationOptions& options)
     : problem_(&problem), options_(options), next_step_(options.first_step) {
     options_.validate();
-    row_.resize(problem.unknowns());
     step_.resize(problem.unknowns());
 }
 
@@ -87,28 +87,49 @@ void Continuation::weigh(std::span<const double> direction, std::vector<double>&
         row[i] = direction[i] / (scales[i] * scales[i]) * (weights.empty() ? 1 : weights[i]);
 }
 
-/// Newton's method in the hyperplane across a row. @param allowed distance from where it began
+double Continuation::size_of(std::span<const double> step) const {
+    const auto scales = problem_->scales();
+    double size = 0;
+    for (std::size_t i = 0; i < step.size(); ++i)
+        size = std::isnan(step[i]) ? std::numeric_limits<double>::infinity()
+                                   : std::max(size, std::abs(step[i]) / scales[i]);
+    return size;
+}
+
+/// Corrects in the hyperplane across a row, and evaluates there. @param allowed distance from where it began
 bool Continuation::correct(std::vector<double>& u, std::span<const double> row, double allowed,
                            std::size_t& iterations) {
-    const auto scales = problem_->scales();
+    if (problem_->has_chords()) {
+        std::vector<double> trial = u;
+        if (chords(trial, row, allowed, iterations)) {
+            u = std::move(trial);
+            return true;
+        }
+    }
+    return newton(u, row, allowed, iterations);
+}
+
+bool Continuation::newton(std::vector<double>& u, std::span<const double> row, double allowed,
+                          std::size_t& iterations) {
     const std::vector<double> begin = u;
     std::vector<double> moved(u.size());
     double before = 0;
     for (iterations = 1; iterations <= options_.iterations; ++iterations) {
         if (!problem_->evaluate(u) || !problem_->solve(row, 0, false, step_, nullptr))
             return false;
-        double size = 0;
         for (std::size_t i = 0; i < u.size(); ++i) {
             u[i] += step_[i];
             moved[i] = u[i] - begin[i];
-            size = std::max(size, std::abs(step_[i]) / scales[i]);
         }
+        const double size = size_of(step_);
         if (!std::isfinite(size) || std::sqrt(product(moved, moved)) > allowed)
             return false;
         // Newton's method squares what is wrong: a correction this small has been the last one.
         if (size < options_.accuracy ||
-            (iterations > 1 && size < 0.1 * before && size * size < options_.accuracy * 1e-4))
+            (iterations > 1 && size < 0.1 * before && size * size < options_.accuracy * 1e-4)) {
+            easy_ = iterations <= good_iterations;
             return problem_->evaluate(u);
+        }
         if (iterations > 2 && size > before)
             return false;
         before = size;
@@ -116,18 +137,87 @@ bool Continuation::correct(std::vector<double>& u, std::span<const double> row, 
     return false;
 }
 
+/// The same with the derivatives that are at hand, of a point near by, which the corrections themselves improve (C. G.
+/// Broyden 1965). Derivatives are evaluated once, at the end, where they are needed anyway; and say whether it is one.
+bool Continuation::chords(std::vector<double>& u, std::span<const double> row, double allowed,
+                          std::size_t& iterations) {
+    // Corrections that shrink less than this are slower than Newton's method is.
+    constexpr double slow = 0.5;
+    // At which share of the accuracy corrections end, and at which the last one by the new derivatives is worth making.
+    constexpr double enough = 1e-3, worth_it = 1e-2;
+    constexpr std::size_t most = 12;
+    // From the first correction to the second: what Newton's method needs three iterations for shrinks by as much.
+    constexpr double fast = 0.1;
+    const std::vector<double> begin = u;
+    std::vector<double> moved(u.size()), step(u.size());
+    double before = 0;
+    made_.clear();
+    for (iterations = 1;; ++iterations) {
+        if (iterations > most || !problem_->chord(u, row, step))
+            return false;
+        accelerate(step);
+        for (std::size_t i = 0; i < u.size(); ++i) {
+            u[i] += step[i];
+            moved[i] = u[i] - begin[i];
+        }
+        const double size = size_of(step);
+        if (!std::isfinite(size) || std::sqrt(product(moved, moved)) > allowed)
+            return false;
+        if (iterations == 2)
+            easy_ = size < fast * before || size < options_.accuracy;
+        if (size < enough * options_.accuracy)
+            break;
+        if (iterations > 1 && size > slow * before) {
+            if (size < options_.accuracy)
+                break; // round-off
+            return false;
+        }
+        before = size;
+        made_.push_back(step);
+    }
+    if (iterations == 1)
+        easy_ = true;
+    if (!problem_->evaluate(u) || !problem_->solve(row, 0, false, step_, nullptr))
+        return false;
+    const double last = size_of(step_);
+    if (last > options_.accuracy)
+        return false;
+    if (last < worth_it * options_.accuracy)
+        return true;
+    for (std::size_t i = 0; i < u.size(); ++i)
+        u[i] += step_[i];
+    return problem_->evaluate(u);
+}
+
+/// Broyden's update of the derivatives, from the corrections that have been made, applied to the next one (as in C. T.
+/// Kelley, "Solving Nonlinear Equations with Newton's Method", SIAM 2003, chapter 4).
+void Continuation::accelerate(std::vector<double>& step) const {
+    for (std::size_t j = 0; j < made_.size(); ++j) {
+        const std::vector<double>& one = made_[j];
+        const double share = product(one, step) / product(one, one);
+        if (j + 1 == made_.size()) {
+            for (double& entry : step)
+                entry /= 1 - share;
+        } else {
+            for (std::size_t i = 0; i < step.size(); ++i)
+                step[i] += share * made_[j + 1][i];
+        }
+    }
+}
+
 /// The tangent at a point at which the problem is evaluated, on the side of the row.
 bool Continuation::find_tangent(ContinuationPoint& point, std::span<const double> row) {
     point.tangent.resize(point.u.size());
-    if (!problem_->solve(row, 1, true, point.tangent, nullptr))
+    if (!problem_->solve(row, 1, true, point.tangent, &point.determinant))
         return false;
     const double length = std::sqrt(product(point.tangent, point.tangent));
     if (!(length > 0) || !std::isfinite(length))
         return false;
     for (double& entry : point.tangent)
         entry /= length;
-    weigh(point.tangent, row_);
-    return problem_->solve(row_, 1, true, step_, &point.determinant);
+    // By Cramer's rule: bordered by the tangent instead of the row, whose product with what was solved for is 1.
+    point.determinant *= length;
+    return true;
 }
 
 bool Continuation::begin(ContinuationPoint point) {
@@ -261,9 +351,13 @@ bool Continuation::step() {
         next.u.resize(point_.u.size());
         for (std::size_t i = 0; i < next.u.size(); ++i)
             next.u[i] = point_.u[i] + length * point_.tangent[i];
-        undefined = !problem_->evaluate(next.u);
-        if (undefined || !correct(next.u, row, largest_correction * length, next.iterations) ||
-            !find_tangent(next, row))
+        const std::vector<double> predicted = next.u;
+        if (!correct(next.u, row, largest_correction * length, next.iterations)) {
+            undefined = !problem_->evaluate(predicted);
+            continue;
+        }
+        undefined = false;
+        if (!find_tangent(next, row))
             continue;
         const double angle = std::acos(std::clamp(product(next.tangent, point_.tangent), -1.0, 1.0));
         if (angle > options_.largest_angle && length > 2 * options_.smallest_step)
@@ -273,7 +367,7 @@ bool Continuation::step() {
         point_ = std::move(next);
         ++steps_;
         const double by_angle = angle > 0 ? 0.7 * options_.largest_angle / angle : growth;
-        const double by_work = point_.iterations <= good_iterations ? growth : shrinkage;
+        const double by_work = easy_ ? growth : shrinkage;
         next_step_ = std::clamp(length * std::clamp(std::min(by_angle, by_work), shrinkage, growth),
                                 options_.smallest_step, options_.largest_step);
         if (closes())

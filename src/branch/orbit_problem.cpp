@@ -61,6 +61,7 @@ bool OrbitProblem::evaluate(std::span<const double> u) {
     const Eigen::VectorXd unknowns = vector_of(u);
     if (at_.is_at(unknowns) && at_.scales == equations_->scales())
         return true;
+    row_.clear();
     if (equations_->evaluate(unknowns, at_) && evaluate_held())
         return true;
     at_.unknowns.resize(0);
@@ -83,19 +84,39 @@ bool OrbitProblem::evaluate_held() {
     return true;
 }
 
-bool OrbitProblem::solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
-                         double* determinant) {
+/// Factored once for as many right-hand sides as come.
+const OrbitEquations::Closed& OrbitProblem::closed_by(std::span<const double> row) {
+    if (std::equal(row.begin(), row.end(), row_.begin(), row_.end()))
+        return closed_;
     const Eigen::Index held = index(held_.size());
     Eigen::MatrixXd borders(1 + held, index(unknowns()));
-    Eigen::VectorXd values(1 + held);
     borders.row(0) = vector_of(row).transpose();
-    values[0] = right;
-    if (held > 0) {
+    if (held > 0)
         borders.bottomRows(held) = rows_;
-        values.tail(held) = homogeneous ? Eigen::VectorXd(Eigen::VectorXd::Zero(held)) : Eigen::VectorXd(-residuals_);
-    }
+    closed_ = equations_->close(at_, borders);
+    row_.assign(row.begin(), row.end());
+    return closed_;
+}
+
+bool OrbitProblem::solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
+                         double* determinant) {
+    const OrbitEquations::Closed& closed = closed_by(row);
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(1 + index(held_.size())), result;
+    values[0] = right;
+    if (!homogeneous && !held_.empty())
+        values.tail(index(held_.size())) = -residuals_;
+    if (determinant)
+        *determinant = closed.system.determinant();
+    if (!equations_->solve(at_, closed, values, homogeneous, result))
+        return false;
+    Eigen::Map<Eigen::VectorXd>(step.data(), result.size()) = result;
+    return true;
+}
+
+bool OrbitProblem::chord(std::span<const double> u, std::span<const double> row, std::span<double> step) {
     Eigen::VectorXd result;
-    if (!equations_->solve(at_, borders, values, homogeneous, result, determinant))
+    if (at_.unknowns.size() == 0 ||
+        !equations_->chord(at_, closed_by(row), vector_of(u), Eigen::VectorXd::Zero(1), result))
         return false;
     Eigen::Map<Eigen::VectorXd>(step.data(), result.size()) = result;
     return true;

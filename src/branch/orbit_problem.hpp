@@ -53,6 +53,8 @@ public:
     bool evaluate(std::span<const double> u) override;
     bool solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
                double* determinant) override;
+    bool has_chords() const override { return held_.empty() && equations_->has_chords(); }
+    bool chord(std::span<const double> u, std::span<const double> row, std::span<double> step) override;
     void accept(std::span<const double> u) override {
         // Scales need not be exact: what they cost is saved most of the time.
         constexpr std::size_t renewal = 5;
@@ -75,6 +77,7 @@ public:
 
 private:
     bool evaluate_held();
+    const OrbitEquations::Closed& closed_by(std::span<const double> row);
 
     std::unique_ptr<OrbitEquations> equations_;
     OrbitEvaluation at_;
@@ -82,6 +85,8 @@ private:
     std::span<const std::unique_ptr<OrbitCondition>> held_;
     Eigen::MatrixXd rows_;      ///< gradients of the conditions that are held
     Eigen::VectorXd residuals_; ///< how far they are off
+    std::vector<double> row_;        ///< which, with the conditions, closes the equations at the evaluation; or none
+    OrbitEquations::Closed closed_;
     std::size_t accepted_ = 0;
 };
 

@@ -133,7 +133,7 @@ bool CyclicMatrix::bordered(const Eigen::VectorXd& b, const Eigen::VectorXd& c, 
     const auto solve = [&](CyclicSystem& with, const Eigen::VectorXd& row, Eigen::VectorXd& solution) {
         Eigen::MatrixXd all = Eigen::MatrixXd::Zero(1, row.size() + 1);
         all.leftCols(row.size()) = row.transpose();
-        return with.factor() && with.solve(all, one, true, solution);
+        return with.factor() && with.solve(with.close(all), nullptr, one, solution);
     };
     Eigen::VectorXd backwards;
     if (!solve(system, c, right) || !solve(other, reversed(b), backwards))

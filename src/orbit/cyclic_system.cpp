@@ -9,9 +9,11 @@ namespace graze {
 
 namespace {
 
-/// Makes the first columns of [a | b] upper triangular by reflections. @return the sign of their determinant
-double reflect(Eigen::MatrixXd& a, Eigen::MatrixXd& b) {
+/// Makes the first columns of [a | b] upper triangular by reflections x - m (m^T x), whose mirrors m have the length
+/// sqrt(2). @return the sign of their determinant
+double reflect(Eigen::MatrixXd& a, Eigen::MatrixXd& b, Eigen::MatrixXd& mirrors) {
     double sign = 1;
+    mirrors.setZero();
     for (Eigen::Index c = 0; c < a.cols() && c + 1 < a.rows(); ++c) {
         const Eigen::Index rows = a.rows() - c;
         auto column = a.col(c).tail(rows);
@@ -20,10 +22,11 @@ double reflect(Eigen::MatrixXd& a, Eigen::MatrixXd& b) {
             continue;
         const double norm = std::sqrt(below + column[0] * column[0]);
         const double alpha = column[0] > 0 ? -norm : norm;
-        Eigen::VectorXd v = column;
-        v[0] -= alpha;
-        const double factor = 2 / v.squaredNorm();
-        const auto apply = [&](auto&& block) { block.noalias() -= v * (factor * (v.transpose() * block)).eval(); };
+        auto mirror = mirrors.col(c).tail(rows);
+        mirror = column;
+        mirror[0] -= alpha;
+        mirror *= std::sqrt(2 / mirror.squaredNorm());
+        const auto apply = [&](auto&& block) { block.noalias() -= mirror * (mirror.transpose() * block).eval(); };
         apply(a.bottomRightCorner(rows, a.cols() - c));
         apply(b.bottomRows(rows));
         column.tail(rows - 1).setZero();
@@ -32,12 +35,21 @@ double reflect(Eigen::MatrixXd& a, Eigen::MatrixXd& b) {
     return sign;
 }
 
+/// What the same reflections make of a vector.
+void reflect(Eigen::VectorXd& vector, const Eigen::MatrixXd& mirrors) {
+    for (Eigen::Index c = 0; c < mirrors.cols(); ++c) {
+        const Eigen::Index rows = vector.size() - c;
+        const auto mirror = mirrors.col(c).tail(rows);
+        vector.tail(rows) -= mirror * mirror.dot(vector.tail(rows));
+    }
+}
+
 } // namespace
 
 CyclicSystem::CyclicSystem(std::size_t states, std::size_t parameters) : n_(states), q_(parameters) {
     stack_.resize(index(2 * n_ + 1), index(n_ + 1));
-    right_.resize(index(2 * n_ + 1), index(2 * n_ + q_ + 1));
-    final_.resize(index(n_), index(2 * n_ + q_ + 1));
+    right_.resize(index(2 * n_ + 1), index(2 * n_ + q_));
+    final_.resize(index(n_), index(2 * n_ + q_));
 }
 
 void CyclicSystem::resize(std::size_t segments) {
@@ -48,13 +60,14 @@ void CyclicSystem::resize(std::size_t segments) {
                            Eigen::MatrixXd::Zero(index(n_ + 1), index(q_)), Eigen::VectorXd::Zero(index(n_ + 1))});
     for (std::size_t k = eliminated_.size(); k < segments; ++k)
         eliminated_.push_back(
-            {Eigen::MatrixXd(index(n_ + 1), index(n_ + 1)), Eigen::MatrixXd(index(n_ + 1), index(2 * n_ + q_ + 1))});
+            {Eigen::MatrixXd(index(n_ + 1), index(n_ + 1)), Eigen::MatrixXd(index(n_ + 1), index(2 * n_ + q_)),
+             Eigen::MatrixXd(index(2 * n_ + 1), index(n_ + 1))});
 }
 
 bool CyclicSystem::factor() {
     const Eigen::Index n = index(n_), q = index(q_);
-    // A copy of x_0, to which all others are related: C x_0 + D x_k + E p = r, at first x_0 - x_0 = 0.
-    Eigen::MatrixXd relation = Eigen::MatrixXd::Zero(n, 2 * n + q + 1); // C, D, E, r
+    // A copy of x_0, to which all others are related: C x_0 + D x_k + E p is known, at first x_0 - x_0 = 0.
+    Eigen::MatrixXd relation = Eigen::MatrixXd::Zero(n, 2 * n + q); // C, D, E
     relation.leftCols(n).setIdentity();
     relation.middleCols(n, n) = -Eigen::MatrixXd::Identity(n, n);
     sign_ = 1;
@@ -65,13 +78,12 @@ bool CyclicSystem::factor() {
         stack_.bottomRows(n + 1) = block.own;
         right_.setZero();
         right_.topLeftCorner(n, n) = relation.leftCols(n);
-        right_.topRightCorner(n, q + 1) = relation.rightCols(q + 1);
+        right_.topRightCorner(n, q) = relation.rightCols(q);
         right_.block(n, n, n + 1, n) = block.next;
         right_.block(n, 2 * n, n + 1, q) = block.parameters;
-        right_.bottomRightCorner(n + 1, 1) = block.right;
         if (!stack_.allFinite() || !right_.allFinite())
             return false;
-        sign_ *= reflect(stack_, right_);
+        sign_ *= reflect(stack_, right_, eliminated_[k].mirrors);
         for (Eigen::Index i = 0; i <= n; ++i)
             sign_ *= stack_(i, i) < 0 ? -1 : 1;
         eliminated_[k].triangle = stack_.topRows(n + 1);
@@ -100,53 +112,48 @@ double CyclicSystem::periodic_noise() const {
     return n == 0 ? 0 : round_off * values[0] * values.head(n - 1).prod();
 }
 
-CyclicSystem::Condensed CyclicSystem::condense(const Eigen::MatrixXd& borders, const Eigen::VectorXd& right,
-                                               bool homogeneous) const {
+/// The matrix of the equations of x_0 and p alone.
+Eigen::MatrixXd CyclicSystem::condense(const Eigen::MatrixXd& borders, std::vector<Eigen::MatrixXd>& shares) const {
     const Eigen::Index n = index(n_), q = index(q_);
-    Condensed result{Eigen::MatrixXd(n + q, n + q), Eigen::VectorXd(n + q)};
-    result.matrix.topLeftCorner(n, n) = final_.leftCols(n) + final_.middleCols(n, n);
-    result.matrix.topRightCorner(n, q) = final_.middleCols(2 * n, q);
-    result.values.head(n).setZero();
-    if (!homogeneous)
-        result.values.head(n) = final_.rightCols(1);
+    Eigen::MatrixXd result(n + q, n + q);
+    result.topLeftCorner(n, n) = final_.leftCols(n) + final_.middleCols(n, n);
+    result.topRightCorner(n, q) = final_.middleCols(2 * n, q);
     // In the further equations each start is replaced in its turn by x_0, the next start and p.
     Eigen::MatrixXd rows = borders;
     Eigen::MatrixXd start = Eigen::MatrixXd::Zero(q, n); // coefficients of the copy of x_0
-    Eigen::VectorXd constants = right;
+    shares.resize(count_);
     for (std::size_t k = 0; k < count_; ++k) {
         const Eliminated& gone = eliminated_[k];
         const Eigen::MatrixXd own = rows.middleCols(index(k) * (n + 1), n + 1);
+        shares[k].resize(0, 0);
         if (own.isZero(0))
             continue;
         // own (x_k, T_k) = own R^-1 (s - rest)
-        const Eigen::MatrixXd factor =
-            gone.triangle.triangularView<Eigen::Upper>().transpose().solve(own.transpose()).transpose();
-        const Eigen::MatrixXd change = factor * gone.rest;
+        shares[k] = gone.triangle.triangularView<Eigen::Upper>().transpose().solve(own.transpose()).transpose();
+        const Eigen::MatrixXd change = shares[k] * gone.rest;
         start -= change.leftCols(n);
         if (k + 1 < count_)
             rows.middleCols(index(k + 1) * (n + 1), n) -= change.middleCols(n, n);
         else
             start -= change.middleCols(n, n);
         rows.rightCols(q) -= change.middleCols(2 * n, q);
-        if (!homogeneous)
-            constants -= change.rightCols(1);
     }
-    result.matrix.bottomLeftCorner(q, n) = start;
-    result.matrix.bottomRightCorner(q, q) = rows.rightCols(q);
-    result.values.tail(q) = constants;
+    result.bottomLeftCorner(q, n) = start;
+    result.bottomRightCorner(q, q) = rows.rightCols(q);
     return result;
 }
 
 /// All unknowns, from the first start and the parameters, and the start after the last segment.
+/// @param constants of what is left of each segment; empty: zero
 Eigen::VectorXd CyclicSystem::expand(const Eigen::VectorXd& first, const Eigen::VectorXd& last,
-                                     bool homogeneous) const {
+                                     const std::vector<Eigen::VectorXd>& constants) const {
     const Eigen::Index n = index(n_), q = index(q_);
     Eigen::VectorXd solution(index(unknowns()));
     solution.tail(q) = first.tail(q);
     Eigen::VectorXd following = last; // x_{k+1}, going backwards
     for (std::size_t k = count_; k-- > 0;) {
         const Eliminated& gone = eliminated_[k];
-        Eigen::VectorXd sum = homogeneous ? Eigen::VectorXd::Zero(n + 1) : Eigen::VectorXd(gone.rest.rightCols(1));
+        Eigen::VectorXd sum = constants.empty() ? Eigen::VectorXd::Zero(n + 1) : constants[k];
         sum -= gone.rest.leftCols(n) * first.head(n) + gone.rest.middleCols(n, n) * following +
                gone.rest.middleCols(2 * n, q) * first.tail(q);
         gone.triangle.triangularView<Eigen::Upper>().solveInPlace(sum);
@@ -156,26 +163,53 @@ Eigen::VectorXd CyclicSystem::expand(const Eigen::VectorXd& first, const Eigen::
     return solution;
 }
 
-bool CyclicSystem::solve(const Eigen::MatrixXd& borders, const Eigen::VectorXd& right, bool homogeneous,
-                         Eigen::VectorXd& solution, double* determinant) const {
-    const Condensed condensed = condense(borders, right, homogeneous);
-    const Eigen::FullPivLU<Eigen::MatrixXd> lu(condensed.matrix);
-    if (determinant)
-        *determinant = sign_ * lu.determinant();
-    if (!condensed.matrix.allFinite() || !lu.isInvertible())
+CyclicSystem::Closed CyclicSystem::close(const Eigen::MatrixXd& borders) const {
+    Closed closed;
+    const Eigen::MatrixXd matrix = condense(borders, closed.shares_);
+    closed.lu_.compute(matrix);
+    closed.determinant_ = sign_ * closed.lu_.determinant();
+    closed.regular_ = matrix.allFinite() && closed.lu_.isInvertible();
+    return closed;
+}
+
+Eigen::VectorXd CyclicSystem::right_hand_sides() const {
+    const Eigen::Index width = index(n_ + 1);
+    Eigen::VectorXd result(index(count_) * width);
+    for (std::size_t k = 0; k < count_; ++k)
+        result.segment(index(k) * width, width) = blocks_[k].right;
+    return result;
+}
+
+bool CyclicSystem::solve(const Closed& closed, const Eigen::VectorXd* blocks, const Eigen::VectorXd& right,
+                         Eigen::VectorXd& solution) const {
+    if (!closed.regular_)
         return false;
-    const Eigen::VectorXd first = lu.solve(condensed.values);
-    solution = expand(first, first.head(index(n_)), homogeneous);
+    const Eigen::Index n = index(n_), q = index(q_);
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(n + q);
+    values.tail(q) = right;
+    std::vector<Eigen::VectorXd> constants;
+    for (std::size_t k = 0; blocks && k < count_; ++k) {
+        Eigen::VectorXd both(2 * n + 1);
+        both << values.head(n), blocks->segment(index(k) * (n + 1), n + 1);
+        reflect(both, eliminated_[k].mirrors);
+        constants.emplace_back(both.head(n + 1));
+        values.head(n) = both.tail(n);
+        if (closed.shares_[k].size() > 0)
+            values.tail(q) -= closed.shares_[k] * constants.back();
+    }
+    const Eigen::VectorXd first = closed.lu_.solve(values);
+    solution = expand(first, first.head(n), constants);
     return solution.allFinite();
 }
 
 bool CyclicSystem::null_vector(const Eigen::MatrixXd& borders, Eigen::VectorXd& vector) const {
-    const Condensed condensed = condense(borders, Eigen::VectorXd::Zero(index(q_)), true);
-    if (!condensed.matrix.allFinite())
+    std::vector<Eigen::MatrixXd> shares;
+    const Eigen::MatrixXd matrix = condense(borders, shares);
+    if (!matrix.allFinite())
         return false;
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(condensed.matrix, Eigen::ComputeFullV);
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeFullV);
     const Eigen::VectorXd first = svd.matrixV().rightCols(1);
-    vector = expand(first, first.head(index(n_)), true);
+    vector = expand(first, first.head(index(n_)), {});
     return vector.allFinite();
 }
 
@@ -187,7 +221,7 @@ std::pair<Eigen::MatrixXd, Eigen::MatrixXd> CyclicSystem::relation() const {
 Eigen::VectorXd CyclicSystem::between(const Eigen::VectorXd& first, const Eigen::VectorXd& last) const {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(index(n_ + q_));
     all.head(index(n_)) = first;
-    return expand(all, last, true).head(index(count_ * (n_ + 1)));
+    return expand(all, last, {}).head(index(count_ * (n_ + 1)));
 }
 
 } // namespace graze

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 #include <cstddef>
 #include <utility>
@@ -34,23 +35,40 @@ public:
     Block& block(std::size_t k) { return blocks_[k]; }
     const Block& block(std::size_t k) const { return blocks_[k]; }
 
-    /// @return false when a number is not finite
+    /// Factors the blocks, but for their right-hand sides. @return false when a number is not finite
     bool factor();
     /// Determinants of the system without parameters, up to a positive factor that does not vanish where the system
     /// is regular for some closure: of the periodic one, zero where a multiplier is 1, and of that with x_m = -x_0,
-    /// zero where one is -1. To be called after `factor`.
+    /// zero where one is -1. To be called after `factor`, like all below.
     double periodic_determinant() const;
     double antiperiodic_determinant() const;
     /// Value of the periodic one below which its sign is round-off.
     double periodic_noise() const;
 
-    /// Solves with q further equations. Unknowns are (x_0, T_0, x_1, T_1, ..., p).
-    /// @param borders q x unknowns(); @param right of them
-    /// @param homogeneous the blocks' right-hand sides are taken to be zero
-    /// @param determinant if not null: that of the whole, up to the same factor as above
-    /// @return false when the system is singular to working precision
-    bool solve(const Eigen::MatrixXd& borders, const Eigen::VectorXd& right, bool homogeneous,
-               Eigen::VectorXd& solution, double* determinant = nullptr) const;
+    /// The system closed by q further equations, factored: for as many right-hand sides as one likes. Unknowns are
+    /// (x_0, T_0, x_1, T_1, ..., p). A value of its own, but it is solved with the system that it was made from.
+    class Closed {
+    public:
+        /// False when the whole is singular to working precision.
+        bool is_regular() const { return regular_; }
+        /// Of the whole, up to the same factor as those of the system.
+        double determinant() const { return determinant_; }
+
+    private:
+        friend class CyclicSystem;
+        Eigen::FullPivLU<Eigen::MatrixXd> lu_;
+        std::vector<Eigen::MatrixXd> shares_; ///< of each segment's equations in the further ones; empty: none
+        bool regular_ = false;
+        double determinant_ = 0;
+    };
+    /// @param borders q x unknowns()
+    Closed close(const Eigen::MatrixXd& borders) const;
+    /// @param blocks right-hand sides of all blocks, one after another; null: zero. @param right of the further equations
+    /// @return false when the system is singular
+    bool solve(const Closed& closed, const Eigen::VectorXd* blocks, const Eigen::VectorXd& right,
+               Eigen::VectorXd& solution) const;
+    /// The blocks' own.
+    Eigen::VectorXd right_hand_sides() const;
     /// The vector that the blocks and the further equations' left-hand sides take nearest to zero, of any length: where
     /// they are singular, in the null space. @return false when a number is not finite
     bool null_vector(const Eigen::MatrixXd& borders, Eigen::VectorXd& vector) const;
@@ -62,22 +80,20 @@ public:
     Eigen::VectorXd between(const Eigen::VectorXd& first, const Eigen::VectorXd& last) const;
 
 private:
-    /// Equations of x_0 and p alone: matrix (x_0, p) = values.
-    struct Condensed {
-        Eigen::MatrixXd matrix;
-        Eigen::VectorXd values;
-    };
-    Condensed condense(const Eigen::MatrixXd& borders, const Eigen::VectorXd& right, bool homogeneous) const;
-    Eigen::VectorXd expand(const Eigen::VectorXd& first, const Eigen::VectorXd& last, bool homogeneous) const;
+    Eigen::MatrixXd condense(const Eigen::MatrixXd& borders, std::vector<Eigen::MatrixXd>& shares) const;
+    Eigen::VectorXd expand(const Eigen::VectorXd& first, const Eigen::VectorXd& last,
+                           const std::vector<Eigen::VectorXd>& constants) const;
 
-    /// What is left of a segment: triangle (x_k, T_k) + rest (x_0, x_{k+1}, p) = rest's last column.
+    /// What is left of a segment: triangle (x_k, T_k) + rest (x_0, x_{k+1}, p) = a constant; and by which reflections it
+    /// came to that, for the constant.
     struct Eliminated {
         Eigen::MatrixXd triangle, rest;
+        Eigen::MatrixXd mirrors; ///< columns; of zero length where there is nothing to reflect
     };
     std::size_t n_, q_, count_ = 0;
     std::vector<Block> blocks_;
     std::vector<Eliminated> eliminated_;
-    Eigen::MatrixXd stack_, right_, final_; ///< final_: n x (n of x_0, n of x_m, q, 1)
+    Eigen::MatrixXd stack_, right_, final_; ///< final_: n x (n of x_0, n of x_m, q)
     double sign_ = 1;
 };
 

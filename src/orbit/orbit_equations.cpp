@@ -1,5 +1,6 @@
 #include "orbit/orbit_equations.hpp"
 
+#include "flow/cyclic.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "orbit/eigen_index.hpp"
 
@@ -319,17 +320,17 @@ void OrbitEquations::pin(const Eigen::VectorXd& unknowns, const std::vector<bool
 /// Borders in which inner unknowns are replaced by what they follow from, in units of the scales: starts and durations,
 /// then parameters.
 Eigen::MatrixXd OrbitEquations::condensed(const OrbitEvaluation& at, const Eigen::MatrixXd& borders,
-                                          Eigen::VectorXd& right, bool homogeneous) const {
+                                          Eigen::VectorXd& lack) const {
     const Eigen::Index width = index(layout_.states()) + 1, q = index(layout_.free()), inner = index(layout_.inner()),
                        outer = index(layout_.inner_of(0));
     Eigen::MatrixXd result(borders.rows(), outer + q);
     result << borders.leftCols(outer), borders.rightCols(q);
+    lack.setZero(borders.rows());
     for (std::size_t k = 0; k < layout_.pieces() && inner > 0; ++k) {
         const Eigen::MatrixXd changes = borders.middleCols(index(layout_.inner_of(k)), inner) * at.pieces[k].inner;
         result.middleCols(index(layout_.start_of(k)), width) += changes.leftCols(width);
         result.rightCols(q) += changes.middleCols(width, q);
-        if (!homogeneous)
-            right -= changes.rightCols(1);
+        lack += changes.rightCols(1);
     }
     result.leftCols(outer) *= at.scales.head(outer).asDiagonal();
     result.rightCols(q) *= at.scales.tail(q).asDiagonal();
@@ -352,20 +353,70 @@ Eigen::VectorXd OrbitEquations::expanded(const OrbitEvaluation& at, const Eigen:
     return unknowns;
 }
 
-bool OrbitEquations::solve(const OrbitEvaluation& at, const Eigen::MatrixXd& borders, const Eigen::VectorXd& right,
-                           bool homogeneous, Eigen::VectorXd& step, double* determinant) const {
-    Eigen::VectorXd values = right, outer;
-    const Eigen::MatrixXd scaled = condensed(at, borders, values, homogeneous);
-    if (!at.system.solve(scaled, values, homogeneous, outer, determinant))
+OrbitEquations::Closed OrbitEquations::close(const OrbitEvaluation& at, const Eigen::MatrixXd& borders) const {
+    Closed closed;
+    closed.system = at.system.close(condensed(at, borders, closed.lack));
+    return closed;
+}
+
+bool OrbitEquations::solve(const OrbitEvaluation& at, const Closed& closed, const Eigen::VectorXd& right,
+                           bool homogeneous, Eigen::VectorXd& step) const {
+    Eigen::VectorXd outer, blocks;
+    if (!homogeneous)
+        blocks = at.system.right_hand_sides();
+    const Eigen::VectorXd values = homogeneous ? right : right - closed.lack;
+    if (!at.system.solve(closed.system, homogeneous ? nullptr : &blocks, values, outer))
         return false;
     step = expanded(at, outer, homogeneous);
     return true;
 }
 
+bool OrbitEquations::chord(const OrbitEvaluation& at, const Closed& closed, const Eigen::VectorXd& unknowns,
+                           const Eigen::VectorXd& right, Eigen::VectorXd& step) {
+    std::vector<double> parameters;
+    set_parameters(unknowns, parameters);
+    Eigen::VectorXd blocks(index(layout_.start_of(layout_.pieces()))), outer;
+    for (std::size_t k = 0; k < layout_.pieces(); ++k)
+        if (!set_right(k, unknowns, at, blocks))
+            return false;
+    if (!blocks.allFinite() || !at.system.solve(closed.system, &blocks, right, outer))
+        return false;
+    step = expanded(at, outer, true);
+    return true;
+}
+
+/// The right-hand side of a piece's equations at other unknowns than those of an evaluation, in its units.
+bool OrbitEquations::set_right(std::size_t k, const Eigen::VectorXd& unknowns, const OrbitEvaluation& at,
+                               Eigen::VectorXd& right) {
+    const std::size_t n = layout_.states(), place = layout_.start_of(k), segment = layout_.segment_of(k);
+    const Eigen::Index duration = index(layout_.duration_of(k));
+    std::vector<double> state(unknowns.data() + place, unknowns.data() + place + n);
+    if (flow_.run(modes_[segment], state, unknowns[duration]) != ModeFlow::Ending::done)
+        return false;
+    if (layout_.is_last(k)) {
+        double condition = 0;
+        if (!ends_.pass(segment, state, condition))
+            return false;
+        right[index(place)] = -condition / at.pieces[k].condition_unit;
+    } else {
+        right[index(place)] = (fixed_durations_[k] - unknowns[duration]) / at.scales[duration];
+    }
+    const std::size_t following = k + 1 < layout_.pieces() ? layout_.start_of(k + 1) : 0;
+    std::size_t active = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const bool held = following == 0 && (active == at.active.size() || at.active[active] != i);
+        active += following == 0 && !held ? 1 : 0;
+        const double start = unknowns[index(following + i)], period = ends_.periods()[i];
+        const double difference = held ? start - reference_[i] : without_turns(start - state[i], period);
+        right[index(place + 1 + i)] = -difference / at.scales[index(i)];
+    }
+    return true;
+}
+
 bool OrbitEquations::null_vector(const OrbitEvaluation& at, const Eigen::RowVectorXd& row,
                                  Eigen::VectorXd& vector) const {
-    Eigen::VectorXd zero = Eigen::VectorXd::Zero(1), outer;
-    const Eigen::MatrixXd borders = condensed(at, row, zero, true);
+    Eigen::VectorXd lack, outer;
+    const Eigen::MatrixXd borders = condensed(at, row, lack);
     if (!at.system.null_vector(borders / borders.norm(), outer))
         return false;
     const double size = outer.norm();

@@ -59,9 +59,26 @@ public:
     /// Evaluates the equations and their derivatives. @return false where that is impossible
     bool evaluate(const Eigen::VectorXd& unknowns, OrbitEvaluation& result);
 
-    /// Solves derivatives * step = -equations (or 0), borders * step = right. See CyclicSystem.
+    /// The equations at an evaluation together with further ones, whose rows are the borders, as many as parameters are
+    /// free: factored.
+    struct Closed {
+        CyclicSystem::Closed system;
+        Eigen::VectorXd lack; ///< what inner unknowns lack, in the further equations
+    };
+    Closed close(const OrbitEvaluation& at, const Eigen::MatrixXd& borders) const;
+    /// Solves derivatives * step = -equations (or 0), borders * step = right. @return false when that is singular
+    bool solve(const OrbitEvaluation& at, const Closed& closed, const Eigen::VectorXd& right, bool homogeneous,
+               Eigen::VectorXd& step) const;
     bool solve(const OrbitEvaluation& at, const Eigen::MatrixXd& borders, const Eigen::VectorXd& right,
-               bool homogeneous, Eigen::VectorXd& step, double* determinant = nullptr) const;
+               bool homogeneous, Eigen::VectorXd& step) const {
+        return solve(at, close(at, borders), right, homogeneous, step);
+    }
+    /// Whether `chord` is possible.
+    virtual bool has_chords() const { return layout_.inner() == 0; }
+    /// Solves the same for the equations at other unknowns, with the derivatives of the evaluation: the flow alone is
+    /// enough. @param right of the further equations. @return false when the equations are not defined there
+    bool chord(const OrbitEvaluation& at, const Closed& closed, const Eigen::VectorXd& unknowns,
+               const Eigen::VectorXd& right, Eigen::VectorXd& step);
     /// A vector that the derivatives map to (nearly) zero and whose product with the row is zero: where the equations
     /// are singular beyond their one branch, the direction of another. For one free parameter.
     bool null_vector(const OrbitEvaluation& at, const Eigen::RowVectorXd& row, Eigen::VectorXd& vector) const;
@@ -108,8 +125,8 @@ private:
     void assemble_closure(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvaluation& at,
                           std::vector<bool>& neutral) const;
     void pin(const Eigen::VectorXd& unknowns, const std::vector<bool>& neutral, OrbitEvaluation& at) const;
-    Eigen::MatrixXd condensed(const OrbitEvaluation& at, const Eigen::MatrixXd& borders, Eigen::VectorXd& right,
-                              bool homogeneous) const;
+    bool set_right(std::size_t k, const Eigen::VectorXd& unknowns, const OrbitEvaluation& at, Eigen::VectorXd& right);
+    Eigen::MatrixXd condensed(const OrbitEvaluation& at, const Eigen::MatrixXd& borders, Eigen::VectorXd& lack) const;
     Eigen::VectorXd expanded(const OrbitEvaluation& at, const Eigen::VectorXd& outer, bool homogeneous) const;
     void clear_remnants(Eigen::VectorXd& unknowns) const;
 

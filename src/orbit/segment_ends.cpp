@@ -1,5 +1,6 @@
 #include "orbit/segment_ends.hpp"
 
+#include "flow/cyclic.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <algorithm>
@@ -74,6 +75,25 @@ bool SegmentEnds::pass(std::size_t k, OrbitEvaluation::Piece& piece) {
     if (symmetry_ && k + 1 == signature_.size())
         apply(system_.symmetry(*symmetry_), piece);
     return std::all_of(piece.after.begin(), piece.after.end(), [](double value) { return std::isfinite(value); });
+}
+
+bool SegmentEnds::pass(std::size_t k, std::vector<double>& state, double& condition) {
+    std::copy(state.begin(), state.end(), inputs_.begin());
+    const EndFunction& end = ends_[k];
+    const std::span<double> values = std::span(values_).first(end.value->outputs());
+    end.value->evaluate(inputs_, values, work_);
+    condition = end.cyclic ? without_turns(values[0], periods_[end.state]) : values[0];
+    const auto apply = [&](const System::CompiledJump& map) {
+        std::copy(state.begin(), state.end(), inputs_.begin());
+        if (!map.identity)
+            map.map.evaluate(inputs_, state, work_);
+    };
+    const Segment& segment = signature_[k];
+    if (segment.end == SegmentEnd::event)
+        apply(system_.jump(system_.model().transitions[segment.index].jump));
+    if (symmetry_ && k + 1 == signature_.size())
+        apply(system_.symmetry(*symmetry_));
+    return std::all_of(state.begin(), state.end(), [](double value) { return std::isfinite(value); });
 }
 
 /// A map of states after those that have been applied, by the chain rule; parameters are handed through.

@@ -32,6 +32,9 @@ public:
     void field(std::size_t segment, std::span<const double> state, Eigen::VectorXd& result);
     /// Sets all but the flow of a segment's last piece from its end. @return false where the jump is not defined
     bool pass(std::size_t segment, OrbitEvaluation::Piece& piece);
+    /// The same without derivatives. @param state at the segment's end, replaced by the one after the jump
+    /// @param condition zero on the orbit
+    bool pass(std::size_t segment, std::vector<double>& state, double& condition);
     /// Of values as System::with_gradient gives them the gradient with respect to states and free parameters.
     Eigen::VectorXd gradient_of(std::span<const double> values) const;
 

@@ -26,6 +26,11 @@ public:
     /// @return false when the matrix is singular
     virtual bool solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
                        double* determinant) = 0;
+    /// Whether there is something cheaper than to evaluate derivatives anew.
+    virtual bool has_chords() const { return false; }
+    /// Solves derivatives * step = -F(u) together with row . step = 0, with the derivatives of the last `evaluate`, which
+    /// stay. @return false where F is not defined or the matrix is singular
+    virtual bool chord(std::span<const double>, std::span<const double>, std::span<double>) { return false; }
     /// Called before each step with the point from which it goes: scales may be chosen anew.
     virtual void accept(std::span<const double>) {}
     /// Takes whole periods out of the difference of two solutions, where some unknowns are angles.
@@ -120,6 +125,10 @@ private:
     void require_point(std::span<const double> u) const;
     double product(std::span<const double> a, std::span<const double> b) const;
     bool correct(std::vector<double>& u, std::span<const double> row, double allowed, std::size_t& iterations);
+    bool newton(std::vector<double>& u, std::span<const double> row, double allowed, std::size_t& iterations);
+    bool chords(std::vector<double>& u, std::span<const double> row, double allowed, std::size_t& iterations);
+    void accelerate(std::vector<double>& step) const;
+    double size_of(std::span<const double> step) const;
     bool find_tangent(ContinuationPoint& point, std::span<const double> row);
     bool begin(ContinuationPoint point);
     std::vector<double> any_row() const;
@@ -134,7 +143,9 @@ private:
     ContinuationOutcome outcome_ = ContinuationOutcome::going;
     double next_step_;
     std::size_t steps_ = 0;
-    std::vector<double> row_, step_, trial_;
+    std::vector<double> step_;
+    std::vector<std::vector<double>> made_; ///< corrections by chords, of one point
+    bool easy_ = false;                     ///< the last point has converged so fast that steps may grow
 };
 
 } // namespace graze
