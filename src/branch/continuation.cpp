@@ -99,12 +99,13 @@ double Continuation::size_of(std::span<const double> step) const {
 /// Corrects in the hyperplane across a row, and evaluates there. @param allowed distance from where it began
 bool Continuation::correct(std::vector<double>& u, std::span<const double> row, double allowed,
                            std::size_t& iterations) {
-    if (problem_->has_chords()) {
+    for (const bool renewed : {false, true}) {
         std::vector<double> trial = u;
-        if (chords(trial, row, allowed, iterations)) {
-            u = std::move(trial);
-            return true;
-        }
+        if (!problem_->has_chords() || (!renewed && !problem_->derivatives_are_dear()) ||
+            !chords(trial, row, allowed, renewed, iterations))
+            continue;
+        u = std::move(trial);
+        return true;
     }
     return newton(u, row, allowed, iterations);
 }
@@ -137,14 +138,16 @@ bool Continuation::newton(std::vector<double>& u, std::span<const double> row, d
     return false;
 }
 
-/// The same with the derivatives that are at hand, of a point near by, which the corrections themselves improve (C. G.
-/// Broyden 1965). Derivatives are evaluated once, at the end, where they are needed anyway; and say whether it is one.
-bool Continuation::chords(std::vector<double>& u, std::span<const double> row, double allowed,
+/// The same with derivatives of a point near by, which the corrections themselves improve (C. G. Broyden 1965): those
+/// that are at hand, or renewed where it begins. Derivatives are evaluated at the end, where they are needed anyway,
+/// and say whether it is one.
+bool Continuation::chords(std::vector<double>& u, std::span<const double> row, double allowed, bool renewed,
                           std::size_t& iterations) {
     // Corrections that shrink less than this are slower than Newton's method is.
     constexpr double slow = 0.5;
-    // At which share of the accuracy corrections end, and at which the last one by the new derivatives is worth making.
-    constexpr double enough = 1e-3, worth_it = 1e-2;
+    // Corrections end where the next one would be this share of the accuracy; and the last one, by the new derivatives,
+    // is made where it is more.
+    constexpr double enough = 1e-4;
     constexpr std::size_t most = 12;
     // From the first correction to the second: what Newton's method needs three iterations for shrinks by as much.
     constexpr double fast = 0.1;
@@ -153,7 +156,9 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
     double before = 0;
     made_.clear();
     for (iterations = 1;; ++iterations) {
-        if (iterations > most || !problem_->chord(u, row, step))
+        const bool first = renewed && iterations == 1;
+        if (iterations > most || (first && !problem_->evaluate(u)) ||
+            !(first ? problem_->solve(row, 0, false, step, nullptr) : problem_->chord(u, row, step)))
             return false;
         accelerate(step);
         for (std::size_t i = 0; i < u.size(); ++i) {
@@ -165,9 +170,10 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
             return false;
         if (iterations == 2)
             easy_ = size < fast * before || size < options_.accuracy;
-        if (size < enough * options_.accuracy)
+        const double ratio = iterations > 1 ? size / before : 1;
+        if (size * std::min(ratio, 1.0) < enough * options_.accuracy)
             break;
-        if (iterations > 1 && size > slow * before) {
+        if (ratio > slow && iterations > 1) {
             if (size < options_.accuracy)
                 break; // round-off
             return false;
@@ -182,7 +188,7 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
     const double last = size_of(step_);
     if (last > options_.accuracy)
         return false;
-    if (last < worth_it * options_.accuracy)
+    if (last < enough * options_.accuracy)
         return true;
     for (std::size_t i = 0; i < u.size(); ++i)
         u[i] += step_[i];
@@ -329,6 +335,32 @@ void Continuation::require_point(std::span<const double> u) const {
     require_finite(u, "an unknown");
 }
 
+/// The point ahead at a distance along the tangent: on the cubic through the last two points along their tangents,
+/// where that says much the same as the tangent alone.
+std::vector<double> Continuation::predict(double length) const {
+    constexpr double much = 0.5; // share of the step
+    const std::size_t count = point_.u.size();
+    std::vector<double> result(count), chord(count), off(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        result[i] = point_.u[i] + length * point_.tangent[i];
+        chord[i] = point_.u[i] - previous_.u[i];
+    }
+    const double last = steps_ == 0 ? 0 : std::sqrt(product(chord, chord));
+    if (!(last > 0) || !(length <= growth * last))
+        return result;
+    const double f = 1 + length / last, g = 1 - f;
+    for (std::size_t i = 0; i < count; ++i)
+        off[i] = g * g * (1 + 2 * f) * previous_.u[i] + f * f * (3 - 2 * f) * point_.u[i] +
+                 last * f * g * (g * previous_.tangent[i] - f * point_.tangent[i]) - result[i];
+    const double along = product(off, point_.tangent);
+    for (std::size_t i = 0; i < count; ++i)
+        off[i] -= along * point_.tangent[i];
+    if (std::sqrt(product(off, off)) < much * length)
+        for (std::size_t i = 0; i < count; ++i)
+            result[i] += off[i];
+    return result;
+}
+
 bool Continuation::step() {
     if (outcome_ != ContinuationOutcome::going)
         return false;
@@ -348,10 +380,7 @@ bool Continuation::step() {
             return false;
         }
         ContinuationPoint next;
-        next.u.resize(point_.u.size());
-        for (std::size_t i = 0; i < next.u.size(); ++i)
-            next.u[i] = point_.u[i] + length * point_.tangent[i];
-        const std::vector<double> predicted = next.u;
+        const std::vector<double> predicted = next.u = predict(length);
         if (!correct(next.u, row, largest_correction * length, next.iterations)) {
             undefined = !problem_->evaluate(predicted);
             continue;

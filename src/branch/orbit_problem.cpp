@@ -22,12 +22,19 @@ double range_of(const BranchSettings& settings) {
 
 OrbitProblem::OrbitProblem(std::unique_ptr<OrbitEquations> equations)
     : equations_(std::move(equations)), at_(equations_->evaluation()), weights_(equations_->unknowns(), 1.0) {
+    // All starts together, and all durations, count as much as those of a small model: steps are as long for a large
+    // one.
+    constexpr double usual_starts = 8, usual_durations = 4;
     const OrbitLayout& layout = equations_->layout();
+    const auto segments = static_cast<double>(layout.segments()), states = static_cast<double>(layout.states());
+    const double of_starts = std::min(1.0, usual_starts / (states * segments)),
+                 of_durations = std::min(1.0, usual_durations / segments);
     for (std::size_t k = 0; k < layout.pieces(); ++k) {
         const std::size_t segment = layout.segment_of(k), next = layout.duration_of(k);
         const auto count = static_cast<double>(1 + layout.last_piece(segment) - layout.first_piece(segment));
         std::fill(weights_.begin() + static_cast<std::ptrdiff_t>(layout.start_of(k)),
-                  weights_.begin() + static_cast<std::ptrdiff_t>(next), 1 / count);
+                  weights_.begin() + static_cast<std::ptrdiff_t>(next), of_starts / count);
+        weights_[next] = of_durations;
         const auto inner = weights_.begin() + static_cast<std::ptrdiff_t>(layout.inner_of(k));
         std::fill(inner, inner + static_cast<std::ptrdiff_t>(layout.inner()), 0.0);
     }

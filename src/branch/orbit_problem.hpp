@@ -45,7 +45,7 @@ public:
         return {equations_->scales().data(), static_cast<std::size_t>(equations_->scales().size())};
     }
     /// Pieces of a segment count together as much as one, and inner unknowns nothing: lengths are those of the orbit,
-    /// however it is laid out.
+    /// however it is laid out. Many states or segments count together as much as a few.
     std::span<const double> weights() const override { return weights_; }
     /// The row whose product with vectors is that with a direction, in units of the scales.
     std::vector<double> row_of(std::span<const double> direction) const;
@@ -54,6 +54,7 @@ public:
     bool solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
                double* determinant) override;
     bool has_chords() const override { return held_.empty() && equations_->has_chords(); }
+    bool derivatives_are_dear() const override { return equations_->derivatives_are_dear(); }
     bool chord(std::span<const double> u, std::span<const double> row, std::span<double> step) override;
     void accept(std::span<const double> u) override {
         // Scales need not be exact: what they cost is saved most of the time.
@@ -85,7 +86,7 @@ private:
     std::span<const std::unique_ptr<OrbitCondition>> held_;
     Eigen::MatrixXd rows_;      ///< gradients of the conditions that are held
     Eigen::VectorXd residuals_; ///< how far they are off
-    std::vector<double> row_;        ///< which, with the conditions, closes the equations at the evaluation; or none
+    std::vector<double> row_;   ///< which, with the conditions, closes the equations at the evaluation; or none
     OrbitEquations::Closed closed_;
     std::size_t accepted_ = 0;
 };

@@ -59,9 +59,9 @@ void CyclicSystem::resize(std::size_t segments) {
                            Eigen::MatrixXd::Zero(index(n_ + 1), index(n_)),
                            Eigen::MatrixXd::Zero(index(n_ + 1), index(q_)), Eigen::VectorXd::Zero(index(n_ + 1))});
     for (std::size_t k = eliminated_.size(); k < segments; ++k)
-        eliminated_.push_back(
-            {Eigen::MatrixXd(index(n_ + 1), index(n_ + 1)), Eigen::MatrixXd(index(n_ + 1), index(2 * n_ + q_)),
-             Eigen::MatrixXd(index(2 * n_ + 1), index(n_ + 1))});
+        eliminated_.push_back({Eigen::MatrixXd(index(n_ + 1), index(n_ + 1)),
+                               Eigen::MatrixXd(index(n_ + 1), index(2 * n_ + q_)),
+                               Eigen::MatrixXd(index(2 * n_ + 1), index(n_ + 1))});
 }
 
 bool CyclicSystem::factor() {

@@ -63,7 +63,8 @@ public:
     };
     /// @param borders q x unknowns()
     Closed close(const Eigen::MatrixXd& borders) const;
-    /// @param blocks right-hand sides of all blocks, one after another; null: zero. @param right of the further equations
+    /// @param blocks right-hand sides of all blocks, one after another; null: zero. @param right of the further
+    /// equations
     /// @return false when the system is singular
     bool solve(const Closed& closed, const Eigen::VectorXd* blocks, const Eigen::VectorXd& right,
                Eigen::VectorXd& solution) const;
@@ -84,8 +85,8 @@ private:
     Eigen::VectorXd expand(const Eigen::VectorXd& first, const Eigen::VectorXd& last,
                            const std::vector<Eigen::VectorXd>& constants) const;
 
-    /// What is left of a segment: triangle (x_k, T_k) + rest (x_0, x_{k+1}, p) = a constant; and by which reflections it
-    /// came to that, for the constant.
+    /// What is left of a segment: triangle (x_k, T_k) + rest (x_0, x_{k+1}, p) = a constant; and by which reflections
+    /// it came to that, for the constant.
     struct Eliminated {
         Eigen::MatrixXd triangle, rest;
         Eigen::MatrixXd mirrors; ///< columns; of zero length where there is nothing to reflect

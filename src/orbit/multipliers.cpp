@@ -14,7 +14,8 @@ namespace {
 
 /// Contraction within one factor beyond which small multipliers would be round-off.
 constexpr double most_contraction = 1e5;
-constexpr std::size_t most_parts = 1024;
+/// Into how many parts a piece is cut for that at most.
+constexpr double most_parts = 1024;
 
 /// Derivatives of the start of the next piece from those of the end of this one at fixed time, where the end condition
 /// and not the time says when it ends (saltation: Aizerman and Gantmakher 1958). Empty when it is met without speed.
@@ -98,39 +99,46 @@ private:
             result[index(i)] = field[(*active_)[i]] / at_->scales[index((*active_)[i])];
         return result;
     }
+    /// Whether one direction shrinks too much against another: by the matrix and its inverse.
     bool contracts(const Eigen::MatrixXd& flow) const {
         const Eigen::MatrixXd matrix = restricted(flow);
         if (matrix.size() == 0 || !matrix.allFinite())
             return false;
-        const Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix);
-        const Eigen::VectorXd& values = svd.singularValues();
-        return values[values.size() - 1] * most_contraction < values[0];
+        return !(matrix.norm() * matrix.partialPivLu().inverse().norm() < most_contraction);
     }
-    /// Follows a piece in ever more parts until none contracts too much, or what there is must do.
+    /// Follows a piece in parts of which none contracts too much, or what there is must do: each as long as the last
+    /// one that was good, shorter where that is too long.
     void split(double duration, std::vector<Eigen::MatrixXd>& flows, std::vector<std::vector<double>>& starts) {
+        constexpr double shorter = 0.5, longer = 1.5;
         const auto n = index(equations_->layout().states());
         if (!flow_) {
             flow_ = flow_of(equations_->simulation());
             flow_->set_parameters(at_->parameters);
         }
-        for (std::size_t count = 4; count <= most_parts; count *= 4) {
-            std::vector<Eigen::MatrixXd> finer;
-            std::vector<std::vector<double>> begins;
-            std::vector<double> state = starts.front();
-            bool good = true;
-            for (std::size_t part = 0; part < count; ++part) {
-                begins.push_back(state);
-                Eigen::MatrixXd flow;
-                if (run(*flow_, mode_, state, duration / static_cast<double>(count), flow) != ModeFlow::Ending::done)
-                    return;
-                good = good && !contracts(flow);
-                finer.emplace_back(flow.leftCols(n));
-            }
-            flows = std::move(finer);
-            starts = std::move(begins);
-            if (good)
+        std::vector<Eigen::MatrixXd> parts;
+        std::vector<std::vector<double>> begins;
+        std::vector<double> state = starts.front(), next;
+        const double shortest = duration / most_parts;
+        double length = shorter * duration;
+        for (double remaining = duration; remaining != 0;) {
+            // Not a remnant in the end.
+            const double here = std::abs(remaining) < longer * std::abs(length) ? remaining : length;
+            next = state;
+            Eigen::MatrixXd flow;
+            if (run(*flow_, mode_, next, here, flow) != ModeFlow::Ending::done)
                 return;
+            if (std::abs(here) > std::abs(shortest) && contracts(flow)) {
+                length = shorter * here;
+                continue;
+            }
+            begins.push_back(state);
+            parts.emplace_back(flow.leftCols(n));
+            state.swap(next);
+            length = longer * here;
+            remaining = here == remaining ? 0 : remaining - here;
         }
+        flows = std::move(parts);
+        starts = std::move(begins);
     }
 
     const OrbitEquations* equations_;

@@ -74,7 +74,9 @@ public:
         return solve(at, close(at, borders), right, homogeneous, step);
     }
     /// Whether `chord` is possible.
-    virtual bool has_chords() const { return layout_.inner() == 0; }
+    bool has_chords() const { return layout_.inner() == 0; }
+    /// Whether derivatives cost more than many flows: by a few inputs they do not.
+    bool derivatives_are_dear() const { return layout_.states() + layout_.free() >= many_inputs; }
     /// Solves the same for the equations at other unknowns, with the derivatives of the evaluation: the flow alone is
     /// enough. @param right of the further equations. @return false when the equations are not defined there
     bool chord(const OrbitEvaluation& at, const Closed& closed, const Eigen::VectorXd& unknowns,
@@ -109,6 +111,8 @@ protected:
     OrbitScales& orbit_scales() { return orbit_scales_; }
 
 private:
+    static constexpr std::size_t many_inputs = 12;
+
     /// Sets the end of a piece with its derivatives, and its field. @return false, with the problem said, where it
     /// cannot be followed
     virtual bool follow(std::size_t piece, const Eigen::VectorXd& unknowns, OrbitEvaluation& at) = 0;

@@ -194,6 +194,10 @@ direction = "falling"
         settings.direction = direction;
         for (const SpecialPoint& special : of_type(follow_branch(model, start, settings), PointType::extremum)) {
             const double amplitude = std::abs(special.solution.orbit.starts[0][0]);
+            if (amplitude < 1e-6) { // at rest, where the one side becomes the other: the shortest one
+                EXPECT_NEAR(special.solution.orbit.period(), 2 * pi, 1e-12);
+                continue;
+            }
             EXPECT_NEAR(amplitude, 2.433356, 1e-5);
             EXPECT_NEAR(special.solution.orbit.period(), quintic_period(amplitude), 1e-9);
             EXPECT_NEAR(special.solution.orbit.period(), 8.495414580788, 1e-9);

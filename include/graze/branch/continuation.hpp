@@ -26,10 +26,12 @@ public:
     /// @return false when the matrix is singular
     virtual bool solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
                        double* determinant) = 0;
-    /// Whether there is something cheaper than to evaluate derivatives anew.
+    /// Whether F alone can be evaluated, by `chord`; and whether that costs so much less than derivatives that those of
+    /// the last point are worth a try.
     virtual bool has_chords() const { return false; }
-    /// Solves derivatives * step = -F(u) together with row . step = 0, with the derivatives of the last `evaluate`, which
-    /// stay. @return false where F is not defined or the matrix is singular
+    virtual bool derivatives_are_dear() const { return false; }
+    /// Solves derivatives * step = -F(u) together with row . step = 0, with the derivatives of the last `evaluate`,
+    /// which stay. @return false where F is not defined or the matrix is singular
     virtual bool chord(std::span<const double>, std::span<const double>, std::span<double>) { return false; }
     /// Called before each step with the point from which it goes: scales may be chosen anew.
     virtual void accept(std::span<const double>) {}
@@ -125,8 +127,10 @@ private:
     void require_point(std::span<const double> u) const;
     double product(std::span<const double> a, std::span<const double> b) const;
     bool correct(std::vector<double>& u, std::span<const double> row, double allowed, std::size_t& iterations);
+    std::vector<double> predict(double length) const;
     bool newton(std::vector<double>& u, std::span<const double> row, double allowed, std::size_t& iterations);
-    bool chords(std::vector<double>& u, std::span<const double> row, double allowed, std::size_t& iterations);
+    bool chords(std::vector<double>& u, std::span<const double> row, double allowed, bool renewed,
+                std::size_t& iterations);
     void accelerate(std::vector<double>& step) const;
     double size_of(std::span<const double> step) const;
     bool find_tangent(ContinuationPoint& point, std::span<const double> row);
