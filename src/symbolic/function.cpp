@@ -7,33 +7,58 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <stdexcept>
-#include <unordered_map>
 
 namespace graze {
 
-Function::Function(std::span<const Expression> inputs, std::span<const Expression> outputs) : inputs_(inputs.size()) {
-    const Subgraph part = subgraph_of(outputs);
-    // Slots: the inputs, then one for each number and operation.
-    std::unordered_map<NodeIndex, std::uint32_t> input_slots;
-    for (std::size_t input = 0; input < inputs.size(); ++input) {
-        if (inputs[input].empty() || !inputs[input].is_symbol())
-            throw std::invalid_argument("the inputs of a function must be symbols");
-        if (part.graph && inputs[input].graph() != part.graph)
-            throw std::invalid_argument("an input belongs to another graph than the outputs");
-        if (!input_slots.emplace(inputs[input].index(), static_cast<std::uint32_t>(input)).second)
-            throw std::invalid_argument("'" + inputs[input].name() + "' is an input twice");
+Function::Function(std::span<const Expression> inputs, std::span<const Expression> outputs)
+    : Function(SymbolIndex(inputs), outputs) {}
+
+Function::Function(const SymbolIndex& inputs, std::span<const Expression> outputs) : output_count_(outputs.size()) {
+    compile(inputs, outputs);
+}
+
+Function::Function(const SymbolIndex& inputs, std::size_t outputs, std::span<const Output> given, Others others)
+    : output_count_(outputs), others_(others) {
+    if (others == Others::inputs && outputs > inputs.size())
+        throw std::invalid_argument("a function has fewer inputs than outputs that are inputs handed through");
+    std::vector<Expression> values;
+    for (const Output& output : given) {
+        if (output.place >= outputs || (!places_.empty() && output.place <= places_.back()))
+            throw std::invalid_argument("the places of a function's outputs do not rise, or there is no such place");
+        places_.push_back(static_cast<std::uint32_t>(output.place));
+        values.push_back(output.value);
     }
-    slots_ = inputs_;
+    compile(inputs, values);
+    if (places_.size() == outputs)
+        places_.clear();
+}
+
+/// Slots: the inputs that are used, then one for each number and operation.
+void Function::compile(const SymbolIndex& inputs, std::span<const Expression> outputs) {
+    const Subgraph part = subgraph_of(outputs);
+    if (part.graph && !inputs.are_of(part.graph))
+        throw std::invalid_argument("an input belongs to another graph than the outputs");
+    inputs_ = inputs.size();
+    for (const Subgraph::Item& item : part.items) {
+        const Node& node = part.node(item);
+        if (node.operation != Operation::symbol)
+            continue;
+        const std::optional<std::size_t> input = inputs.find(item.index);
+        if (!input)
+            throw std::invalid_argument("'" + part.graph->symbol_name(node) + "' is not an input");
+        used_.push_back(static_cast<std::uint32_t>(*input));
+    }
+    std::ranges::sort(used_);
+    slots_ = used_.size();
     std::vector<std::uint32_t> slots(part.items.size());
     for (std::size_t position = 0; position < slots.size(); ++position) {
         const Subgraph::Item& item = part.items[position];
         const Node& node = part.node(item);
         if (node.operation == Operation::symbol) {
-            const auto found = input_slots.find(item.index);
-            if (found == input_slots.end())
-                throw std::invalid_argument("'" + part.graph->symbol_name(node) + "' is not an input");
-            slots[position] = found->second;
+            const auto input = static_cast<std::uint32_t>(*inputs.find(item.index));
+            slots[position] = static_cast<std::uint32_t>(std::ranges::lower_bound(used_, input) - used_.begin());
             continue;
         }
         slots[position] = static_cast<std::uint32_t>(slots_++);
@@ -45,30 +70,55 @@ Function::Function(std::span<const Expression> inputs, std::span<const Expressio
     }
     for (const std::uint32_t root : part.roots)
         outputs_.push_back(slots[root]);
+    uses_all_ = used_.size() == inputs_;
+    if (uses_all_)
+        used_ = {};
+}
+
+void Function::take_inputs(std::span<const double> inputs, std::span<double> slots) const {
+    if (uses_all_)
+        std::copy_n(inputs.begin(), inputs_, slots.begin());
+    else
+        for (std::size_t slot = 0; slot < used_.size(); ++slot)
+            slots[slot] = inputs[used_[slot]];
+}
+
+void Function::give_outputs(std::span<const double> slots, std::span<const double> inputs,
+                            std::span<double> results) const {
+    if (outputs_.size() == output_count_) {
+        for (std::size_t output = 0; output < outputs_.size(); ++output)
+            results[output] = slots[outputs_[output]];
+        return;
+    }
+    if (others_ == Others::zero)
+        std::fill_n(results.begin(), output_count_, 0.0);
+    else if (results.data() != inputs.data())
+        std::copy_n(inputs.begin(), output_count_, results.begin());
+    for (std::size_t output = 0; output < outputs_.size(); ++output)
+        results[places_[output]] = slots[outputs_[output]];
 }
 
 void Function::evaluate(std::span<const double> inputs, std::span<double> results, std::span<double> work) const {
     require_room(inputs.size(), inputs_, "inputs of a function");
-    require_room(results.size(), outputs_.size(), "results of a function");
+    require_room(results.size(), output_count_, "results of a function");
     require_room(work.size(), slots_, "numbers for a function to work in");
-    std::copy_n(inputs.begin(), inputs_, work.begin());
+    take_inputs(inputs, work);
     for (const auto& [slot, value] : numbers_)
         work[slot] = value;
     for (const Step& step : steps_)
         work[step.result] = evaluate_operation(step.operation, work[step.left], work[step.right]);
-    for (std::size_t output = 0; output < outputs_.size(); ++output)
-        results[output] = work[outputs_[output]];
+    give_outputs(work, inputs, results);
 }
 
 void Function::error_bounds(std::span<const double> inputs, std::span<const double> errors, std::span<double> bounds,
                             std::span<double> work) const {
     require_room(inputs.size(), inputs_, "inputs of a function");
     require_room(errors.size(), inputs_, "errors of inputs");
-    require_room(bounds.size(), outputs_.size(), "error bounds of a function");
+    require_room(bounds.size(), output_count_, "error bounds of a function");
     require_room(work.size(), 2 * slots_, "numbers for a function to work in");
     const std::span<double> values = work.first(slots_), uncertain = work.subspan(slots_, slots_);
-    std::copy_n(inputs.begin(), inputs_, values.begin());
-    std::copy_n(errors.begin(), inputs_, uncertain.begin());
+    take_inputs(inputs, values);
+    take_inputs(errors, uncertain);
     for (const auto& [slot, value] : numbers_) {
         values[slot] = value;
         uncertain[slot] = 0;
@@ -79,13 +129,12 @@ void Function::error_bounds(std::span<const double> inputs, std::span<const doub
         uncertain[step.result] = operation_error(step.operation, values[step.result], left, uncertain[step.left], right,
                                                  uncertain[step.right]);
     }
-    for (std::size_t output = 0; output < outputs_.size(); ++output)
-        bounds[output] = uncertain[outputs_[output]];
+    give_outputs(uncertain, errors, bounds);
 }
 
 std::vector<double> Function::operator()(std::span<const double> inputs) const {
     require_size(inputs.size(), inputs_, "inputs of a function");
-    std::vector<double> results(outputs_.size());
+    std::vector<double> results(output_count_);
     std::vector<double> work(slots_);
     evaluate(inputs, results, work);
     return results;

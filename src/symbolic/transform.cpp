@@ -81,6 +81,42 @@ void require_variable(const Expression& symbol, const std::shared_ptr<Graph>& gr
         throw std::invalid_argument("the symbol belongs to another graph than the expressions");
 }
 
+/// Derivatives of the nodes of a subgraph, from those of its symbols. Those that are zero are empty.
+class Derivatives {
+public:
+    explicit Derivatives(const Subgraph& part) : part_(part), rates_(part.items.size()) {}
+
+    /// @param rate_of a symbol's: of its place in the subgraph; empty where it is zero
+    template <class RateOf>
+    void find(const RateOf& rate_of) {
+        for (std::size_t position = 0; position < rates_.size(); ++position) {
+            const Subgraph::Item& item = part_.items[position];
+            const int operands = arity(part_.node(item).operation);
+            if (operands == 0)
+                rates_[position] = rate_of(position);
+            else if (rates_[item.left].empty() && (operands == 1 || rates_[item.right].empty()))
+                rates_[position] = {};
+            else
+                rates_[position] = of_operation(item, operands);
+        }
+    }
+    /// Of an expression.
+    const Expression& of_root(std::size_t root) const { return rates_[part_.roots[root]]; }
+
+private:
+    Expression of_operation(const Subgraph::Item& item, int operands) const {
+        const Subgraph::Item& left = part_.items[item.left];
+        const Subgraph::Item& right = part_.items[operands == 2 ? item.right : item.left];
+        Expression result =
+            derivative(part_.node(item).operation, part_.expression(item), part_.expression(left),
+                       part_.expression(right), rates_[item.left], operands == 2 ? rates_[item.right] : Expression());
+        return result.is_number(0) ? Expression() : result;
+    }
+
+    const Subgraph& part_;
+    std::vector<Expression> rates_;
+};
+
 } // namespace
 
 std::vector<Expression> differentiate_along(std::span<const Expression> expressions,
@@ -94,31 +130,17 @@ std::vector<Expression> differentiate_along(std::span<const Expression> expressi
         if (!components.emplace(symbol.index(), component).second)
             throw std::invalid_argument("symbol '" + symbol.name() + "' has two components");
     }
-    std::vector<Expression> rates(part.items.size()); // empty where zero
-    for (std::size_t position = 0; position < rates.size(); ++position) {
-        const Subgraph::Item& item = part.items[position];
-        const Operation operation = part.node(item).operation;
-        const int operands = arity(operation);
-        if (operands == 0) {
-            const auto found = components.find(item.index);
-            if (found != components.end() && !found->second.is_number(0))
-                rates[position] = found->second;
-            continue;
-        }
-        if (rates[item.left].empty() && (operands == 1 || rates[item.right].empty()))
-            continue;
-        const Subgraph::Item& left = part.items[item.left];
-        const Subgraph::Item& right = part.items[operands == 2 ? item.right : item.left];
-        const Expression result =
-            derivative(operation, part.expression(item), part.expression(left), part.expression(right),
-                       rates[item.left], operands == 2 ? rates[item.right] : Expression());
-        if (!result.is_number(0))
-            rates[position] = result;
-    }
+    Derivatives derivatives(part);
+    derivatives.find([&](std::size_t position) {
+        const auto found = components.find(part.items[position].index);
+        return found == components.end() || found->second.is_number(0) ? Expression() : found->second;
+    });
     std::vector<Expression> results;
     results.reserve(part.roots.size());
-    for (const std::uint32_t root : part.roots)
-        results.push_back(rates[root].empty() ? part.graph->number(0) : rates[root]);
+    for (std::size_t root = 0; root < part.roots.size(); ++root) {
+        const Expression& result = derivatives.of_root(root);
+        results.push_back(result.empty() ? part.graph->number(0) : result);
+    }
     return results;
 }
 
@@ -128,21 +150,38 @@ std::vector<Expression> differentiate(std::span<const Expression> expressions, c
     return differentiate_along(expressions, {&along, 1});
 }
 
-std::vector<Expression> jacobian(std::span<const Expression> expressions, std::span<const Expression> symbols) {
-    const std::vector<Expression> occurring = symbols_of(expressions); // of many symbols, mostly few
-    const std::size_t columns = symbols.size();
-    std::vector<Expression> rows(expressions.size() * columns);
-    if (rows.empty())
-        return rows;
-    for (std::size_t column = 0; column < columns; ++column) {
-        require_variable(symbols[column], expressions.front().graph());
-        const bool occurs = std::find(occurring.begin(), occurring.end(), symbols[column]) != occurring.end();
-        const std::vector<Expression> derivatives =
-            occurs ? differentiate(expressions, symbols[column])
-                   : std::vector<Expression>(expressions.size(), expressions.front().graph()->number(0));
-        for (std::size_t row = 0; row < expressions.size(); ++row)
-            rows[row * columns + column] = derivatives[row];
+std::vector<JacobianEntry> sparse_jacobian(std::span<const Expression> expressions, const SymbolIndex& symbols) {
+    std::vector<JacobianEntry> entries;
+    for (std::size_t row = 0; row < expressions.size(); ++row) {
+        const Subgraph part = subgraph_of(expressions.subspan(row, 1));
+        if (!symbols.are_of(part.graph))
+            throw std::invalid_argument("a symbol belongs to another graph than the expressions");
+        std::vector<std::pair<std::size_t, std::size_t>> occurring; // column, position
+        for (std::size_t position = 0; position < part.items.size(); ++position)
+            if (part.node(part.items[position]).operation == Operation::symbol)
+                if (const auto column = symbols.find(part.items[position].index))
+                    occurring.emplace_back(*column, position);
+        std::ranges::sort(occurring);
+        const Expression one = part.graph->number(1);
+        Derivatives derivatives(part);
+        for (const auto& occurrence : occurring) {
+            derivatives.find([&](std::size_t position) { return position == occurrence.second ? one : Expression(); });
+            if (const Expression& value = derivatives.of_root(0); !value.empty())
+                entries.push_back({row, occurrence.first, value});
+        }
     }
+    return entries;
+}
+
+std::vector<Expression> jacobian(std::span<const Expression> expressions, std::span<const Expression> symbols) {
+    for (const Expression& symbol : symbols)
+        require_variable(symbol, expressions.empty() ? nullptr : expressions.front().graph());
+    if (expressions.empty() || symbols.empty())
+        return {};
+    std::vector<JacobianEntry> entries = sparse_jacobian(expressions, SymbolIndex(symbols));
+    std::vector<Expression> rows(expressions.size() * symbols.size(), expressions.front().graph()->number(0));
+    for (JacobianEntry& entry : entries)
+        rows[entry.row * symbols.size() + entry.column] = std::move(entry.value);
     return rows;
 }
 

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <vector>
 
 namespace graze {
 namespace {
@@ -29,6 +32,46 @@ TEST_F(FunctionTest, EvaluatesEveryOperation) {
     EXPECT_EQ(function.inputs(), 2u);
     EXPECT_EQ(function.outputs(), outputs.size());
     EXPECT_EQ(function(std::vector{a, b}), expected);
+}
+
+TEST_F(FunctionTest, OutputsThatAreNotGivenAreZeroOrInputs) {
+    const Expression z = graph->symbol("z");
+    const SymbolIndex inputs(std::vector{x, y, z});
+    const std::vector<Function::Output> given{{1, x * z}, {4, graph->number(3)}};
+    const Function zeros(inputs, 6, given, Function::Others::zero);
+    EXPECT_EQ(zeros.outputs(), 6u);
+    EXPECT_EQ(zeros.operations(), 1u);
+    EXPECT_EQ(zeros(std::vector{2.0, 5.0, 7.0}), (std::vector<double>{0, 14, 0, 0, 3, 0}));
+    const std::vector<Function::Output> one{{1, x * z}};
+    const Function handed(inputs, 3, one, Function::Others::inputs);
+    EXPECT_EQ(handed(std::vector{2.0, 5.0, 7.0}), (std::vector<double>{2, 14, 7}));
+    std::vector<double> in_place{2, 5, 7}, work(handed.workspace());
+    handed.evaluate(in_place, in_place, work);
+    EXPECT_EQ(in_place, (std::vector<double>{2, 14, 7}));
+    std::vector<double> bounds(6), room(2 * std::max(zeros.workspace(), handed.workspace()));
+    const std::vector<double> at{2, 5, 7}, errors{1e-3, 2e-3, 4e-3};
+    zeros.error_bounds(at, errors, bounds, room);
+    EXPECT_EQ(bounds[0], 0);
+    EXPECT_NEAR(bounds[1], 7e-3 + 8e-3, 1e-12);
+    handed.error_bounds(at, errors, bounds, room);
+    EXPECT_EQ(bounds[0], 1e-3);
+    EXPECT_EQ(bounds[2], 4e-3);
+    // Only what is used is read into the slots.
+    EXPECT_EQ(Function(inputs, std::vector{y}).workspace(), 1u);
+}
+
+TEST_F(FunctionTest, PlacesOfOutputsMustRiseAndExist) {
+    const SymbolIndex inputs(std::vector{x, y});
+    const auto make = [&](std::size_t outputs, std::vector<Function::Output> given, Function::Others others) {
+        return Function(inputs, outputs, given, others);
+    };
+    EXPECT_THROW(make(2, {{2, x}}, Function::Others::zero), std::invalid_argument);
+    EXPECT_THROW(make(2, {{1, x}, {1, y}}, Function::Others::zero), std::invalid_argument);
+    EXPECT_THROW(make(2, {{1, x}, {0, y}}, Function::Others::zero), std::invalid_argument);
+    EXPECT_THROW(make(3, {{1, x}}, Function::Others::inputs), std::invalid_argument);
+    EXPECT_THROW(make(2, {{1, Expression()}}, Function::Others::zero), std::invalid_argument);
+    EXPECT_THROW(make(2, {{1, Graph::create()->symbol("x")}}, Function::Others::zero), std::invalid_argument);
+    EXPECT_EQ(make(2, {}, Function::Others::inputs)(std::vector{1.0, 2.0}), (std::vector<double>{1, 2}));
 }
 
 TEST_F(FunctionTest, ErrorBoundsHoldAndAreNotMuchLarger) {

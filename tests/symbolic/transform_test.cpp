@@ -76,6 +76,22 @@ TEST_F(TransformTest, JacobiansHaveTheirPartialDerivativesRowByRow) {
     EXPECT_TRUE(jacobian(expressions, {}).empty());
 }
 
+TEST_F(TransformTest, SparseJacobiansHaveWhatIsNotZero) {
+    const std::vector<Expression> expressions{parse("x*y"), parse("3"), parse("sin(x) + z - z")}, columns{z, y, x};
+    const std::vector<JacobianEntry> entries = sparse_jacobian(expressions, SymbolIndex(columns));
+    ASSERT_EQ(entries.size(), 3u);
+    const std::vector<Expression> dense = jacobian(expressions, columns);
+    std::vector<Expression> filled(dense.size(), graph->number(0));
+    for (const JacobianEntry& entry : entries)
+        filled[entry.row * columns.size() + entry.column] = entry.value;
+    EXPECT_EQ(filled, dense);
+    EXPECT_EQ(entries[0].column, 1u);
+    EXPECT_EQ(entries[1].column, 2u);
+    EXPECT_EQ(entries[2].row, 2u);
+    EXPECT_TRUE(sparse_jacobian({}, SymbolIndex(columns)).empty());
+    EXPECT_TRUE(sparse_jacobian(expressions, SymbolIndex()).empty());
+}
+
 TEST_F(TransformTest, DerivativesOfSimpleExpressionsAreSimple) {
     EXPECT_EQ(derivative(x, 1), graph->number(1));
     EXPECT_EQ(derivative(y, 1), graph->number(0));

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "graze/symbolic/expression.hpp"
+#include "graze/symbolic/symbol_index.hpp"
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <utility>
@@ -15,7 +17,17 @@ Expression differentiate(const Expression& expression, const Expression& symbol)
 std::vector<Expression> differentiate(std::span<const Expression> expressions, const Expression& symbol);
 
 /// All partial derivatives with respect to several symbols, row by row: expressions x symbols.
+/// @throws std::invalid_argument for a symbol that is named twice
 std::vector<Expression> jacobian(std::span<const Expression> expressions, std::span<const Expression> symbols);
+/// A partial derivative that is not 0 throughout.
+struct JacobianEntry {
+    std::size_t row = 0;    ///< of the expression
+    std::size_t column = 0; ///< of the symbol
+    Expression value{};
+};
+/// Those of several expressions, row by row, by rising column. Time goes by the size of each expression times the
+/// number of symbols in it, not by that of all symbols.
+std::vector<JacobianEntry> sparse_jacobian(std::span<const Expression> expressions, const SymbolIndex& symbols);
 /// The derivative along a vector: the sum of the partial derivatives with respect to symbols, times the component of
 /// each. Shared parts are visited once, whatever the number of components.
 using Component = std::pair<Expression, Expression>; ///< symbol, component of the vector (any expression)
