@@ -25,7 +25,7 @@ public:
     Function function_of(std::span<const Expression> functions);
     Function function_of(const Expression& function) { return function_of(std::span(&function, 1)); }
     /// The same of a map of states, which is the identity where it is empty.
-    Function map_of(std::span<const Expression> map) { return function_of(map.empty() ? states_ : map); }
+    Function map_of(const std::vector<Expression>& map) { return function_of(map.empty() ? states_ : map); }
 
     Model& model() { return model_; }
     /// Of all functions compiled.
@@ -62,15 +62,21 @@ Expression VariationalCompiler::new_symbol(const std::string& base) {
 }
 
 Function VariationalCompiler::function_of(std::span<const Expression> functions) {
-    std::vector<Expression> outputs = model_.expand(functions);
-    model_.require_known(known_, outputs);
-    const std::vector<Expression> first = jacobian(outputs, variables_),
-                                  second = jacobian(differentiate_along(outputs, along_), variables_);
-    outputs.insert(outputs.end(), first.begin(), first.end());
-    outputs.insert(outputs.end(), second.begin(), second.end());
+    const std::vector<Expression> values = model_.expand(functions);
+    model_.require_known(known_, values);
+    std::vector<Function::Output> outputs;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        outputs.push_back({i, values[i]});
+    std::size_t place = values.size();
+    const SymbolIndex variables(variables_);
+    for (const auto& rows : {values, differentiate_along(values, along_)}) {
+        for (JacobianEntry& entry : sparse_jacobian(rows, variables))
+            outputs.push_back({place + entry.row * variables.size() + entry.column, std::move(entry.value)});
+        place += rows.size() * variables.size();
+    }
     std::vector<Expression> inputs = known_;
     inputs.insert(inputs.end(), vector_.begin(), vector_.end());
-    Function function(inputs, outputs);
+    Function function(SymbolIndex(inputs), place, outputs, Function::Others::zero);
     workspace_ = std::max(workspace_, function.workspace());
     return function;
 }

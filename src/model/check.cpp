@@ -21,7 +21,13 @@ using Used = std::vector<bool>;
 
 class Checker {
 public:
-    explicit Checker(const Model& model) : model_(model) {}
+    explicit Checker(const Model& model) : model_(model) {
+        for (std::size_t mode = 0; mode < model_.modes.size(); ++mode)
+            for (const std::size_t event : model_.modes[mode].watched)
+                watched_.emplace(mode, event);
+        for (const Transition& transition : model_.transitions)
+            with_transition_.emplace(transition.mode, transition.event);
+    }
 
     std::vector<ModelWarning> run() {
         check_symbols();
@@ -47,11 +53,9 @@ private:
 
     void check_symbols() {
         std::set<std::string> used;
-        std::vector<Expression> all;
-        for (const ModelExpression& item : model_expressions(model_))
-            all.push_back(item.expression);
-        for (const Expression& symbol : symbols_of(all))
-            used.insert(symbol.name());
+        for (const ExpressionRole role : {ExpressionRole::in_parameters, ExpressionRole::general})
+            for (const Expression& symbol : symbols_of(expressions_of(model_, role)))
+                used.insert(symbol.name());
         for (const Parameter& parameter : model_.parameters)
             if (used.count(parameter.name) == 0)
                 warn("nothing uses the parameter '{}'", parameter.name);
@@ -79,17 +83,19 @@ private:
                 open.push_back(mode);
             reached[mode] = true;
         };
+        std::vector<std::vector<const Transition*>> leaving(model_.modes.size());
+        for (const Transition& transition : model_.transitions)
+            if (is_watched(transition))
+                leaving[transition.mode].push_back(&transition);
         while (!open.empty()) {
             const std::size_t mode = open.back();
             open.pop_back();
-            for (const Transition& transition : model_.transitions) {
-                if (transition.mode != mode || !is_watched(transition))
-                    continue;
-                for (const Alternative& alternative : transition.next)
+            for (const Transition* transition : leaving[mode]) {
+                for (const Alternative& alternative : transition->next)
                     if (alternative.mode)
                         reach(*alternative.mode);
-                if (transition.chatter)
-                    reach(transition.chatter->mode);
+                if (transition->chatter)
+                    reach(transition->chatter->mode);
             }
         }
         for (std::size_t i = 0; i < reached.size(); ++i)
@@ -99,8 +105,7 @@ private:
     }
 
     bool is_watched(const Transition& transition) const {
-        const std::vector<std::size_t>& watched = model_.modes[transition.mode].watched;
-        return std::find(watched.begin(), watched.end(), transition.event) != watched.end();
+        return watched_.contains({transition.mode, transition.event});
     }
 
     void check_jumps() {
@@ -118,7 +123,7 @@ private:
     void check_transitions() {
         for (std::size_t i = 0; i < model_.modes.size(); ++i)
             for (const std::size_t event : model_.modes[i].watched)
-                if (model_.find_transition(i, event) == nullptr)
+                if (!with_transition_.contains({i, event}))
                     warn("mode '{}' watches the section '{}' but has no transition for it: nothing will happen there",
                          model_.modes[i].name, model_.events[event].name);
         std::set<std::string> labels;
@@ -220,6 +225,7 @@ private:
     }
 
     const Model& model_;
+    std::set<std::pair<std::size_t, std::size_t>> watched_, with_transition_; ///< mode and event
     std::vector<ModelWarning> warnings_;
 };
 

@@ -19,12 +19,10 @@ Function both_sides(Model model, const Symmetry& symmetry, std::size_t mode) {
     const std::vector<Expression> states = model.state_symbols();
     const std::vector<Expression> map = model.expand(symmetry.map);
     const std::vector<Expression> rates = model.expand(model.modes[mode].rates);
-    std::vector<Expression> sides(states.size(), model.graph->number(0));
-    for (std::size_t j = 0; j < states.size(); ++j) {
-        const std::vector<Expression> column = differentiate(map, states[j]);
-        for (std::size_t i = 0; i < states.size(); ++i)
-            sides[i] = sides[i] + column[i] * rates[j];
-    }
+    std::vector<Component> along;
+    for (std::size_t i = 0; i < states.size(); ++i)
+        along.emplace_back(states[i], rates[i]);
+    std::vector<Expression> sides = differentiate_along(map, along);
     std::vector<Replacement> replacements;
     for (std::size_t i = 0; i < states.size(); ++i)
         replacements.emplace_back(states[i], map[i]);

@@ -13,13 +13,12 @@
 #include <cstdint>
 #include <stdexcept>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace graze {
 
-namespace {
-
 /// The definitions and dependent parameters on which some expressions depend, directly or not, found in one walk
-/// that visits each node once and does not recurse.
+/// that visits each node once and does not recurse. Asked again it finds only what is new.
 class Abbreviations {
 public:
     struct Item {
@@ -27,8 +26,7 @@ public:
         std::uint32_t level; ///< from 1; all that `value` needs is on lower levels
     };
 
-    Abbreviations(const Model& model, std::span<const Expression> expressions)
-        : graph_(*model.graph), levels_(model.graph->size(), unvisited) {
+    explicit Abbreviations(const Model& model) : graph_(*model.graph) {
         const auto know = [&](const std::string& name, const Expression& value) {
             require_graph(value);
             known_.emplace(model.symbol(name).index(), value);
@@ -38,6 +36,14 @@ public:
         for (const Parameter& parameter : model.parameters)
             if (parameter.expression)
                 know(parameter.name, *parameter.expression);
+    }
+
+    /// Whether there is nothing to be expanded in any expression.
+    bool none() const { return known_.empty(); }
+
+    /// Finds those that have not been found before.
+    void find(std::span<const Expression> expressions) {
+        items_.clear();
         levels_.resize(graph_.size(), unvisited); // a name that was never used before is a new node
         for (const Expression& expression : expressions)
             if (circle_.empty())
@@ -121,8 +127,6 @@ private:
     std::vector<std::string> circle_;
 };
 
-} // namespace
-
 std::string circle_text(const std::vector<std::string>& names) {
     constexpr std::size_t most = 8, ends = 3; // a circle of thousands is not to be read
     if (names.size() <= most)
@@ -138,66 +142,91 @@ std::vector<std::string> find_circle(const Model& model) {
     for (const Parameter& parameter : model.parameters)
         if (parameter.expression)
             all.push_back(model.symbol(parameter.name));
-    return Abbreviations(model, all).circle();
+    Abbreviations abbreviations(model);
+    abbreviations.find(all);
+    return abbreviations.circle();
 }
 
-Expression Model::expand(const Expression& expression) {
+Expander::Expander(Model& model) : model_(model), abbreviations_(std::make_unique<Abbreviations>(model)) {}
+
+Expander::~Expander() = default;
+
+Expression Expander::expand(const Expression& expression) {
     return expand(std::span<const Expression>(&expression, 1)).front();
 }
 
-std::vector<Expression> Model::expand(std::span<const Expression> given) {
+std::vector<Expression> Expander::replace(std::span<const Expression> wanted) const {
+    std::vector<Replacement> replacements;
+    for (const Expression& symbol : symbols_of(wanted))
+        if (const auto found = values_.find(symbol.index()); found != values_.end())
+            replacements.emplace_back(symbol, found->second);
+    return substitute(wanted, replacements);
+}
+
+std::vector<Expression> Expander::expand(std::span<const Expression> given) {
     std::vector<Expression> expressions;
     for (const Expression& expression : given)
-        expressions.push_back(graph->adopt(expression));
-    const Abbreviations abbreviations(*this, expressions);
-    if (!abbreviations.circle().empty())
-        throw InputError({name, 0, 0},
-                         "definitions refer to one another in a circle: " + circle_text(abbreviations.circle()),
+        expressions.push_back(model_.graph->adopt(expression));
+    if (abbreviations_->none())
+        return expressions;
+    abbreviations_->find(expressions);
+    if (!abbreviations_->circle().empty())
+        throw InputError({model_.name, 0, 0},
+                         "definitions refer to one another in a circle: " + circle_text(abbreviations_->circle()),
                          "define one of them without the others");
     // Level by level, for parts that definitions share to be visited once.
-    std::unordered_map<NodeIndex, Expression> values;
-    const auto replace = [&](std::span<const Expression> wanted) {
-        std::vector<Replacement> replacements;
-        for (const Expression& symbol : symbols_of(wanted))
-            if (const auto found = values.find(symbol.index()); found != values.end())
-                replacements.emplace_back(symbol, found->second);
-        return substitute(wanted, replacements);
-    };
-    const auto& items = abbreviations.items();
+    const auto& items = abbreviations_->items();
     for (std::size_t begin = 0; begin < items.size();) {
         std::vector<Expression> level;
         for (std::size_t i = begin; i < items.size() && items[i].level == items[begin].level; ++i)
             level.push_back(items[i].value);
         const std::vector<Expression> replaced = replace(level);
         for (const Expression& value : replaced)
-            values.emplace(items[begin++].symbol.index(), value);
+            values_.emplace(items[begin++].symbol.index(), value);
     }
     return replace(expressions);
 }
 
-namespace {
+Expression Model::expand(const Expression& expression) {
+    return Expander(*this).expand(expression);
+}
 
-/// Compiled in a copy of the model, since to expand them makes its graph grow.
-Function compiled(Model model, std::vector<Expression> (Model::*inputs_of)() const,
-                  std::span<const Expression> expressions) {
-    const std::vector<Expression> inputs = (model.*inputs_of)(), outputs = model.expand(expressions);
-    model.require_known(inputs, outputs);
+std::vector<Expression> Model::expand(std::span<const Expression> expressions) {
+    return Expander(*this).expand(expressions);
+}
+
+Function Model::function_of(std::span<const Expression> expressions) const {
+    Model copy = *this; // for to expand them makes its graph grow
+    const std::vector<Expression> inputs = copy.inputs(), outputs = copy.expand(expressions);
+    copy.require_known(inputs, outputs);
     return {inputs, outputs};
 }
 
-} // namespace
-
-Function Model::function_of(std::span<const Expression> expressions) const {
-    return compiled(*this, &Model::inputs, expressions);
-}
-
 Function Model::function_of_parameters(std::span<const Expression> expressions) const {
-    return compiled(*this, &Model::parameter_symbols, expressions);
+    // Mostly numbers, of which there may be thousands, and where none has to be expanded there is no need of a copy.
+    const std::shared_ptr<Graph> own = Graph::create();
+    std::vector<Expression> parameters, adopted;
+    for (const std::string& parameter : independent_parameters())
+        parameters.push_back(own->symbol(parameter));
+    for (const Expression& expression : expressions)
+        adopted.push_back(own->adopt(expression));
+    const SymbolIndex inputs(parameters);
+    const std::vector<Expression> symbols = symbols_of(adopted);
+    if (std::all_of(symbols.begin(), symbols.end(), [&](const Expression& one) { return inputs.find(one.index()); }))
+        return {inputs, adopted};
+    Model copy = *this;
+    const std::vector<Expression> outputs = copy.expand(expressions);
+    copy.require_known(copy.parameter_symbols(), outputs);
+    return {copy.parameter_symbols(), outputs};
 }
 
 void Model::require_known(std::span<const Expression> inputs, std::span<const Expression> expressions) const {
+    std::unordered_set<NodeIndex> known;
+    for (const Expression& input : inputs)
+        if (input.graph() == graph)
+            known.insert(input.index());
     for (const Expression& symbol : symbols_of(expressions)) {
-        if (std::find(inputs.begin(), inputs.end(), symbol) != inputs.end())
+        if (symbol.graph() == graph && known.contains(symbol.index()))
             continue;
         std::vector<std::string> names;
         for (const Expression& input : inputs)

@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <unordered_map>
+
 namespace graze {
 
 namespace {
@@ -12,10 +17,39 @@ enum class Role {
     unused,        ///< nothing asks for it
 };
 
+/// Expressions that maps of states share, each to be visited once.
+class SharedImages {
+public:
+    /// Visits those of a map that it uses and that have not been visited. @param visit of a state and its image
+    template <class Visit>
+    void visit(const StateMap& map, const Visit& visit) {
+        if (map.empty())
+            return;
+        const std::vector<Expression>& images = *map.shared();
+        auto [found, added] = unvisited_.try_emplace(&images);
+        std::vector<std::size_t>& unvisited = found->second;
+        if (added) {
+            unvisited.resize(images.size());
+            std::iota(unvisited.begin(), unvisited.end(), std::size_t{0});
+        }
+        const auto changes = map.changes();
+        std::erase_if(unvisited, [&](std::size_t state) {
+            const bool used = !std::ranges::binary_search(changes, state, {}, &StateMap::Change::state);
+            if (used)
+                visit(state, images[state]);
+            return used;
+        });
+    }
+
+private:
+    std::map<const std::vector<Expression>*, std::vector<std::size_t>> unvisited_;
+};
+
 /// Visits all expressions of a model, in the order of the file.
 /// @param visit is called with an expression, its role, and a function that makes its path (which few want)
-template <class AnyModel, class Visit>
-void walk(AnyModel& model, const Visit& visit) {
+/// @param visit_map with the map of a jump and a function that makes the path of a state's image
+template <class AnyModel, class Visit, class VisitMap>
+void walk(AnyModel& model, const Visit& visit, const VisitMap& visit_map) {
     const auto visit_each_state = [&](auto& expressions, const auto& prefix) {
         for (std::size_t i = 0; i < expressions.size(); ++i)
             visit(expressions[i], Role::general, [&] { return prefix() + "." + model.states[i].name; });
@@ -37,7 +71,7 @@ void walk(AnyModel& model, const Visit& visit) {
     for (auto& event : model.events)
         visit(event.function, Role::general, [&] { return "events." + event.name + ".function"; });
     for (auto& jump : model.jumps)
-        visit_each_state(jump.map, [&] { return "jumps." + jump.name; });
+        visit_map(jump.map, [&](std::size_t state) { return "jumps." + jump.name + "." + model.states[state].name; });
     for (std::size_t i = 0; i < model.transitions.size(); ++i)
         for (std::size_t k = 0; k < model.transitions[i].next.size(); ++k)
             for (auto& condition : model.transitions[i].next[k].when)
@@ -55,6 +89,20 @@ void walk(AnyModel& model, const Visit& visit) {
         visit(quantity.value, Role::general, [&] { return "quantities." + quantity.name + ".value"; });
 }
 
+/// The same of a model that stays as it is. What jumps share is visited once.
+template <class Visit>
+void walk(const Model& model, const Visit& visit) {
+    SharedImages shared;
+    walk(model, visit, [&](const StateMap& map, const auto& path) {
+        const auto visit_state = [&](std::size_t state, const Expression& image) {
+            visit(image, Role::general, [&] { return path(state); });
+        };
+        shared.visit(map, visit_state);
+        for (const StateMap::Change& change : map.changes())
+            visit_state(change.state, change.image);
+    });
+}
+
 } // namespace
 
 std::vector<ModelExpression> model_expressions(const Model& model) {
@@ -66,8 +114,49 @@ std::vector<ModelExpression> model_expressions(const Model& model) {
     return result;
 }
 
+std::vector<Expression> expressions_of(const Model& model, ExpressionRole wanted) {
+    std::vector<Expression> result;
+    walk(model, [&](const Expression& expression, Role role, const auto&) {
+        if (role == (wanted == ExpressionRole::general ? Role::general : Role::in_parameters))
+            result.push_back(expression);
+    });
+    return result;
+}
+
+StateChanges changes_of(const StateMap& map, std::span<const Expression> states,
+                        std::shared_ptr<const std::vector<Expression>>& identity) {
+    StateChanges changes;
+    if (map.empty())
+        return changes; // the identity may be left empty
+    const auto add = [&](std::size_t state, const Expression& image) {
+        if (!(image == states[state]))
+            changes.push_back({state, image});
+    };
+    if (map.shared() != identity && std::ranges::equal(*map.shared(), states))
+        identity = map.shared();
+    if (map.shared() == identity)
+        for (const StateMap::Change& change : map.changes())
+            add(change.state, change.image);
+    else
+        for (std::size_t state = 0; state < map.size(); ++state)
+            add(state, map[state]);
+    return changes;
+}
+
 void visit_expressions(Model& model, const std::function<void(Expression&)>& visit) {
-    walk(model, [&](Expression& expression, Role, const auto&) { visit(expression); });
+    // What maps share they share afterwards, too.
+    std::unordered_map<const std::vector<Expression>*, std::shared_ptr<const std::vector<Expression>>> visited;
+    const auto visit_map = [&](StateMap& map, const auto&) {
+        auto& shared = visited[map.shared().get()];
+        if (!shared && map.shared()) {
+            std::vector<Expression> images = *map.shared();
+            std::for_each(images.begin(), images.end(), visit);
+            shared = std::make_shared<const std::vector<Expression>>(std::move(images));
+        }
+        map.replace(shared, visit);
+    };
+    walk(
+        model, [&](Expression& expression, Role, const auto&) { visit(expression); }, visit_map);
 }
 
 } // namespace graze

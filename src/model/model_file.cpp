@@ -48,7 +48,7 @@ public:
         read("states", &ModelReader::read_states);
         read("definitions", &ModelReader::read_definitions);
         read("events", &ModelReader::read_events);
-        model_.jumps.front().map = model_.state_symbols();
+        model_.jumps.front().map = identity();
         read("jumps", &ModelReader::read_jumps);
         read("modes", &ModelReader::name_modes);
         read("modes", &ModelReader::read_modes);
@@ -181,6 +181,7 @@ private:
     }
 
     void read_jumps(const TomlEntry& group) {
+        const bool has_text = !model_.find_state("text");
         for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
             places_.set(entry.path, entry.place);
             if (entry.name == "identity")
@@ -190,7 +191,7 @@ private:
             jump.name = entry.name;
             std::vector<TomlEntry> states = reader_.entries(reader_.table(entry), entry.path);
             // "text" describes the jump, unless a state has that name.
-            if (!model_.find_state("text"))
+            if (has_text)
                 std::erase_if(states, [&](const TomlEntry& part) {
                     if (part.name == "text")
                         jump.text = reader_.string(part);

@@ -75,8 +75,14 @@ std::vector<TomlEntry> ModelParts::short_form(const TomlEntry& entry, const char
     return {{key, entry.path + "." + key, entry.place, entry.node}};
 }
 
-std::vector<Expression> ModelParts::state_map(const std::vector<TomlEntry>& entries) {
-    std::vector<Expression> result = model_.state_symbols();
+const StateMap& ModelParts::identity() {
+    if (identity_.empty())
+        identity_ = model_.state_symbols();
+    return identity_;
+}
+
+StateMap ModelParts::state_map(const std::vector<TomlEntry>& entries) {
+    StateMap result = identity();
     for (const TomlEntry& entry : entries)
         result[key_index(entry, model_.states, "state")] = expression(entry);
     return result;

@@ -5,9 +5,12 @@
 #include "model/model_file_toml.hpp"
 #include "model/model_places.hpp"
 
+#include <functional>
 #include <initializer_list>
+#include <map>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace graze {
@@ -31,7 +34,9 @@ protected:
     std::vector<TomlEntry> short_form(const TomlEntry& entry, const char* key,
                                       std::initializer_list<std::string_view> allowed) const;
     /// A map of states; those that are not mentioned stay as they are.
-    std::vector<Expression> state_map(const std::vector<TomlEntry>& entries);
+    StateMap state_map(const std::vector<TomlEntry>& entries);
+    /// The map in which all stay. Call when all states have their names.
+    const StateMap& identity();
 
     /// Index of a string among the choices.
     std::size_t choice(const TomlEntry& entry, const std::vector<std::string>& choices) const;
@@ -43,7 +48,7 @@ protected:
     }
     /// Index of the item that a key names.
     template <typename Item>
-    std::size_t key_index(const TomlEntry& entry, const std::vector<Item>& items, const char* kind) const {
+    std::size_t key_index(const TomlEntry& entry, const std::vector<Item>& items, const char* kind) {
         return find(entry.name, entry.place, items, kind);
     }
 
@@ -55,16 +60,22 @@ protected:
     Model model_;
 
 private:
+    /// Places of the names of some items, which may get more of them but keep those that they have.
+    struct NamePlaces {
+        std::size_t known = 0;
+        std::unordered_map<std::string, std::size_t> places;
+    };
     template <typename Item>
-    static std::size_t find(const std::string& name, const Place& place, const std::vector<Item>& items,
-                            const char* kind) {
+    std::size_t find(const std::string& name, const Place& place, const std::vector<Item>& items, const char* kind) {
+        NamePlaces& names = name_places_[kind];
+        for (; names.known < items.size(); ++names.known)
+            names.places.emplace(items[names.known].name, names.known);
+        if (const auto found = names.places.find(name); found != names.places.end())
+            return found->second;
+        std::vector<std::string> all;
         for (const Item& item : items)
-            if (item.name == name)
-                return static_cast<std::size_t>(&item - items.data());
-        std::vector<std::string> names;
-        for (const Item& item : items)
-            names.push_back(item.name);
-        fail_name(name, place, names, kind);
+            all.push_back(item.name);
+        fail_name(name, place, all, kind);
     }
     [[noreturn]] static void fail_name(const std::string& name, const Place& place,
                                        const std::vector<std::string>& names, const char* kind);
@@ -73,6 +84,8 @@ private:
     auto parse_string(const TomlEntry& entry, Parse parse);
 
     Scope scope_;
+    StateMap identity_;
+    std::map<std::string, NamePlaces, std::less<>> name_places_; ///< of each kind of items
 };
 
 } // namespace graze

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <unordered_set>
 
 namespace graze {
 
@@ -184,37 +185,44 @@ private:
     }
 
     void check_expressions() const {
-        const std::vector<ModelExpression> all = model_expressions(model_);
-        std::vector<Expression> parametric;
-        std::vector<Expression> general;
-        for (const ModelExpression& item : all) {
-            if (item.expression.empty())
-                fail(item.path, fmt::format("{} is missing", item.path), "give an expression");
-            if (item.expression.graph() != model_.graph)
-                fail(item.path, fmt::format("{} belongs to another graph", item.path),
-                     "build all expressions of a model from its own symbols");
-            (item.in_parameters ? parametric : general).push_back(item.expression);
-        }
-        std::set<NodeIndex> parameters;
+        const std::vector<Expression> parametric = expressions_of(model_, ExpressionRole::in_parameters),
+                                      general = expressions_of(model_, ExpressionRole::general);
+        const auto is_own = [&](const Expression& one) { return !one.empty() && one.graph() == model_.graph; };
+        if (!std::all_of(parametric.begin(), parametric.end(), is_own) ||
+            !std::all_of(general.begin(), general.end(), is_own))
+            fail_expression();
+        std::unordered_set<NodeIndex> parameters;
         for (const Parameter& parameter : model_.parameters)
             parameters.insert(model_.symbol(parameter.name).index());
-        std::set<NodeIndex> symbols = parameters;
+        std::unordered_set<NodeIndex> symbols = parameters;
         for (const Expression& state : model_.state_symbols())
             symbols.insert(state.index());
         for (const Definition& definition : model_.definitions)
             symbols.insert(model_.symbol(definition.name).index());
         // Expressions share parts, so that all are searched at once; which one is to blame is found when it matters.
-        const auto is_wrong = [](const std::vector<Expression>& expressions, const std::set<NodeIndex>& allowed) {
+        const auto is_wrong = [](const std::vector<Expression>& expressions,
+                                 const std::unordered_set<NodeIndex>& allowed) {
             const std::vector<Expression> found = symbols_of(expressions);
             return std::any_of(found.begin(), found.end(),
                                [&](const Expression& symbol) { return allowed.count(symbol.index()) == 0; });
         };
         if (!is_wrong(parametric, parameters) && !is_wrong(general, symbols))
             return;
-        for (const ModelExpression& item : all)
+        for (const ModelExpression& item : model_expressions(model_))
             for (const Expression& symbol : symbols_of({&item.expression, 1}))
                 if ((item.in_parameters ? parameters : symbols).count(symbol.index()) == 0)
                     fail_symbol(item, symbol.name());
+    }
+
+    /// Says which expression is missing, or belongs to another graph.
+    void fail_expression() const {
+        for (const ModelExpression& item : model_expressions(model_)) {
+            if (item.expression.empty())
+                fail(item.path, fmt::format("{} is missing", item.path), "give an expression");
+            if (item.expression.graph() != model_.graph)
+                fail(item.path, fmt::format("{} belongs to another graph", item.path),
+                     "build all expressions of a model from its own symbols");
+        }
     }
 
     [[noreturn]] void fail_symbol(const ModelExpression& item, const std::string& name) const {
@@ -266,7 +274,7 @@ private:
                     fail(item, fmt::format("mode '{}' watches event '{}' twice", mode.name, event.name),
                          "remove one of the two");
                 const auto index = static_cast<std::size_t>(&mode - model_.modes.data());
-                if (event.kind == EventKind::barrier && model_.find_transition(index, mode.watched[i]) == nullptr)
+                if (event.kind == EventKind::barrier && !seen.contains({index, mode.watched[i]}))
                     fail(item,
                          fmt::format("mode '{}' watches the barrier '{}' but has no transition for it", mode.name,
                                      event.name),
@@ -307,20 +315,19 @@ private:
                      fmt::format("the value of parameter '{}' is {}", parameter.name, *parameter.value),
                      "give a finite number");
         }
-        std::vector<const ModelExpression*> items;
-        std::vector<Expression> expressions;
-        const std::vector<ModelExpression> all = model_expressions(model_);
-        for (const ModelExpression& item : all)
-            if (item.in_parameters) {
-                items.push_back(&item);
-                expressions.push_back(item.expression);
-            }
-        const std::vector<double> values = model_.values_of(expressions);
-        for (std::size_t i = 0; i < values.size(); ++i)
-            if (!std::isfinite(values[i]))
-                fail(items[i]->path, fmt::format("{} is {} at these parameters", items[i]->path, values[i]),
-                     "look for a division by zero, or the root or logarithm of a negative number");
+        const std::vector<double> values = model_.values_of(expressions_of(model_, ExpressionRole::in_parameters));
+        const auto bad = std::find_if(values.begin(), values.end(), [](double value) { return !std::isfinite(value); });
+        if (bad != values.end())
+            fail_value(static_cast<std::size_t>(bad - values.begin()), *bad);
         checked_initial_state(model_, places_);
+    }
+
+    /// Says which of the expressions in parameters has no value.
+    [[noreturn]] void fail_value(std::size_t index, double value) const {
+        std::vector<ModelExpression> items = model_expressions(model_);
+        std::erase_if(items, [](const ModelExpression& item) { return !item.in_parameters; });
+        fail(items[index].path, fmt::format("{} is {} at these parameters", items[index].path, value),
+             "look for a division by zero, or the root or logarithm of a negative number");
     }
 
     const Model& model_;

@@ -3,6 +3,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "graze/symbolic/transform.hpp"
+#include "model/model_expressions.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -165,19 +166,19 @@ private:
     }
 
     /// The entries of a map that change something.
-    std::vector<std::string> changes(const std::vector<Expression>& map) const {
+    std::vector<std::string> changes(const StateMap& map) {
         std::vector<std::string> result;
-        for (std::size_t i = 0; i < map.size(); ++i)
-            if (!(map[i] == states_[i]))
-                result.push_back(fmt::format("{} = {}", states_[i].name(), value_text(map[i])));
+        for (const StateMap::Change& change : changes_of(map, states_, identity_))
+            result.push_back(fmt::format("{} = {}", states_[change.state].name(), value_text(change.image)));
         return result;
     }
 
     void write_jumps() {
+        const bool has_text = !model_.find_state("text");
         for (std::size_t i = 1; i < model_.jumps.size(); ++i) {
             const Jump& jump = model_.jumps[i];
             line("\n[jumps.{}]", jump.name);
-            if (!model_.find_state("text"))
+            if (has_text)
                 string("text", jump.text);
             for (const std::string& change : changes(jump.map))
                 line("{}", change);
@@ -279,6 +280,7 @@ private:
 
     const Model& model_;
     std::vector<Expression> states_;
+    std::shared_ptr<const std::vector<Expression>> identity_; ///< see changes_of
     Scope scope_;
     std::string text_;
 };

@@ -44,6 +44,13 @@ bool is_not_a_finite_number(std::string_view text) {
 } // namespace
 
 NamedValue named_value(const Model& model, const std::string& text, const Place& place) {
+    const auto state = model.find_state(text), parameter = state ? std::nullopt : model.find_parameter(text);
+    // Tables ask for every state by its name: those need no copy of the model, in which others are taken apart.
+    if (state)
+        return {text, model.states[*state].unit, model.states[*state].text, Graph::create()->symbol(text)};
+    if (parameter && !model.parameters[*parameter].expression)
+        return {text, model.parameters[*parameter].unit, model.parameters[*parameter].text,
+                Graph::create()->symbol(text)};
     Model scratch = model;
     if (const auto index = model.find_quantity(text)) {
         const Quantity& quantity = model.quantities[*index];
@@ -51,10 +58,7 @@ NamedValue named_value(const Model& model, const std::string& text, const Place&
     }
     NamedValue result{text, "", "", {}};
     result.value = scratch.expand(parse_expression(*scratch.graph, text, scope_of(scratch), place));
-    if (const auto state = model.find_state(text)) {
-        result.unit = model.states[*state].unit;
-        result.text = model.states[*state].text;
-    } else if (const auto parameter = model.find_parameter(text)) {
+    if (parameter) {
         result.unit = model.parameters[*parameter].unit;
         result.text = model.parameters[*parameter].text;
     }

@@ -285,7 +285,7 @@ std::string contents(const Model& model) {
     for (const Event& e : model.events)
         add(e.name, e.text, e.function, e.kind);
     for (const Jump& j : model.jumps)
-        add(j.name, j.text, j.map);
+        add(j.name, j.text, std::vector<Expression>(j.map));
     for (const Transition& t : model.transitions) {
         add(t.label, t.mode, t.event, t.jump);
         for (const Alternative& a : t.next) {

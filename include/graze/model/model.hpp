@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/model/state_map.hpp"
 #include "graze/symbolic/expression.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/parser.hpp"
@@ -50,7 +51,7 @@ struct Event {
 
 struct Jump {
     std::string name{}, text{};
-    std::vector<Expression> map{}; ///< each state after, in terms of states before
+    StateMap map{}; ///< each state after, in terms of states before
 };
 
 /// One way in which a transition can go on, taken when all conditions hold in the state after the jump.
