@@ -2,9 +2,13 @@
 
 #include "flow/section_function.hpp"
 #include "graze/symbolic/transform.hpp"
+#include "model/model_expand.hpp"
+#include "model/model_expressions.hpp"
 #include "symbolic/subgraph.hpp"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace graze {
 
@@ -12,7 +16,7 @@ namespace graze {
 class SystemCompiler {
 public:
     explicit SystemCompiler(const Model& model)
-        : model_(model), states_(model_.state_symbols()), parameters_(model_.parameter_symbols()),
+        : model_(model), expander_(model_), states_(model_.state_symbols()), parameters_(model_.parameter_symbols()),
           inputs_(model_.inputs()) {}
 
     void compile(System::Parts& parts) {
@@ -24,27 +28,30 @@ public:
             periods.push_back(state.period ? *state.period : model_.graph->number(0));
             initial.push_back(state.initial);
         }
-        periods = model_.expand(periods);
+        periods = expander_.expand(periods);
         parts.periods = compile(parameters_, periods);
-        parts.period_gradients = compile(parameters_, jacobian(periods, parameters_));
+        parts.period_gradients = compile_derivatives(parameters_, periods, parameters_);
         parts.initial = function_of_parameters(initial);
     }
     std::vector<System::CompiledMode> compile_modes();
     /// The tapes of modes that are compiled already, anew for what is observed as well.
     void observe(std::vector<System::CompiledMode>& modes, std::span<const Expression> observed);
 
-    Function function_of(std::span<const Expression> outputs) { return compile(inputs_, model_.expand(outputs)); }
+    Function function_of(std::span<const Expression> outputs) { return compile(inputs_, expander_.expand(outputs)); }
     Function function_of_parameters(std::span<const Expression> outputs) {
-        return compile(parameters_, model_.expand(outputs));
+        return compile(parameters_, expander_.expand(outputs));
     }
     Function with_gradient(const Expression& expression) {
-        std::vector<Expression> outputs{model_.expand(expression)};
-        const std::vector<Expression> gradient = jacobian(outputs, inputs_);
-        outputs.insert(outputs.end(), gradient.begin(), gradient.end());
-        return compile(inputs_, outputs);
+        const Expression value = expander_.expand(expression);
+        std::vector<Function::Output> outputs{{0, value}};
+        for (JacobianEntry& entry : sparse_jacobian({&value, 1}, inputs_))
+            outputs.push_back({1 + entry.column, std::move(entry.value)});
+        return compile(inputs_, 1 + inputs_.size(), outputs, Function::Others::zero);
     }
     /// Of all functions compiled.
     std::size_t workspace() const { return workspace_; }
+    /// Of all functions and tapes compiled.
+    std::size_t operations() const { return operations_; }
 
 private:
     void compile_maps(System::Parts& parts);
@@ -53,13 +60,22 @@ private:
     void compile_tape(System::CompiledMode& compiled, const std::vector<Expression>& rates,
                       const std::vector<Expression>& outputs);
     std::vector<Expression> watched_functions(const System::CompiledMode& compiled);
-    System::CompiledJump map_of(const std::vector<Expression>& map);
+    System::CompiledJump map_of(const StateMap& map);
     std::vector<Expression> roots_in(std::span<const Expression> expanded);
-    Function compile(std::span<const Expression> inputs, std::span<const Expression> outputs);
+    Function compile(const SymbolIndex& inputs, std::span<const Expression> outputs);
+    Function compile(const SymbolIndex& inputs, std::size_t outputs, std::span<const Function::Output> given,
+                     Function::Others others);
+    Function compile_derivatives(const SymbolIndex& inputs, std::span<const Expression> functions,
+                                 const SymbolIndex& symbols);
+    System::CompiledGradient gradient_of(const Expression& function);
+    Function counted(Function function);
+    void require_known(const SymbolIndex& inputs, std::span<const Expression> outputs) const;
 
     Model model_;
-    std::vector<Expression> states_, parameters_, inputs_;
-    std::size_t workspace_ = 0;
+    Expander expander_;
+    SymbolIndex states_, parameters_, inputs_;
+    std::shared_ptr<const std::vector<Expression>> identity_; ///< see changes_of
+    std::size_t workspace_ = 0, operations_ = 0;
 };
 
 System::System(const Model& model) {
@@ -72,6 +88,7 @@ System::System(const Model& model) {
     compiler.compile(*parts);
     modes_ = std::make_shared<const std::vector<CompiledMode>>(compiler.compile_modes());
     workspace_ = compiler.workspace();
+    operations_ = compiler.operations();
     parts->model.freeze();
     parts_ = std::move(parts);
 }
@@ -84,6 +101,7 @@ System System::with_tapes(std::vector<CompiledMode> modes, std::span<const Expre
     result.modes_ = std::make_shared<const std::vector<CompiledMode>>(std::move(modes));
     result.observed_ = observed.size();
     result.workspace_ = std::max(workspace_, compiler.workspace());
+    result.operations_ += compiler.operations();
     return result;
 }
 
@@ -98,6 +116,7 @@ System System::without_events() const {
         mode.watched.clear();
         mode.transitions.clear();
         mode.events = mode.event_gradients = nothing;
+        mode.gradients.clear();
     }
     return with_tapes(std::move(modes), {});
 }
@@ -114,11 +133,48 @@ Function System::with_gradient(const Expression& expression) const {
     return SystemCompiler(model()).with_gradient(expression);
 }
 
-Function SystemCompiler::compile(std::span<const Expression> inputs, std::span<const Expression> outputs) {
-    model_.require_known(inputs, outputs);
-    Function function(inputs, outputs);
+void SystemCompiler::require_known(const SymbolIndex& inputs, std::span<const Expression> outputs) const {
+    for (const Expression& symbol : symbols_of(outputs))
+        if (!inputs.find(symbol.index()))
+            model_.require_known(inputs.symbols(), outputs);
+}
+
+Function SystemCompiler::counted(Function function) {
     workspace_ = std::max(workspace_, function.workspace());
+    operations_ += function.operations();
     return function;
+}
+
+Function SystemCompiler::compile(const SymbolIndex& inputs, std::span<const Expression> outputs) {
+    require_known(inputs, outputs);
+    return counted({inputs, outputs});
+}
+
+Function SystemCompiler::compile(const SymbolIndex& inputs, std::size_t outputs,
+                                 std::span<const Function::Output> given, Function::Others others) {
+    for (const Function::Output& output : given)
+        require_known(inputs, {&output.value, 1});
+    return counted({inputs, outputs, given, others});
+}
+
+/// Derivatives row by row: functions x symbols.
+Function SystemCompiler::compile_derivatives(const SymbolIndex& inputs, std::span<const Expression> functions,
+                                             const SymbolIndex& symbols) {
+    std::vector<Function::Output> outputs;
+    for (JacobianEntry& entry : sparse_jacobian(functions, symbols))
+        outputs.push_back({entry.row * symbols.size() + entry.column, std::move(entry.value)});
+    return compile(inputs, functions.size() * symbols.size(), outputs, Function::Others::zero);
+}
+
+System::CompiledGradient SystemCompiler::gradient_of(const Expression& function) {
+    System::CompiledGradient gradient;
+    std::vector<Expression> values;
+    for (JacobianEntry& entry : sparse_jacobian({&function, 1}, states_)) {
+        gradient.states.push_back(entry.column);
+        values.push_back(std::move(entry.value));
+    }
+    gradient.values = compile(inputs_, values);
+    return gradient;
 }
 
 /// What stands under each root or power in some expressions, followed by the exponent.
@@ -140,25 +196,30 @@ std::vector<Expression> SystemCompiler::watched_functions(const System::Compiled
     std::vector<Expression> functions;
     for (const std::size_t event : compiled.watched)
         functions.push_back(model_.events[event].function);
-    return model_.expand(functions);
+    return expander_.expand(functions);
 }
 
 std::vector<System::CompiledMode> SystemCompiler::compile_modes() {
     std::vector<System::CompiledMode> modes;
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> transitions;
+    for (std::size_t i = 0; i < model_.transitions.size(); ++i)
+        transitions.emplace(std::pair(model_.transitions[i].mode, model_.transitions[i].event), i);
     for (std::size_t m = 0; m < model_.modes.size(); ++m) {
         const Mode& mode = model_.modes[m];
         System::CompiledMode compiled;
         for (const std::size_t event : mode.watched) {
-            const Transition* transition = model_.find_transition(m, event);
-            if (!transition)
+            const auto transition = transitions.find({m, event});
+            if (transition == transitions.end())
                 continue; // a section that leads nowhere: the motion passes through
             compiled.watched.push_back(event);
-            compiled.transitions.push_back(static_cast<std::size_t>(transition - model_.transitions.data()));
+            compiled.transitions.push_back(transition->second);
         }
-        const std::vector<Expression> rates = model_.expand(mode.rates), outputs = watched_functions(compiled);
+        const std::vector<Expression> rates = expander_.expand(mode.rates), outputs = watched_functions(compiled);
         compiled.rates = compile(inputs_, rates);
         compiled.events = compile(inputs_, outputs);
-        compiled.event_gradients = compile(inputs_, jacobian(outputs, states_));
+        compiled.event_gradients = compile_derivatives(inputs_, outputs, states_);
+        for (const Expression& function : outputs)
+            compiled.gradients.push_back(gradient_of(function));
         compiled.roots = compile(inputs_, roots_in(rates));
         compile_tape(compiled, rates, outputs);
         modes.push_back(std::move(compiled));
@@ -169,9 +230,9 @@ std::vector<System::CompiledMode> SystemCompiler::compile_modes() {
 void SystemCompiler::observe(std::vector<System::CompiledMode>& modes, std::span<const Expression> observed) {
     for (std::size_t m = 0; m < modes.size(); ++m) {
         std::vector<Expression> outputs = watched_functions(modes[m]);
-        const std::vector<Expression> more = model_.expand(observed);
+        const std::vector<Expression> more = expander_.expand(observed);
         outputs.insert(outputs.end(), more.begin(), more.end());
-        compile_tape(modes[m], model_.expand(model_.modes[m].rates), outputs);
+        compile_tape(modes[m], expander_.expand(model_.modes[m].rates), outputs);
     }
 }
 
@@ -180,7 +241,8 @@ void SystemCompiler::compile_tape(System::CompiledMode& compiled, const std::vec
     std::vector<Expression> all = rates;
     all.insert(all.end(), outputs.begin(), outputs.end());
     compiled.evidence = compile(inputs_, all); // where unknown symbols are found
-    compiled.tape = graze::compile_tape(states_, parameters_, rates, outputs);
+    compiled.tape = graze::compile_tape(states_.symbols(), parameters_.symbols(), rates, outputs);
+    operations_ += compiled.tape.code.size();
     compiled.polynomial = std::all_of(compiled.tape.degrees.begin(), compiled.tape.degrees.end(),
                                       [](std::uint32_t degree) { return degree != Tape::unbounded; });
     compiled.has_roots = std::any_of(compiled.tape.code.begin(), compiled.tape.code.end(), [](const auto& one) {
@@ -188,12 +250,25 @@ void SystemCompiler::compile_tape(System::CompiledMode& compiled, const std::vec
     });
 }
 
-System::CompiledJump SystemCompiler::map_of(const std::vector<Expression>& given) {
+System::CompiledJump SystemCompiler::map_of(const StateMap& map) {
     System::CompiledJump compiled;
-    const auto map = given.empty() ? states_ : model_.expand(given); // the identity may be left empty
-    compiled.identity = std::equal(map.begin(), map.end(), states_.begin(), states_.end());
-    compiled.map = compile(inputs_, map);
-    compiled.jacobian = compile(inputs_, jacobian(map, inputs_));
+    std::vector<Function::Output> images;
+    std::vector<Expression> changed;
+    // What an expression stands for may still be the state itself.
+    for (const StateMap::Change& change : changes_of(map, states_.symbols(), identity_))
+        if (const Expression image = expander_.expand(change.image); !(image == states_.symbols()[change.state])) {
+            compiled.changed.push_back(change.state);
+            images.push_back({change.state, image});
+            changed.push_back(image);
+        }
+    compiled.identity = changed.empty();
+    compiled.map = compile(inputs_, states_.size(), images, Function::Others::inputs);
+    std::vector<Expression> values;
+    for (JacobianEntry& entry : sparse_jacobian(changed, inputs_)) {
+        compiled.entries.push_back({compiled.changed[entry.row], entry.column});
+        values.push_back(std::move(entry.value));
+    }
+    compiled.jacobian = compile(inputs_, values);
     return compiled;
 }
 
@@ -202,6 +277,9 @@ void SystemCompiler::compile_maps(System::Parts& parts) {
         parts.jumps.push_back(map_of(jump.map));
     for (const Symmetry& symmetry : model_.symmetries)
         parts.symmetries.push_back(map_of(symmetry.map));
+    for (const auto* maps : {&parts.jumps, &parts.symmetries})
+        for (const System::CompiledJump& map : *maps)
+            parts.jacobian_entries = std::max(parts.jacobian_entries, map.entries.size());
 }
 
 void SystemCompiler::compile_transitions(System::Parts& parts) {

@@ -11,7 +11,7 @@ namespace graze {
 SegmentEnds::SegmentEnds(const System& system, const Orbit& orbit, std::vector<std::size_t> free)
     : system_(system), signature_(orbit.signature), symmetry_(orbit.symmetry), free_(std::move(free)),
       n_(system.states()), periods_(n_), inputs_(n_ + system.parameters()), work_(system.workspace()),
-      values_(std::max(n_, std::size_t{1}) * (1 + n_ + system.parameters())),
+      values_(std::max({1 + n_ + system.parameters(), n_ * system.parameters(), system.jacobian_entries()})),
       period_rates_(Eigen::MatrixXd::Zero(index(n_), index(free_.size()))) {
     for (std::size_t k = 0; k < signature_.size(); ++k) {
         const Segment& segment = signature_[k];
@@ -100,20 +100,22 @@ bool SegmentEnds::pass(std::size_t k, std::vector<double>& state, double& condit
 void SegmentEnds::apply(const System::CompiledJump& map, OrbitEvaluation::Piece& piece) {
     if (map.identity)
         return;
-    const std::size_t width = n_ + parameters_.size();
     std::copy(piece.after.begin(), piece.after.end(), inputs_.begin());
-    const std::span<double> entries = std::span(values_).first(n_ * width);
-    map.jacobian.evaluate(inputs_, entries, work_);
-    Eigen::MatrixXd by_states(index(n_), index(n_)), by_parameters(index(n_), index(free_.size()));
-    for (std::size_t i = 0; i < n_; ++i) {
-        for (std::size_t j = 0; j < n_; ++j)
-            by_states(index(i), index(j)) = entries[i * width + j];
-        for (std::size_t f = 0; f < free_.size(); ++f)
-            by_parameters(index(i), index(f)) = entries[i * width + n_ + free_[f]];
+    map.jacobian.evaluate(inputs_, values_, work_);
+    std::vector<std::size_t> free_place(parameters_.size(), free_.size());
+    for (std::size_t f = 0; f < free_.size(); ++f)
+        free_place[free_[f]] = f;
+    Eigen::MatrixXd product = piece.jump;
+    for (const std::size_t i : map.changed)
+        product.row(index(i)).setZero();
+    for (std::size_t k = 0; k < map.entries.size(); ++k) {
+        const auto [i, j] = map.entries[k];
+        if (j < n_)
+            product.row(index(i)) += values_[k] * piece.jump.row(index(j));
+        else if (const std::size_t f = free_place[j - n_]; f < free_.size())
+            product(index(i), index(n_ + f)) += values_[k];
     }
     map.map.evaluate(inputs_, piece.after, work_);
-    Eigen::MatrixXd product = by_states * piece.jump;
-    product.rightCols(index(free_.size())) += by_parameters;
     piece.jump = std::move(product);
 }
 

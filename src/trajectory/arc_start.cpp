@@ -36,6 +36,7 @@ void Trajectory::begin_arc(double step) {
     arc_start_ = false;
     branch_ahead_ = states_;
     probes_->begin_arc();
+    std::copy(state_.begin(), state_.end(), inputs_.begin());
     const auto& mode = *compiled_mode_;
     for (std::size_t w = 0; w < mode.watched.size(); ++w)
         if (!classify(w, step))
@@ -187,30 +188,30 @@ bool Trajectory::fell_before(std::size_t w, double at_surface) {
         return true;
     const auto& mode = *compiled_mode_;
     std::copy(before_.begin(), before_.end(), inputs_.begin());
-    values_.resize(std::max(mode.events.outputs(), mode.event_gradients.outputs()));
+    const System::CompiledGradient& gradient = mode.gradients[w];
+    values_.resize(std::max(mode.events.outputs(), gradient.states.size()));
     mode.events.evaluate(inputs_, values_, work_);
-    if (!(std::abs(values_[w]) <= 2 * at_surface))
-        return false; // the jump has put it there
-    mode.event_gradients.evaluate(inputs_, values_, work_);
+    const bool was_on_surface = std::abs(values_[w]) <= 2 * at_surface;
+    gradient.values.evaluate(inputs_, values_, work_);
+    std::copy(state_.begin(), state_.end(), inputs_.begin());
     double rate = 0;
-    for (std::size_t i = 0; i < states_; ++i)
-        if (const double slope = values_[w * states_ + i]; slope != 0)
-            rate += slope * fields_[i];
-    return rate < 0;
+    for (std::size_t i = 0; i < gradient.states.size(); ++i)
+        if (const double slope = values_[i]; slope != 0)
+            rate += slope * fields_[gradient.states[i]];
+    return was_on_surface && rate < 0; // or else the jump has put it there
 }
 
 /// Sums, for each coefficient of a watched event function, the sizes of what the states contribute to it. What cancels
-/// there does not show in the coefficient but is what its round-off is measured by.
+/// there does not show in the coefficient but is what its round-off is measured by. Inputs must be those of the state.
 void Trajectory::weigh_terms(std::size_t w) {
-    const Function& gradients = compiled_mode_->event_gradients;
-    values_.resize(gradients.outputs());
-    std::copy(state_.begin(), state_.end(), inputs_.begin());
-    gradients.evaluate(inputs_, values_, work_);
+    const System::CompiledGradient& gradient = compiled_mode_->gradients[w];
+    values_.resize(gradient.states.size());
+    gradient.values.evaluate(inputs_, values_, work_);
     terms_.assign(static_cast<std::size_t>(order_) + 1, 0.0);
-    for (std::size_t i = 0; i < states_; ++i)
-        if (const double slope = std::abs(values_[w * states_ + i]); slope > 0 && std::isfinite(slope))
+    for (std::size_t i = 0; i < gradient.states.size(); ++i)
+        if (const double slope = std::abs(values_[i]); slope > 0 && std::isfinite(slope))
             for (std::size_t k = 0; k < terms_.size(); ++k)
-                terms_[k] += slope * std::abs(series_[i][k]);
+                terms_[k] += slope * std::abs(series_[gradient.states[i]][k]);
 }
 
 /// The first coefficient after the zeroth that round-off cannot explain, which decides the sign just after the start

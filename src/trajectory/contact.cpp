@@ -103,14 +103,15 @@ void Trajectory::enter(std::size_t jump, std::size_t mode) {
     const System& compiled = simulation_.system();
     last_jump_ = jump;
     if (tangents_) {
-        jacobian_.resize(states_ * (states_ + parameters_.size()));
+        jacobian_.resize(compiled.jacobian_entries());
         std::copy(before_.begin(), before_.end(), inputs_.begin());
         compiled.jump(jump).jacobian.evaluate(inputs_, jacobian_, work_);
         std::copy(after_.begin(), after_.end(), inputs_.begin());
         const auto field_after = std::span<double>(fields_).subspan(states_, states_);
         compiled.mode(mode).rates.evaluate(inputs_, field_after, work_);
         if (tangents_->valid())
-            tangents_->pass_jump(row_, std::span<const double>(fields_).first(states_), jacobian_, field_after);
+            tangents_->pass_jump(row_, std::span<const double>(fields_).first(states_), compiled.jump(jump), jacobian_,
+                                 field_after);
     }
     pending_->mode_after = mode;
     for (std::size_t i = 0; i < states_; ++i)

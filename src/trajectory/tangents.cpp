@@ -123,21 +123,22 @@ void Tangents::advance(std::size_t mode, std::span<const double> state, double s
 }
 
 void Tangents::pass_jump(std::span<const double> shift, std::span<const double> field_before,
-                         std::span<const double> jacobian, std::span<const double> field_after) {
+                         const System::CompiledJump& jump, std::span<const double> jacobian,
+                         std::span<const double> field_after) {
     add_product(field_before, shift);
-    const std::size_t columns = states_ + parameter_count_;
-    std::fill(next_.begin(), next_.end(), 0.0);
-    for (std::size_t i = 0; i < states_; ++i)
-        for (std::size_t j = 0; j < columns; ++j) {
-            const double entry = jacobian[i * columns + j];
-            if (entry == 0)
-                continue;
-            const double* from =
-                j < states_ ? &matrix_[j * directions_] : &parameter_seeds_[(j - states_) * directions_];
-            for (std::size_t d = 0; d < directions_; ++d)
-                next_[i * directions_ + d] += entry * from[d];
-        }
-    matrix_.swap(next_);
+    for (const std::size_t i : jump.changed)
+        std::fill_n(&next_[i * directions_], directions_, 0.0);
+    for (std::size_t k = 0; k < jump.entries.size(); ++k) {
+        const double entry = jacobian[k];
+        if (entry == 0)
+            continue;
+        const auto [i, j] = jump.entries[k];
+        const double* from = j < states_ ? &matrix_[j * directions_] : &parameter_seeds_[(j - states_) * directions_];
+        for (std::size_t d = 0; d < directions_; ++d)
+            next_[i * directions_ + d] += entry * from[d];
+    }
+    for (const std::size_t i : jump.changed)
+        std::copy_n(&next_[i * directions_], directions_, &matrix_[i * directions_]);
     for (std::size_t i = 0; i < states_; ++i)
         for (std::size_t d = 0; d < directions_; ++d)
             matrix_[i * directions_ + d] -= field_after[i] * shift[d];

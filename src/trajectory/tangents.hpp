@@ -38,10 +38,10 @@ public:
                  std::span<double> row = {});
     /// Passes a jump that comes `shift` (derivatives, directions) later than time says: at a contact, minus the
     /// derivatives of the event function over its rate.
-    /// @param field_before, field_after rates of the states; @param jacobian of the jump, states x (states +
-    ///        parameters)
+    /// @param field_before, field_after rates of the states; @param jacobian values of the jump's entries
     void pass_jump(std::span<const double> shift, std::span<const double> field_before,
-                   std::span<const double> jacobian, std::span<const double> field_after);
+                   const System::CompiledJump& jump, std::span<const double> jacobian,
+                   std::span<const double> field_after);
     /// Adds `column` times `row` to the matrix.
     void add_product(std::span<const double> column, std::span<const double> row);
 

@@ -2,6 +2,7 @@
 
 #include "graze/model/catalogue.hpp"
 #include "graze/tape/jet.hpp"
+#include "model/chain.hpp"
 #include "model/evaluate_model.hpp"
 
 #include <gtest/gtest.h>
@@ -67,6 +68,22 @@ TEST_P(Systems, AgreeWithTheirExpressions) {
     }
 }
 
+/// Row by row: states x (states + parameters).
+std::vector<double> dense_jacobian(const System& system, std::size_t index, const std::vector<double>& inputs) {
+    const System::CompiledJump& jump = system.jump(index);
+    const std::size_t columns = system.states() + system.parameters();
+    std::vector<double> dense(system.states() * columns, 0.0);
+    for (std::size_t i = 0; i < system.states(); ++i)
+        dense[i * columns + i] = std::count(jump.changed.begin(), jump.changed.end(), i) > 0 ? 0 : 1;
+    const std::vector<double> values = evaluate(jump.jacobian, inputs);
+    EXPECT_EQ(values.size(), jump.entries.size());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        EXPECT_EQ(std::count(jump.changed.begin(), jump.changed.end(), jump.entries[k].row), 1);
+        dense[jump.entries[k].row * columns + jump.entries[k].column] = values[k];
+    }
+    return dense;
+}
+
 TEST_P(Systems, JumpJacobiansAgreeWithDifferences) {
     const Model model = load_model(GetParam());
     const System system(model);
@@ -74,8 +91,7 @@ TEST_P(Systems, JumpJacobiansAgreeWithDifferences) {
     const auto inputs = inputs_near(model, random);
     const std::size_t columns = system.states() + system.parameters();
     for (std::size_t j = 0; j < model.jumps.size(); ++j) {
-        const auto jacobian = evaluate(system.jump(j).jacobian, inputs);
-        ASSERT_EQ(jacobian.size(), system.states() * columns);
+        const std::vector<double> jacobian = dense_jacobian(system, j, inputs);
         for (std::size_t column = 0; column < columns; ++column) {
             auto above = inputs, below = inputs;
             const double h = 1e-6 * (1e-3 + std::abs(inputs[column]));
@@ -249,6 +265,55 @@ TEST(System, WithoutEventsNothingIsWatched) {
     for (std::size_t m = 0; m < system.model().modes.size(); ++m) {
         EXPECT_TRUE(system.mode(m).watched.empty());
         EXPECT_EQ(system.mode(m).events.outputs(), 0u);
+    }
+}
+
+/// What is compiled of a chain of n oscillators with n walls grows as n does: nothing is made for each pair of them.
+TEST(SystemsOfManyEvents, GrowLinearly) {
+    const auto size = [](std::size_t n) {
+        const Model model = testing::chain(n);
+        const System system(model);
+        std::size_t entries = 0;
+        for (std::size_t j = 1; j < model.jumps.size(); ++j) {
+            EXPECT_EQ(system.jump(j).changed, std::vector<std::size_t>{2 * (j - 1) + 1});
+            entries += system.jump(j).entries.size();
+        }
+        EXPECT_EQ(entries, n);
+        EXPECT_EQ(system.jacobian_entries(), 1u);
+        for (std::size_t w = 0; w < n; ++w)
+            EXPECT_EQ(system.mode(0).gradients[w].states, std::vector<std::size_t>{2 * w});
+        return std::pair(system.operations(), system.workspace());
+    };
+    const auto small = size(30), large = size(60), larger = size(120);
+    EXPECT_EQ(larger.first - large.first, 2 * (large.first - small.first));
+    EXPECT_EQ(larger.second - large.second, 2 * (large.second - small.second));
+}
+
+TEST(SystemsOfManyEvents, HaveTheMapsAndGradientsOfEachEvent) {
+    const System system(testing::chain(3));
+    const std::vector<double> inputs{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 1};
+    EXPECT_EQ(evaluate(system.jump(2).map, inputs), (std::vector<double>{0.1, 0.2, 0.3, -0.7 * 0.4, 0.5, 0.6, 0.7}));
+    EXPECT_EQ(evaluate(system.event(1), inputs), (std::vector<double>{0.6 - 0.3, 0, 0, -1, 0, 0, 0, 0, 0}));
+    EXPECT_TRUE(system.jump(0).identity);
+    EXPECT_EQ(evaluate(system.jump(0).map, inputs), std::vector<double>(inputs.begin(), inputs.end() - 1));
+}
+
+TEST_P(Systems, GradientsOfEventsAreThoseOfAllOfThem) {
+    const Model model = load_model(GetParam());
+    const System system(model);
+    std::mt19937 random(4);
+    const auto inputs = inputs_near(model, random);
+    for (std::size_t m = 0; m < model.modes.size(); ++m) {
+        const auto& mode = system.mode(m);
+        const auto all = evaluate(mode.event_gradients, inputs);
+        std::vector<double> filled(all.size(), 0.0);
+        ASSERT_EQ(mode.gradients.size(), mode.watched.size());
+        for (std::size_t w = 0; w < mode.gradients.size(); ++w) {
+            const auto values = evaluate(mode.gradients[w].values, inputs);
+            for (std::size_t k = 0; k < values.size(); ++k)
+                filled[w * system.states() + mode.gradients[w].states[k]] = values[k];
+        }
+        EXPECT_EQ(filled, all);
     }
 }
 

@@ -25,22 +25,35 @@ public:
     /// @throws InputError when the model is not valid (Model::validate)
     System(const Model& model); // NOLINT(google-explicit-constructor)
 
+    /// The derivatives of a function with respect to states that are not zero throughout.
+    struct CompiledGradient {
+        std::vector<std::size_t> states; ///< by which they are, rising
+        Function values;
+    };
     struct CompiledMode {
         Tape tape;                ///< outputs: the watched events in their order, then the observed expressions
         Function rates;           ///< the vector field alone
         Function events;          ///< the watched event functions alone
         Function evidence;        ///< rates, watched event functions, observed expressions: by which series are judged
         Function event_gradients; ///< and their derivatives with respect to the states, row by row
+        std::vector<CompiledGradient> gradients; ///< the same, of each watched event by itself
         std::vector<std::size_t> watched;
         std::vector<std::size_t> transitions; ///< of each watched event
         bool polynomial = false;              ///< all series end by themselves: whatever their length, steps are exact
         bool has_roots = false;               ///< sqrt or powers that are not whole, which have two branches at zero
         Function roots;                       ///< of those in the rates: what stands under one, and the exponent
     };
+    /// A map of states. In terms of the states that it changes: all others stay, and have derivatives of the identity.
     struct CompiledJump {
+        struct Entry {
+            std::size_t row = 0;    ///< a state that is changed
+            std::size_t column = 0; ///< a state, or the number of states plus an independent parameter
+        };
         bool identity = false;
-        Function map;
-        Function jacobian; ///< row by row: states x (states + parameters)
+        Function map;                     ///< of all states
+        std::vector<std::size_t> changed; ///< states, rising
+        std::vector<Entry> entries;       ///< derivatives that are not zero throughout, row by row
+        Function jacobian;                ///< their values
     };
     struct CompiledAlternative {
         Function conditions; ///< one output per condition
@@ -98,6 +111,10 @@ public:
     Function with_gradient(const Expression& expression) const;
     /// Largest workspace of the system's own functions.
     std::size_t workspace() const { return workspace_; }
+    /// Largest number of entries of the jacobian of a jump or symmetry.
+    std::size_t jacobian_entries() const { return parts_->jacobian_entries; }
+    /// Operations of all functions and tapes together: by what memory and the time to compile go.
+    std::size_t operations() const { return operations_; }
 
 private:
     friend class SystemCompiler;
@@ -109,7 +126,7 @@ private:
     System with_tapes(std::vector<CompiledMode> modes, std::span<const Expression> observed) const;
     struct Parts {
         Model model;
-        std::size_t states = 0, parameters = 0;
+        std::size_t states = 0, parameters = 0, jacobian_entries = 0;
         std::vector<CompiledJump> jumps, symmetries;
         std::vector<CompiledTransition> transitions;
         std::vector<Function> events;
@@ -118,7 +135,7 @@ private:
     };
     std::shared_ptr<const Parts> parts_;
     std::shared_ptr<const std::vector<CompiledMode>> modes_;
-    std::size_t observed_ = 0, workspace_ = 0;
+    std::size_t observed_ = 0, workspace_ = 0, operations_ = 0;
 };
 
 } // namespace graze
