@@ -1,12 +1,37 @@
 #include "graze/trajectory/outlook.hpp"
 
+#include "graze/flow/roots.hpp"
 #include "graze/flow/step_check.hpp"
 #include "graze/flow/step_size.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <stdexcept>
 
 namespace graze {
+
+namespace {
+
+/// Terms that are summed side by side.
+constexpr std::size_t block = 4;
+
+using Block = std::array<double, block>;
+
+/// Sum of |c_k| weights_k over whole blocks, and of the last ones of c with weights of their own: where that block
+/// overlaps the one before they are 0.
+double sum_of_sizes(std::span<const double> c, const double* weights, const Block& last_weights) {
+    double part[block] = {};
+    const double *all = c.data(), *last = all + c.size() - block;
+    for (std::size_t k = 0; k + block <= c.size(); k += block)
+        for (std::size_t j = 0; j < block; ++j)
+            part[j] += std::abs(all[k + j]) * weights[k + j];
+    for (std::size_t j = 0; j < block; ++j)
+        part[j] += std::abs(last[j]) * last_weights[j];
+    return (part[0] + part[1]) + (part[2] + part[3]);
+}
+
+} // namespace
 
 Outlook::Outlook(const Simulation& simulation, int width)
     : simulation_(simulation), width_(static_cast<std::size_t>(std::max(width, 1))),
@@ -21,6 +46,7 @@ Outlook::Outlook(const Simulation& simulation, int width)
         most_watched = std::max(most_watched, simulation.system().mode(mode).watched.size());
     least_.resize(most_watched * width_);
     sizes_.resize(most_watched * width_);
+    powers_.resize(static_cast<std::size_t>(simulation.order()) + 1);
 }
 
 void Outlook::find_steps(const Jet& jet) {
@@ -29,10 +55,42 @@ void Outlook::find_steps(const Jet& jet) {
 
 void Outlook::look(const Jet& jet, Jet& next, std::size_t mode) {
     jet.evaluate_states(lengths_, states_, slopes_);
-    const std::size_t bounds = simulation_.system().mode(mode).watched.size() * width_;
-    jet.bound_outputs(lengths_, std::span(least_).first(bounds), std::span(sizes_).first(bounds));
+    const std::size_t watched = simulation_.system().mode(mode).watched.size(), bounds = watched * width_;
+    if (width_ == 1)
+        bound_events(jet, watched);
+    else
+        jet.bound_outputs(lengths_, std::span(least_).first(bounds), std::span(sizes_).first(bounds));
     next.begin(states_);
     jet.find_disagreement(next, allowance_, lengths_, states_, slopes_, disagreement_);
+}
+
+/// The same bounds for a single lane. Most of many events are far off, which sizes of terms show without their signs;
+/// the others' bounds are the tighter ones. What terms and their sum may have lost to round-off is in either: see
+/// RootFinder::enclosure.
+void Outlook::bound_events(const Jet& jet, std::size_t watched) {
+    const std::size_t size = powers_.size();
+    const double length = lengths_[0], share = 0x1p-53 * static_cast<double>(2 * size + 8);
+    double power = length;
+    powers_[0] = 0; // the sign of the first coefficient counts
+    for (std::size_t k = 1; k < size; ++k, power *= length)
+        powers_[k] = power;
+    Block last_powers{};
+    for (std::size_t k = size / block * block; k < size && size > block; ++k)
+        last_powers[k + block - size] = powers_[k];
+    const std::span<const Series> events = jet.series().subspan(simulation_.system().states(), watched);
+    for (std::size_t w = 0; w < watched; ++w) {
+        const std::span<const double> c{events[w].first, size};
+        if (size > block) {
+            const double rest = sum_of_sizes(c, powers_.data(), last_powers);
+            sizes_[w] = std::abs(c[0]) + rest;
+            least_[w] = c[0] - rest - share * sizes_[w];
+            if (least_[w] > 0)
+                continue;
+        }
+        const auto [least, sum] = RootFinder::enclosure(c, length, RootStart::as_is);
+        least_[w] = least;
+        sizes_[w] = sum;
+    }
 }
 
 } // namespace graze

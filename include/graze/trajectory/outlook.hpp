@@ -35,11 +35,14 @@ public:
     double size(std::size_t watched, std::size_t lane) const { return sizes_[watched * width_ + lane]; }
 
 private:
+    void bound_events(const Jet& jet, std::size_t watched);
+
     Simulation simulation_;
     std::size_t width_;
     double log_tolerance_;
     EndAllowance allowance_;
     std::vector<double> lengths_, states_, slopes_, least_, sizes_, disagreement_;
+    std::vector<double> powers_; ///< of the length of a single lane
 };
 
 } // namespace graze
