@@ -208,33 +208,34 @@ bool Trajectory::is_grazing(std::size_t w, double s, double rate) {
 }
 
 /// Moves a root of the event polynomial onto the surface itself, from which the truncation of the polynomials of
-/// event and states may keep it by something like the tolerance.
+/// event and states may keep it by something like the tolerance. There may be many events with roots in one step: only
+/// the states on which this one depends are looked at.
 double Trajectory::on_surface(std::size_t w, double s) {
     const auto c = event_series(w);
-    const auto& events = compiled_mode_->events;
-    values_.resize(events.outputs());
+    const Function& event = simulation_.system().event(compiled_mode_->watched[w]);
+    values_.resize(event.outputs());
     for (int sweep = 0; sweep < 2; ++sweep) {
-        for (std::size_t i = 0; i < states_; ++i)
+        for (const std::size_t i : compiled_mode_->gradients[w].states)
             inputs_[i] = evaluate_state(i, s);
-        events.evaluate(inputs_, values_, work_);
-        const double rate = evaluate_derivative(c, s);
+        event.evaluate(inputs_, values_, work_);
+        const double value = values_[0], rate = evaluate_derivative(c, s);
         // Newton's method is safe only well away from the double root of a tangential contact.
-        if (!(4 * std::abs(values_[w] * c[2]) < rate * rate))
+        if (!(4 * std::abs(value * c[2]) < rate * rate))
             return s;
-        s = std::max(0.0, s - values_[w] / rate);
+        s = std::max(0.0, s - value / rate);
     }
     return s;
 }
 
 /// How far round-off within an event's function, as in exp(x) - 1, may move its root at s.
 double Trajectory::error_of_root(std::size_t w, double s) {
-    const auto& events = compiled_mode_->events;
-    values_.resize(events.outputs());
-    for (std::size_t i = 0; i < states_; ++i)
+    const Function& event = simulation_.system().event(compiled_mode_->watched[w]);
+    values_.resize(event.outputs());
+    for (const std::size_t i : compiled_mode_->gradients[w].states)
         inputs_[i] = evaluate_state(i, s);
     std::fill(uncertain_.begin(), uncertain_.end(), 0.0);
-    events.error_bounds(inputs_, uncertain_, values_, work_);
-    const double error = values_[w] / std::abs(evaluate_derivative(event_series(w), s)), most = most_of_flight * s;
+    event.error_bounds(inputs_, uncertain_, values_, work_);
+    const double error = values_[0] / std::abs(evaluate_derivative(event_series(w), s)), most = most_of_flight * s;
     return error < most ? error : most;
 }
 
