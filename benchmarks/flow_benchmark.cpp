@@ -24,10 +24,10 @@ Model model_of(const std::string& name) {
 }
 
 /// The first parameters, as many as asked for.
-std::vector<std::size_t> free_of(std::size_t count) {
-    std::vector<std::size_t> free;
+std::vector<ParameterId> free_of(std::size_t count) {
+    std::vector<ParameterId> free;
     for (std::size_t f = 0; f < count; ++f)
-        free.push_back(f);
+        free.push_back(ParameterId(f));
     return free;
 }
 

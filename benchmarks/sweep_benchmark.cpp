@@ -36,9 +36,7 @@ StudyRun chains_run(std::size_t chains) {
     StudyRun run = sweep_run(60, 20);
     Variation frequencies;
     frequencies.name = "f";
-    const auto symbols = run.model.parameter_symbols();
-    while (symbols[frequencies.index].name() != "f")
-        ++frequencies.index;
+    frequencies.parameter = run.model.independent_parameter("f");
     for (std::size_t i = 0; i < chains; ++i)
         frequencies.values.push_back(6.2 + 0.1 * static_cast<double>(i) / static_cast<double>(chains));
     run.axes.push_back(frequencies);

@@ -23,10 +23,10 @@ BranchState::BranchState(const System& system, const Orbit& candidate, const Bra
     const Model& model = system.model();
     settings_.validate(model);
     validate_orbit(model, candidate);
-    if (is_outside(candidate.parameters[settings.parameter]))
+    if (is_outside(candidate.parameters[settings.parameter.place()]))
         throw InputError(fmt::format("the orbit's {} = {} lies outside the branch's bounds",
-                                     model.independent_parameters()[settings.parameter],
-                                     candidate.parameters[settings.parameter]),
+                                     model.independent_parameters()[settings.parameter.place()],
+                                     candidate.parameters[settings.parameter.place()]),
                          "choose bounds on either side of it");
     if (!settings.monitors.empty())
         monitors_ =

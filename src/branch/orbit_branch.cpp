@@ -31,7 +31,7 @@ bool is_among(PointType type, const std::vector<PointType>& types) {
 void BranchSettings::validate(const Model& model) const {
     continuation.validate();
     orbit.validate();
-    if (parameter >= model.independent_parameters().size())
+    if (parameter.place() >= model.independent_parameters().size())
         throw InputError("the branch's parameter is not one of the model's", "choose an independent parameter");
     if (direction != 1 && direction != -1)
         throw InputError(fmt::format("the direction {} is neither 1 nor -1", direction), "give 1 for up, -1 for down");
@@ -61,8 +61,8 @@ void BranchSettings::validate(const Model& model) const {
                                          monitor.place, model.states.size()),
                              "give 1 for the largest, 2 for the next, ...");
     }
-    for (const std::size_t one : free)
-        if (one >= model.independent_parameters().size() || one == parameter ||
+    for (const ParameterId one : free)
+        if (one.place() >= model.independent_parameters().size() || one == parameter ||
             std::count(free.begin(), free.end(), one) > 1)
             throw InputError("a free parameter is not one of the model's, or there twice", "name other ones");
 }

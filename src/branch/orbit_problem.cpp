@@ -9,7 +9,7 @@ namespace graze {
 
 namespace {
 
-std::vector<std::size_t> both(std::size_t parameter, std::vector<std::size_t> free) {
+std::vector<ParameterId> both(ParameterId parameter, std::vector<ParameterId> free) {
     free.insert(free.begin(), parameter);
     return free;
 }
@@ -40,7 +40,7 @@ OrbitProblem::OrbitProblem(std::unique_ptr<OrbitEquations> equations)
     }
 }
 
-OrbitProblem::OrbitProblem(const Simulation& simulation, const Orbit& orbit, std::size_t parameter)
+OrbitProblem::OrbitProblem(const Simulation& simulation, const Orbit& orbit, ParameterId parameter)
     : OrbitProblem(std::make_unique<Shooting>(simulation, orbit, std::vector{parameter})) {}
 
 OrbitProblem::OrbitProblem(const Simulation& simulation, const Orbit& orbit, const BranchSettings& settings)

@@ -19,7 +19,7 @@ namespace graze {
 /// further parameters.
 class OrbitProblem : public ContinuationProblem {
 public:
-    OrbitProblem(const Simulation& simulation, const Orbit& orbit, std::size_t parameter);
+    OrbitProblem(const Simulation& simulation, const Orbit& orbit, ParameterId parameter);
     /// By any discretisation. @param equations with one free parameter
     explicit OrbitProblem(std::unique_ptr<OrbitEquations> equations);
     /// With further free parameters, as many as conditions are to be held.

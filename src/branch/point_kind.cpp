@@ -306,7 +306,7 @@ void test_bounds(const TestedPoint& point, Tests& tests) {
                 {.type = PointType::bound, .value = greatest ? *greatest - value : nothing, .monitor = monitor});
     };
     const BranchSettings& settings = point.settings;
-    add(settings.least, settings.greatest, point.at.parameters[settings.parameter], std::nullopt);
+    add(settings.least, settings.greatest, point.at.parameters[settings.parameter.place()], std::nullopt);
     for (std::size_t m = 0; m < settings.monitors.size(); ++m)
         add(settings.monitors[m].least, settings.monitors[m].greatest, point.monitors[m], m);
 }
@@ -331,9 +331,9 @@ bool confirm_bound(BranchState& state, SpecialPoint& special, const BranchTest& 
     // Round-off would leave the bound on the one side or the other.
     for (const auto& bound : {settings.least, settings.greatest})
         if (bound && !test.monitor && std::abs(special.parameter - *bound) < 1e-9 * length_of_step(state))
-            special.parameter = special.solution.orbit.parameters[settings.parameter] = *bound;
+            special.parameter = special.solution.orbit.parameters[settings.parameter.place()] = *bound;
     const std::string name = test.monitor ? settings.monitors[*test.monitor].name
-                                          : state.model().independent_parameters()[settings.parameter];
+                                          : state.model().independent_parameters()[settings.parameter.place()];
     special.detail =
         fmt::format("{} = {:.10g}", name, test.monitor ? special.monitors[*test.monitor] : special.parameter);
     return special.located;

@@ -91,8 +91,8 @@ BranchStart with_events_reordered(const System& system, const SpecialPoint& poin
                     continue;
                 OrbitProblem next(simulation, solution.orbit, settings.parameter);
                 std::vector<double> row(next.unknowns(), 0.0), onward(next.unknowns());
-                const double rise =
-                    solution.orbit.parameters[settings.parameter] - orbit.parameters[settings.parameter];
+                const double rise = solution.orbit.parameters[settings.parameter.place()] -
+                                    orbit.parameters[settings.parameter.place()];
                 row[next.parameter_place()] = 1;
                 if (!next.evaluate(next.unknowns_of(solution.orbit)) ||
                     !next.solve(row, rise < 0 ? -1 : 1, true, onward, nullptr))

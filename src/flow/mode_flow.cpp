@@ -41,15 +41,15 @@ std::vector<std::size_t> starts_of(const System& system, std::optional<std::vect
 
 } // namespace
 
-ModeFlow::ModeFlow(const System& system, double tolerance, int order, std::vector<std::size_t> free,
+ModeFlow::ModeFlow(const System& system, double tolerance, int order, std::vector<ParameterId> free,
                    std::optional<std::vector<std::size_t>> starts)
     : system_(system), free_(std::move(free)), starts_(starts_of(system, std::move(starts))), states_(system.states()),
       directions_(starts_.size() + free_.size()), step_size_(order_of(tolerance, order), tolerance),
       step_check_(system, order_of(tolerance, order), tolerance), tolerance_(allowance * tolerance),
       single_(system, order_of(tolerance, order), LaneKind::single),
       tangent_(system, single_.order(), LaneKind::tangent) {
-    for (const std::size_t parameter : free_)
-        require_index(parameter, system.parameters(), "independent parameter");
+    for (const ParameterId parameter : free_)
+        require_index(parameter.place(), system.parameters(), "independent parameter");
     for (const std::size_t state : starts_)
         require_index(state, states_, "state");
     lanes_ = static_cast<std::size_t>(tangent_.width()) - 1;
@@ -82,7 +82,7 @@ void ModeFlow::set_parameters(std::span<const double> parameters) {
         parameter_lanes_[j * width] = parameters_[j];
     if (directions_ <= lanes_) {
         for (std::size_t f = 0; f < free_.size(); ++f)
-            parameter_lanes_[free_[f] * width + 1 + starts_.size() + f] = 1;
+            parameter_lanes_[free_[f].place() * width + 1 + starts_.size() + f] = 1;
         tangent_.set_parameters(parameter_lanes_);
     }
 }
@@ -145,7 +145,7 @@ void ModeFlow::load(std::size_t mode, std::span<const double> state, std::size_t
     if (directions_ > lanes_) {
         for (std::size_t f = 0; f < free_.size(); ++f)
             for (std::size_t l = 0; l < lanes_; ++l)
-                parameter_lanes_[free_[f] * width + 1 + l] = first + l == starts_.size() + f ? 1 : 0;
+                parameter_lanes_[free_[f].place() * width + 1 + l] = first + l == starts_.size() + f ? 1 : 0;
         tangent_.set_parameters(mode, parameter_lanes_);
     }
     for (std::size_t i = 0; i < states_; ++i) {

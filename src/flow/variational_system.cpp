@@ -18,7 +18,7 @@ namespace {
 /// Differentiates in a copy of a system's model, whose graph may grow and is thrown away at the end.
 class VariationalCompiler {
 public:
-    VariationalCompiler(const System& system, std::span<const std::size_t> free);
+    VariationalCompiler(const System& system, std::span<const ParameterId> free);
 
     System modes();
     /// Values, derivatives and second derivatives of functions in the model's symbols.
@@ -40,11 +40,11 @@ private:
     std::size_t workspace_ = 0;
 };
 
-VariationalCompiler::VariationalCompiler(const System& system, std::span<const std::size_t> free)
+VariationalCompiler::VariationalCompiler(const System& system, std::span<const ParameterId> free)
     : model_(system.model()), states_(model_.state_symbols()), known_(model_.inputs()), variables_(states_) {
     const std::vector<Expression> parameters = model_.parameter_symbols();
-    for (const std::size_t parameter : free)
-        variables_.push_back(parameters[parameter]);
+    for (const ParameterId parameter : free)
+        variables_.push_back(parameters[parameter.place()]);
     for (const Expression& variable : variables_) {
         vector_.push_back(new_symbol("along_" + std::to_string(vector_.size())));
         along_.emplace_back(variable, vector_.back());
@@ -106,13 +106,13 @@ System VariationalCompiler::modes() {
 
 } // namespace
 
-VariationalSystem::VariationalSystem(const System& system, std::vector<std::size_t> free) {
-    std::set<std::size_t> seen;
-    for (const std::size_t parameter : free) {
-        require_index(parameter, system.parameters(), "independent parameter");
+VariationalSystem::VariationalSystem(const System& system, std::vector<ParameterId> free) {
+    std::set<ParameterId> seen;
+    for (const ParameterId parameter : free) {
+        require_index(parameter.place(), system.parameters(), "independent parameter");
         if (!seen.insert(parameter).second)
             throw InputError(
-                fmt::format("parameter '{}' is free twice", system.model().independent_parameters()[parameter]),
+                fmt::format("parameter '{}' is free twice", system.model().independent_parameters()[parameter.place()]),
                 "name each free parameter once");
     }
     VariationalCompiler compiler(system, free);

@@ -106,13 +106,15 @@ std::vector<std::string> Model::independent_parameters() const {
     return names;
 }
 
-std::optional<std::size_t> Model::find_independent_parameter(std::string_view item) const {
+std::optional<ParameterId> Model::find_independent_parameter(std::string_view item) const {
     const std::vector<std::string> names = independent_parameters();
     const auto found = std::find(names.begin(), names.end(), item);
-    return found == names.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - names.begin()));
+    if (found == names.end())
+        return std::nullopt;
+    return ParameterId(static_cast<std::size_t>(found - names.begin()));
 }
 
-std::size_t Model::independent_parameter(std::string_view item) const {
+ParameterId Model::independent_parameter(std::string_view item) const {
     if (const auto place = find_independent_parameter(item))
         return *place;
     if (find_parameter(item))

@@ -54,7 +54,7 @@ Basis make_basis() {
 
 } // namespace
 
-Collocation::Collocation(const Simulation& simulation, const Orbit& orbit, std::vector<std::size_t> free,
+Collocation::Collocation(const Simulation& simulation, const Orbit& orbit, std::vector<ParameterId> free,
                          std::size_t intervals, std::vector<double> ranges)
     : OrbitEquations(simulation, orbit, std::move(free), std::move(ranges)), intervals_(intervals) {
     if (intervals == 0)

@@ -20,7 +20,7 @@ public:
 
     /// @param intervals of each segment; fixed, and equal
     /// @throws InputError when the orbit does not fit the model, or there are no intervals
-    Collocation(const Simulation& simulation, const Orbit& orbit, std::vector<std::size_t> free, std::size_t intervals,
+    Collocation(const Simulation& simulation, const Orbit& orbit, std::vector<ParameterId> free, std::size_t intervals,
                 std::vector<double> ranges = {});
 
 private:

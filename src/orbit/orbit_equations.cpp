@@ -14,11 +14,11 @@ namespace graze {
 
 namespace {
 
-std::vector<double> usual_values(const Model& model, const std::vector<std::size_t>& free) {
+std::vector<double> usual_values(const Model& model, const std::vector<ParameterId>& free) {
     const std::vector<double> all = model.parameter_values();
     std::vector<double> result;
-    for (const std::size_t f : free)
-        result.push_back(all.at(f));
+    for (const ParameterId f : free)
+        result.push_back(all.at(f.place()));
     return result;
 }
 
@@ -29,7 +29,7 @@ const Orbit& valid(const Model& model, const Orbit& orbit) {
 
 } // namespace
 
-OrbitEquations::OrbitEquations(const Simulation& simulation, const Orbit& orbit, std::vector<std::size_t> free,
+OrbitEquations::OrbitEquations(const Simulation& simulation, const Orbit& orbit, std::vector<ParameterId> free,
                                std::vector<double> ranges)
     : simulation_(simulation), ends_(simulation.system(), valid(simulation.model(), orbit), std::move(free)),
       flow_(flow_of(simulation, ends_.free())), layout_(simulation.system().states(), {}, 0, ends_.free().size()),
@@ -70,7 +70,7 @@ Eigen::VectorXd OrbitEquations::unknowns_of(const Orbit& orbit) {
         }
     }
     for (std::size_t f = 0; f < layout_.free(); ++f)
-        unknowns[index(layout_.parameter(f))] = orbit.parameters[free()[f]];
+        unknowns[index(layout_.parameter(f))] = orbit.parameters[free()[f].place()];
     set_inner(orbit, unknowns);
     clear_remnants(unknowns);
     return unknowns;
@@ -111,7 +111,7 @@ void OrbitEquations::take_segments(const Eigen::VectorXd& unknowns, std::vector<
 Orbit OrbitEquations::orbit_of(const Eigen::VectorXd& unknowns) const {
     Orbit orbit{signature(), parameters_, {}, {}, symmetry()};
     for (std::size_t f = 0; f < layout_.free(); ++f)
-        orbit.parameters[free()[f]] = unknowns[index(layout_.parameter(f))];
+        orbit.parameters[free()[f].place()] = unknowns[index(layout_.parameter(f))];
     take_segments(unknowns, orbit.starts, orbit.durations);
     return orbit;
 }
@@ -156,7 +156,7 @@ Eigen::VectorXd OrbitEquations::unknowns_of(const OrbitDirection& direction, con
 void OrbitEquations::set_parameters(const Eigen::VectorXd& unknowns, std::vector<double>& parameters) {
     parameters = parameters_;
     for (std::size_t f = 0; f < layout_.free(); ++f)
-        parameters[free()[f]] = unknowns[index(layout_.parameter(f))];
+        parameters[free()[f].place()] = unknowns[index(layout_.parameter(f))];
     flow_.set_parameters(parameters);
     ends_.set_parameters(parameters);
 }

@@ -35,7 +35,7 @@ public:
     const Model& model() const { return simulation_.model(); }
     const Signature& signature() const { return ends_.signature(); }
     std::optional<std::size_t> symmetry() const { return ends_.symmetry(); }
-    const std::vector<std::size_t>& free() const { return ends_.free(); }
+    const std::vector<ParameterId>& free() const { return ends_.free(); }
     const OrbitLayout& layout() const { return layout_; }
     std::size_t unknowns() const { return layout_.unknowns(); }
     std::size_t mode_of(std::size_t piece) const { return modes_[layout_.segment_of(piece)]; }
@@ -100,7 +100,7 @@ public:
     ModeFlow& flow_at(const OrbitEvaluation& at);
 
 protected:
-    OrbitEquations(const Simulation& simulation, const Orbit& orbit, std::vector<std::size_t> free,
+    OrbitEquations(const Simulation& simulation, const Orbit& orbit, std::vector<ParameterId> free,
                    std::vector<double> ranges);
     /// To be called at the end of the constructor of a discretisation.
     /// @param counts of the pieces of each segment; @param inner unknowns of each piece

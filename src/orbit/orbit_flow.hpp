@@ -13,7 +13,7 @@
 namespace graze {
 
 /// The flow of the modes of a simulation, at its tolerance.
-inline ModeFlow flow_of(const Simulation& simulation, std::vector<std::size_t> free = {}) {
+inline ModeFlow flow_of(const Simulation& simulation, std::vector<ParameterId> free = {}) {
     return {simulation.system(), simulation.options().tolerance, simulation.order(), std::move(free)};
 }
 

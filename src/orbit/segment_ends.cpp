@@ -8,7 +8,7 @@
 
 namespace graze {
 
-SegmentEnds::SegmentEnds(const System& system, const Orbit& orbit, std::vector<std::size_t> free)
+SegmentEnds::SegmentEnds(const System& system, const Orbit& orbit, std::vector<ParameterId> free)
     : system_(system), signature_(orbit.signature), symmetry_(orbit.symmetry), free_(std::move(free)),
       n_(system.states()), periods_(n_), inputs_(n_ + system.parameters()), work_(system.workspace()),
       values_(std::max({1 + n_ + system.parameters(), n_ * system.parameters(), system.jacobian_entries()})),
@@ -39,7 +39,7 @@ void SegmentEnds::set_parameters(std::span<const double> parameters) {
     system_.period_gradients().evaluate(parameters_, std::span(values_).first(n_ * count), work_);
     for (std::size_t i = 0; i < n_; ++i)
         for (std::size_t f = 0; f < free_.size(); ++f)
-            period_rates_(index(i), index(f)) = values_[i * count + free_[f]];
+            period_rates_(index(i), index(f)) = values_[i * count + free_[f].place()];
 }
 
 Eigen::VectorXd SegmentEnds::gradient_of(std::span<const double> values) const {
@@ -47,7 +47,7 @@ Eigen::VectorXd SegmentEnds::gradient_of(std::span<const double> values) const {
     for (std::size_t i = 0; i < n_; ++i)
         gradient[index(i)] = values[1 + i];
     for (std::size_t f = 0; f < free_.size(); ++f)
-        gradient[index(n_ + f)] = values[1 + n_ + free_[f]];
+        gradient[index(n_ + f)] = values[1 + n_ + free_[f].place()];
     return gradient;
 }
 
@@ -104,7 +104,7 @@ void SegmentEnds::apply(const System::CompiledJump& map, OrbitEvaluation::Piece&
     map.jacobian.evaluate(inputs_, values_, work_);
     std::vector<std::size_t> free_place(parameters_.size(), free_.size());
     for (std::size_t f = 0; f < free_.size(); ++f)
-        free_place[free_[f]] = f;
+        free_place[free_[f].place()] = f;
     Eigen::MatrixXd product = piece.jump;
     for (const std::size_t i : map.changed)
         product.row(index(i)).setZero();

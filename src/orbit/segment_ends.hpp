@@ -16,11 +16,11 @@ namespace graze {
 /// with derivatives with respect to states and free parameters: the same for every discretisation.
 class SegmentEnds {
 public:
-    SegmentEnds(const System& system, const Orbit& orbit, std::vector<std::size_t> free);
+    SegmentEnds(const System& system, const Orbit& orbit, std::vector<ParameterId> free);
 
     const Signature& signature() const { return signature_; }
     std::optional<std::size_t> symmetry() const { return symmetry_; }
-    const std::vector<std::size_t>& free() const { return free_; }
+    const std::vector<ParameterId>& free() const { return free_; }
 
     void set_parameters(std::span<const double> parameters);
     /// Of cyclic states, 0 of others.
@@ -49,7 +49,7 @@ private:
     System system_;
     Signature signature_;
     std::optional<std::size_t> symmetry_;
-    std::vector<std::size_t> free_;
+    std::vector<ParameterId> free_;
     std::size_t n_;
     std::vector<EndFunction> ends_;
     std::vector<double> parameters_, periods_, inputs_, work_, values_;

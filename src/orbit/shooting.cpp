@@ -17,7 +17,7 @@ constexpr std::size_t most_splits = 64;
 
 } // namespace
 
-Shooting::Shooting(const Simulation& simulation, const Orbit& orbit, std::vector<std::size_t> free,
+Shooting::Shooting(const Simulation& simulation, const Orbit& orbit, std::vector<ParameterId> free,
                    std::vector<double> ranges)
     : OrbitEquations(simulation, orbit, std::move(free), std::move(ranges)) {
     lay_out(orbit, split(orbit));

@@ -15,7 +15,7 @@ public:
     /// @param free parameters that are unknown
     /// @param ranges in which they are looked at, where that is known; 0 where it is not
     /// @throws InputError when the orbit does not fit the model
-    Shooting(const Simulation& simulation, const Orbit& orbit, std::vector<std::size_t> free,
+    Shooting(const Simulation& simulation, const Orbit& orbit, std::vector<ParameterId> free,
              std::vector<double> ranges = {});
 
 private:

@@ -19,7 +19,7 @@ bool is_period(const Monitor& monitor) {
 
 void StepLines::begin(const StudyRun& run, const std::string& part) {
     const std::vector<std::string> names = run.model.independent_parameters();
-    const std::size_t parameter = run.branch.settings.parameter;
+    const std::size_t parameter = run.branch.settings.parameter.place();
     std::string line =
         fmt::format("{:>5} {:<4} {:<6} {:>{}} {:>{}} {:<6}", "step", "type", "label",
                     parameter < names.size() ? names[parameter] : "parameter", wide, "period", wide, "stable");

@@ -114,15 +114,15 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
          [](const Context&, Record& r, CellReader& cell) { r.label = cell.text(); }},
         {{"", Type::real, Unit::own, true, ColumnGroup::coordinates},
          [](const Context& context, const Record& r, CellWriter& cells) {
-             for (const std::size_t place : context.parameters)
-                 cells.real(r.point.solution.orbit.parameters[place]);
+             for (const ParameterId one : context.parameters)
+                 cells.real(r.point.solution.orbit.parameters[one.place()]);
          },
          [](const Context& context, Record& r, CellReader& cells) {
              std::vector<double>& parameters = r.point.solution.orbit.parameters;
              parameters = context.model->parameter_values();
-             for (const std::size_t place : context.parameters)
-                 parameters[place] = cells.number();
-             r.point.parameter = context.parameters.empty() ? 0 : parameters[context.parameters.front()];
+             for (const ParameterId one : context.parameters)
+                 parameters[one.place()] = cells.number();
+             r.point.parameter = context.parameters.empty() ? 0 : parameters[context.parameters.front().place()];
          }},
         {{"period", Type::real, Unit::time, true}, // it follows from the segments
          [](const Context&, const Record& r, CellWriter& cell) { cell.real(r.point.solution.orbit.period()); }},

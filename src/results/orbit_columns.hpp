@@ -13,7 +13,7 @@ struct OrbitContext {
 
     const RunRecord* run;
     const Model* model;
-    std::vector<std::size_t> parameters; ///< of the run's columns: their places among the model's
+    std::vector<ParameterId> parameters; ///< of the run's columns
 };
 
 /// Of a table of orbits.

@@ -130,7 +130,7 @@ std::vector<double> parameters_of(const StoredRun& run, const OrbitRecord& recor
     std::vector<double> values;
     for (const ResultColumn& column : run.record.coordinates)
         if (const auto place = run.model.find_independent_parameter(column.name))
-            values.push_back(record.point.solution.orbit.parameters[*place]);
+            values.push_back(record.point.solution.orbit.parameters[place->place()]);
     return values;
 }
 

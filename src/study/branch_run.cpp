@@ -259,7 +259,7 @@ SpecialPoint failed_start(const Part& part, const StudyRun& run, const std::stri
     point.solution.orbit = part.orbit;
     point.solution.certificate.admissible = false;
     point.solution.certificate.reason = "no orbit was found";
-    point.parameter = part.orbit.parameters[run.branch.settings.parameter];
+    point.parameter = part.orbit.parameters[run.branch.settings.parameter.place()];
     point.bracket = {unknown, unknown};
     return point;
 }
@@ -323,7 +323,7 @@ bool compute_orbit(const Study& study, const StudyRun& run, const System& system
         point.solution.certificate.admissible = false;
         point.solution.certificate.reason = "no orbit was found";
     }
-    point.parameter = orbit.parameters.empty() ? 0 : orbit.parameters[run.branch.settings.parameter];
+    point.parameter = orbit.parameters.empty() ? 0 : orbit.parameters[run.branch.settings.parameter.place()];
     point.bracket = {unknown, unknown};
     writer.add("", point, is_stable(point.solution));
     writer.end("");

@@ -97,13 +97,13 @@ Plan plan_of(const StudyRun& run, const System& system, const PointRecord* start
         PointStart result{run.model.parameter_values(), state, mode};
         const std::vector<double> coordinates = coordinates_of(run, point);
         for (std::size_t a = 0; a < run.axes.size(); ++a)
-            if (!run.axes[a].is_state)
-                result.parameters[run.axes[a].index] = coordinates[a];
+            if (!run.axes[a].state)
+                result.parameters[run.axes[a].parameter.place()] = coordinates[a];
         if (result.state.empty())
             result.state = system.initial()(result.parameters);
         for (std::size_t a = 0; a < run.axes.size(); ++a)
-            if (run.axes[a].is_state)
-                result.state[run.axes[a].index] = coordinates[a];
+            if (const auto& varied = run.axes[a].state)
+                result.state[*varied] = coordinates[a];
         return result;
     };
     return plan;

@@ -39,9 +39,9 @@ void add_parameters(const StudyRun& run, RunRecord& record) {
         record.coordinates.push_back({name, run.model.parameters[*run.model.find_parameter(name)].unit});
     };
     if (!parameters.empty())
-        add(run.branch.settings.parameter);
+        add(run.branch.settings.parameter.place());
     for (std::size_t p = 0; p < parameters.size(); ++p)
-        if (p != run.branch.settings.parameter)
+        if (p != run.branch.settings.parameter.place())
             add(p);
 }
 
@@ -49,9 +49,18 @@ void add_parameters(const StudyRun& run, RunRecord& record) {
 void require_fitting(const StudyRun& run) {
     require_size(run.value_names.size(), run.values.size(), "names of values");
     require_size(run.value_units.size(), run.values.size(), "units of values");
-    for (const Variation& axis : run.axes)
-        require_index(axis.index, axis.is_state ? run.model.states.size() : run.model.independent_parameters().size(),
-                      axis.is_state ? "state" : "independent parameter");
+    const std::vector<std::string> parameters = run.model.independent_parameters();
+    for (const Variation& axis : run.axes) {
+        if (axis.state)
+            require_index(*axis.state, run.model.states.size(), "state");
+        else
+            require_index(axis.parameter.place(), parameters.size(), "independent parameter");
+        const std::string& varied =
+            axis.state ? run.model.states[*axis.state].name : parameters[axis.parameter.place()];
+        if (axis.name != varied)
+            throw InputError(fmt::format("the axis '{}' varies '{}'", axis.name, varied),
+                             "give it the name of what varies");
+    }
 }
 
 RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, std::size_t points) {

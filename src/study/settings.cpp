@@ -222,8 +222,10 @@ void complete(Variation& axis, const Model& model, const SettingsReader& fields)
     const auto state = model.find_state(axis.name);
     if (!parameter && !state)
         fields.fail("vary", fmt::format("made of names that the model has, as '{}'", axis.name));
-    axis.is_state = !parameter;
-    axis.index = parameter ? *parameter : *state;
+    if (parameter)
+        axis.parameter = *parameter;
+    else
+        axis.state = *state;
     axis.unit = parameter ? model.parameters[*model.find_parameter(axis.name)].unit : model.states[*state].unit;
     const bool finite = std::all_of(axis.values.begin(), axis.values.end(), [](double x) { return std::isfinite(x); });
     if (!finite || (axis.values.empty() && !(axis.low < axis.high && (!axis.logarithmic || axis.low > 0))))

@@ -78,6 +78,16 @@ public:
             texts.push_back(word_of(names, index));
         field(name, texts);
     }
+    void named(std::string_view name, ParameterId parameter, const std::vector<std::string>& names) {
+        named(name, parameter.place(), names);
+    }
+    void named(std::string_view name, const std::vector<ParameterId>& parameters,
+               const std::vector<std::string>& names) {
+        std::vector<std::size_t> places;
+        for (const ParameterId parameter : parameters)
+            places.push_back(parameter.place());
+        named(name, places, names);
+    }
     void expression(std::string_view name, const Expression& value) { field(name, to_string(value)); }
     void expressions(std::string_view name, const std::vector<Expression>& values) {
         std::vector<std::string> texts;
@@ -182,6 +192,19 @@ public:
     }
     void named(std::string_view name, std::size_t& index, const std::vector<std::string>& names) const;
     void named(std::string_view name, std::vector<std::size_t>& indices, const std::vector<std::string>& names) const;
+    void named(std::string_view name, ParameterId& parameter, const std::vector<std::string>& names) const {
+        std::size_t place = parameter.place();
+        named(name, place, names);
+        parameter = ParameterId(place);
+    }
+    void named(std::string_view name, std::vector<ParameterId>& parameters,
+               const std::vector<std::string>& names) const {
+        std::vector<std::size_t> places;
+        named(name, places, names);
+        parameters.clear();
+        for (const std::size_t place : places)
+            parameters.push_back(ParameterId(place));
+    }
     void expression(std::string_view name, Expression& value) const;
     void expressions(std::string_view name, std::vector<Expression>& values) const;
     template <class Item, class Describe>

@@ -44,8 +44,8 @@ const StudyRun& run_named(const Study& study, const std::string& name) {
 
 std::vector<double> with_own_parameters(const StudyRun& run, std::vector<double> parameters) {
     const std::vector<double> values = run.model.parameter_values();
-    for (const std::size_t parameter : run.branch.set)
-        parameters[parameter] = values[parameter];
+    for (const ParameterId parameter : run.branch.set)
+        parameters[parameter.place()] = values[parameter.place()];
     return parameters;
 }
 
@@ -62,7 +62,7 @@ OrbitRecord orbit_to_start_from(const StartFrom& start, const StudyRun& parent, 
         if (!found)
             throw InputError(start.place, fmt::format("run '{}' has no parameter '{}'", start.run, *start.coordinate),
                              "name one of the model's");
-        const std::size_t place = *found;
+        const std::size_t place = found->place();
         double least = std::numeric_limits<double>::infinity();
         for (OrbitRecord& one : file.orbits(start.run, false)) {
             const double distance = std::abs(one.point.solution.orbit.parameters[place] - start.value);

@@ -11,7 +11,7 @@ namespace graze {
 
 namespace {
 
-std::size_t parameter_named(const StudyReader& reader, const Model& model, const TomlEntry& entry,
+ParameterId parameter_named(const StudyReader& reader, const Model& model, const TomlEntry& entry,
                             const std::string& name) {
     const auto place = model.find_independent_parameter(name);
     if (!place)

@@ -170,11 +170,10 @@ Variation read_variation(const StudyReader& reader, const Model& model, const To
     Variation variation;
     variation.name = entry.name;
     if (const auto parameter = model.find_independent_parameter(entry.name)) {
-        variation.index = *parameter;
+        variation.parameter = *parameter;
         variation.unit = model.parameters[*model.find_parameter(entry.name)].unit;
     } else if (const auto state = model.find_state(entry.name)) {
-        variation.is_state = true;
-        variation.index = *state;
+        variation.state = *state;
         variation.unit = model.states[*state].unit;
     } else {
         std::vector<std::string> known = model.independent_parameters();

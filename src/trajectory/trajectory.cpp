@@ -156,7 +156,7 @@ void Trajectory::carry_derivatives(std::span<const std::string> names) {
     std::vector<double> seeds(names.size() * inputs, 0.0);
     for (std::size_t d = 0; d < names.size(); ++d) {
         const auto state = model.find_state(names[d]);
-        seeds[d * inputs + (state ? *state : states_ + model.independent_parameter(names[d]))] = 1;
+        seeds[d * inputs + (state ? *state : states_ + model.independent_parameter(names[d]).place())] = 1;
     }
     carry_tangents(seeds, names.size());
 }

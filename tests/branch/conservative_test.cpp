@@ -144,7 +144,7 @@ TEST(Conservative, damping_stays_zero_while_amplitude_is_held_and_the_push_passe
             }
             for (const BranchPoint& point : branch.points) {
                 EXPECT_NEAR(point.solution.orbit.period() / time, duffing_period(point.parameter), 1e-10);
-                EXPECT_LT(std::abs(point.solution.orbit.parameters[settings.free[0]] * time), 1e-11);
+                EXPECT_LT(std::abs(point.solution.orbit.parameters[settings.free[0].place()] * time), 1e-11);
                 EXPECT_NEAR(point.solution.orbit.starts[0][0], length, 1e-11 * length);
             }
             // From the one end to the other, across zero.

@@ -69,8 +69,8 @@ TEST(HeldMonitors, an_extremum_passes_the_end_of_the_orbit) {
             EXPECT_LT(branch.points.size(), 150U) << phase << ' ' << expression;
             EXPECT_EQ(names(branch), "BD");
             for (const BranchPoint& point : branch.points)
-                EXPECT_NEAR(point.solution.orbit.parameters[settings.free[0]] * response(0.1, point.parameter), 0.3,
-                            1e-9);
+                EXPECT_NEAR(point.solution.orbit.parameters[settings.free[0].place()] * response(0.1, point.parameter),
+                            0.3, 1e-9);
         }
     }
 }
@@ -101,7 +101,8 @@ TEST(HeldMonitors, a_touch_can_be_held) {
         EXPECT_EQ(names(branch), "BD");
         EXPECT_LT(branch.points.size(), 150U);
         for (const BranchPoint& point : branch.points) {
-            EXPECT_NEAR(point.solution.orbit.parameters[settings.free[0]] * response(0.1, point.parameter), 0.5, 1e-9);
+            EXPECT_NEAR(point.solution.orbit.parameters[settings.free[0].place()] * response(0.1, point.parameter), 0.5,
+                        1e-9);
             EXPECT_TRUE(point.solution.certificate.admissible) << point.solution.certificate.reason;
         }
     }

@@ -130,7 +130,7 @@ void expect_resonance_curve(const Model& model, const Monitor& held, double valu
     EXPECT_NEAR(branch.points.back().parameter, 0.4, 1e-12);
     for (const BranchPoint& point : branch.points) {
         EXPECT_NEAR(point.monitors[0], value, 1e-10);
-        const double omega = point.parameter, force = point.solution.orbit.parameters[settings.free[0]];
+        const double omega = point.parameter, force = point.solution.orbit.parameters[settings.free[0].place()];
         const double size = held.kind == Monitor::Kind::norm ? value * std::sqrt(2.0) : value;
         EXPECT_NEAR(amplitude(0.1, omega, force), size, 1e-9 * size);
         EXPECT_TRUE(point.stable);
@@ -149,7 +149,7 @@ TEST(MonitorsOfBranches, must_match_what_is_free) {
     const OrbitSolution solution = settled(model, "phase0");
     BranchSettings settings;
     settings.monitors = {monitor("amplitude", Monitor::Kind::maximum, model, "x")};
-    settings.free = {1};
+    settings.free = {ParameterId(1)};
     EXPECT_THROW(follow_branch(model, solution.orbit, settings), InputError);
     settings.monitors[0].fixed = true;
     settings.free = {settings.parameter};

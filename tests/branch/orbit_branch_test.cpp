@@ -83,7 +83,7 @@ TEST(OrbitBranch, ends_on_its_bounds) {
         const double bound = direction > 0 ? 0.05 : -0.1;
         EXPECT_EQ(branch.special[0].parameter, bound);
         EXPECT_EQ(branch.points.back().parameter, bound);
-        EXPECT_EQ(branch.points.back().solution.orbit.parameters[one.settings.parameter], bound);
+        EXPECT_EQ(branch.points.back().solution.orbit.parameters[one.settings.parameter.place()], bound);
         EXPECT_LT(branch.special[0].solution.residual, 1e-11);
         // Where it stands on the bound already, going beyond ends it at once, and going back does not.
         one.settings.least = direction > 0 ? -0.1 : 0.02;
@@ -206,7 +206,7 @@ TEST(OrbitBranch, says_what_is_wrong) {
         return refusal([&] { follow_branch(one.model, one.orbit, settings); });
     };
     EXPECT_NE(refused([](auto& s) { s.direction = 0; }).find("direction"), std::string::npos);
-    EXPECT_NE(refused([](auto& s) { s.parameter = 99; }).find("parameter"), std::string::npos);
+    EXPECT_NE(refused([](auto& s) { s.parameter = ParameterId(99); }).find("parameter"), std::string::npos);
     EXPECT_NE(refused([](auto& s) { s.least = 2; }).find("bounds"), std::string::npos);
     EXPECT_NE(refused([](auto& s) { s.least = 0.5; }).find("outside the branch's bounds"), std::string::npos);
     EXPECT_NE(refused([](auto& s) { s.greatest = NAN; }).find("bound"), std::string::npos);

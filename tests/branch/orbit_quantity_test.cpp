@@ -35,7 +35,7 @@ TEST(OrbitQuantities, gradients_are_those_of_the_values_for_every_shipped_model)
         const Model model = load_model(name);
         const Orbit orbit = candidate(model, motion.time);
         const Simulation simulation(model, {}, {}, integration(1e-14));
-        Shooting equations(simulation, orbit, {0, 1});
+        Shooting equations(simulation, orbit, {ParameterId(0), ParameterId(1)});
         const Eigen::VectorXd unknowns = equations.unknowns_of(orbit);
         OrbitEvaluation at = equations.evaluation();
         ASSERT_TRUE(equations.evaluate(unknowns, at)) << name << ' ' << at.problem;
@@ -76,7 +76,7 @@ TEST(OrbitQuantities, gradients_of_what_vanishes_at_special_points) {
         const Model model = load_model(name);
         const Orbit orbit = candidate(model, motion.time);
         const Simulation simulation(model, {}, {}, integration(1e-14));
-        Shooting equations(simulation, orbit, {0, 1});
+        Shooting equations(simulation, orbit, {ParameterId(0), ParameterId(1)});
         const Eigen::VectorXd unknowns = equations.unknowns_of(orbit);
         OrbitEvaluation at = equations.evaluation();
         ASSERT_TRUE(equations.evaluate(unknowns, at)) << name;

@@ -46,7 +46,7 @@ mode = "free"
 constexpr double tolerance = 1e-15, accuracy = 1e-13;
 
 TEST(ModeFlow, AgreesWithClosedFormsForwardsAndBackwards) {
-    ModeFlow flow(spring(), tolerance, 0, {1});
+    ModeFlow flow(spring(), tolerance, 0, {ParameterId(1)});
     for (const double k : {4.0, 0.3})
         for (const double time : {0.0, 0.7, 3.1, -2.2}) {
             flow.set_parameters(std::vector{7.0, k});
@@ -88,7 +88,8 @@ TEST(ModeFlow, ShowsItsStepsAndPassesEvents) {
 
 TEST(ModeFlow, GivesDerivativesByChosenStatesAlone) {
     const System system(spring());
-    ModeFlow all(system, tolerance, 0, {1}), some(system, tolerance, 0, {1}, std::vector<std::size_t>{1}),
+    ModeFlow all(system, tolerance, 0, {ParameterId(1)}),
+        some(system, tolerance, 0, {ParameterId(1)}, std::vector<std::size_t>{1}),
         none(system, tolerance, 0, {}, std::vector<std::size_t>{});
     std::vector<double> state{0.8, -0.3}, other = state, alone = state, every(2 * 3), few(2 * 2);
     for (ModeFlow* flow : {&all, &some, &none})
@@ -109,7 +110,7 @@ TEST(ModeFlow, GivesDerivativesByChosenStatesAlone) {
 TEST(ModeFlow, TakesFewStepsWhereASymmetryMakesDerivativesZero) {
     for (const double within : {1e-9, 1e-12, tolerance}) {
         const Model model = microbeam({.modes = 2});
-        ModeFlow flow(model, within, 0, {0});
+        ModeFlow flow(model, within, 0, {ParameterId(0)});
         flow.set_parameters(model.parameter_values());
         const std::size_t n = model.states.size();
         std::vector<double> state = model.initial_state(), other = state, derivatives(n * (n + 1));
@@ -140,7 +141,7 @@ TEST(ModeFlow, RefusesWhatDoesNotFit) {
     const System system(spring());
     EXPECT_THROW(ModeFlow(system, 0), InputError);
     EXPECT_THROW(ModeFlow(system, tolerance, 3), InputError);
-    EXPECT_THROW(ModeFlow(system, tolerance, 0, {2}), InputError);
+    EXPECT_THROW(ModeFlow(system, tolerance, 0, {ParameterId(2)}), InputError);
     ModeFlow flow(system, tolerance);
     std::vector<double> state{1, 0}, few{1}, derivatives(4), fewer(3);
     EXPECT_THROW(flow.run(0, state, 1), std::logic_error);

@@ -39,10 +39,10 @@ Flown fly(SecondOrderFlow& flow, std::size_t mode, const Numbers& start, double 
     return flown;
 }
 
-std::vector<std::size_t> all_parameters(const Model& model) {
-    std::vector<std::size_t> all;
+std::vector<ParameterId> all_parameters(const Model& model) {
+    std::vector<ParameterId> all;
     for (std::size_t j = 0; j < model.parameter_values().size(); ++j)
-        all.push_back(j);
+        all.push_back(ParameterId(j));
     return all;
 }
 
@@ -198,7 +198,7 @@ Numbers difference(ModeFlow& flow, std::size_t mode, const Numbers& start, const
         for (std::size_t i = 0; i < n; ++i)
             state[i] += sign * h * along[i];
         for (std::size_t f = 0; f < flow.free().size(); ++f)
-            changed[flow.free()[f]] += sign * h * along[n + f];
+            changed[flow.free()[f].place()] += sign * h * along[n + f];
         flow.set_parameters(changed);
         EXPECT_EQ(flow.run(mode, state, duration, derivatives), ModeFlow::Ending::done);
         tangents.push_back(product(derivatives, vector));
@@ -210,7 +210,7 @@ Numbers difference(ModeFlow& flow, std::size_t mode, const Numbers& start, const
 
 TEST(SecondOrderFlow, AgreesWithDifferencesThatConverge) {
     const System system(pendulum());
-    const std::vector<std::size_t> free{0, 1, 2};
+    const std::vector free{ParameterId(0), ParameterId(1), ParameterId(2)};
     const Numbers parameters = system.model().parameter_values(), start{1.0, -0.4, 0.3};
     SecondOrderFlow flow(VariationalSystem(system, free), tolerance);
     ModeFlow first(system, tolerance, 0, free);
@@ -244,7 +244,7 @@ TEST(SecondOrderFlow, AgreesWithDifferencesThatConverge) {
 
 /// Second derivatives of both parts of an arc are those of the whole, by the chain rule.
 TEST(SecondOrderFlow, ComposesByTheChainRule) {
-    const VariationalSystem system(pendulum(), {2, 0});
+    const VariationalSystem system(pendulum(), {ParameterId(2), ParameterId(0)});
     const std::size_t n = 3, variables = system.variables();
     SecondOrderFlow flow(system, tolerance);
     flow.set_parameters(system.system().model().parameter_values());
@@ -288,11 +288,11 @@ TEST(SecondOrderFlow, TakesFewStepsWhereDerivativesStartAtZero) {
                                   Numbers{1e-18, 1, 0, 1e-30, 0, 0, 1}, Numbers(7, 0.0)})
         for (const double p : {0.0, 0.3}) {
             const Numbers start{p, 0, 0, 0, 0, 0}, parameters{p};
-            ModeFlow first(system, tolerance, 0, {0});
+            ModeFlow first(system, tolerance, 0, {ParameterId(0)});
             first.set_parameters(parameters);
             Numbers state = start, derivatives(6 * 7);
             ASSERT_EQ(first.run(0, state, 3.0, derivatives), ModeFlow::Ending::done);
-            SecondOrderFlow flow(VariationalSystem(system, {0}), tolerance);
+            SecondOrderFlow flow(VariationalSystem(system, {ParameterId(0)}), tolerance);
             flow.set_parameters(parameters);
             const Flown flown = fly(flow, 0, start, 3.0, vector);
             EXPECT_LE(flow.steps(), 30 + 2 * first.steps());
@@ -429,7 +429,7 @@ TEST(SecondOrderFlow, IsSymmetricAndTheLimitOfDifferencesOnEveryShippedModel) {
 }
 
 TEST(SecondOrderFlow, GivesTheSameOnFourThreadsThatShareASystem) {
-    const VariationalSystem system(pendulum(), {0, 1, 2});
+    const VariationalSystem system(pendulum(), {ParameterId(0), ParameterId(1), ParameterId(2)});
     const auto once = [&system] {
         SecondOrderFlow flow(system, tolerance);
         flow.set_parameters(system.system().model().parameter_values());
@@ -463,7 +463,7 @@ TEST(SecondOrderFlow, TellsHowItEnds) {
 }
 
 TEST(SecondOrderFlow, RefusesWhatDoesNotFit) {
-    const VariationalSystem system(pendulum(), {1});
+    const VariationalSystem system(pendulum(), {ParameterId(1)});
     EXPECT_THROW(SecondOrderFlow(system, 0), InputError);
     EXPECT_THROW(SecondOrderFlow(system, tolerance, 3), InputError);
     SecondOrderFlow flow(system, tolerance);

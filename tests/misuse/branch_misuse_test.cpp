@@ -162,10 +162,10 @@ void settings(WrongUses& wrong) {
         wrong("branches_at_" + name, [made] { keep(branches_at(calm_oscillator(), grazing_point(), made())); });
     };
     for (const auto& [kind, index] : wrong_indices(5)) {
-        setting("parameter_" + kind, [i = index](BranchSettings& s) { s.parameter = i; });
+        setting("parameter_" + kind, [i = index](BranchSettings& s) { s.parameter = ParameterId(i); });
         setting("free_" + kind, [i = index](BranchSettings& s) {
             s.monitors = {{.name = "period", .fixed = true}};
-            s.free = {i};
+            s.free = {ParameterId(i)};
         });
     }
     for (const int direction : {0, 2, -7})
@@ -176,7 +176,7 @@ void settings(WrongUses& wrong) {
     });
     setting("least_nan", [](BranchSettings& s) { s.least = not_a_number; });
     setting("greatest_nan", [](BranchSettings& s) { s.greatest = not_a_number; });
-    setting("free_without_monitor", [](BranchSettings& s) { s.free = {0}; });
+    setting("free_without_monitor", [](BranchSettings& s) { s.free = {ParameterId(0)}; });
     setting("fixed_monitor_without_free", [](BranchSettings& s) { s.monitors = {{.name = "period", .fixed = true}}; });
     setting("free_is_parameter", [](BranchSettings& s) {
         s.monitors = {{.name = "period", .fixed = true}};

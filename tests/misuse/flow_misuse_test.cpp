@@ -325,7 +325,7 @@ void systems(WrongUses& wrong) {
 void mode_flows(WrongUses& wrong) {
     const std::size_t n = oscillator().states.size(), parameters = oscillator().parameter_values().size();
     const auto made = [] {
-        ModeFlow flow(oscillator(), 1e-10, 0, {0});
+        ModeFlow flow(oscillator(), 1e-10, 0, {ParameterId(0)});
         flow.set_parameters(oscillator().parameter_values());
         return flow;
     };
@@ -335,7 +335,8 @@ void mode_flows(WrongUses& wrong) {
     for (const int order : {3, -1, highest_order + 1})
         wrong("mode_flow_order_" + std::to_string(order), [order] { keep(ModeFlow(oscillator(), 1e-10, order)); });
     for (const auto& [how, index] : wrong_indices(parameters))
-        wrong("mode_flow_free_" + how, [index = index] { keep(ModeFlow(oscillator(), 1e-10, 0, {index})); });
+        wrong("mode_flow_free_" + how,
+              [index = index] { keep(ModeFlow(oscillator(), 1e-10, 0, {ParameterId(index)})); });
     for (const auto& [how, index] : wrong_indices(n))
         wrong("mode_flow_start_" + how,
               [index = index] { keep(ModeFlow(oscillator(), 1e-10, 0, {}, std::vector{index})); });
@@ -366,7 +367,7 @@ void mode_flows(WrongUses& wrong) {
 
 /// What is right for the oscillator by one of its parameters, to be spoiled.
 struct SecondOrderRun {
-    VariationalSystem system{oscillator(), {0}};
+    VariationalSystem system{oscillator(), {ParameterId(0)}};
     SecondOrderFlow flow{system, 1e-10};
     std::size_t mode = 0;
     std::vector<double> parameters = oscillator().parameter_values(), state = oscillator().initial_state(),
@@ -412,8 +413,11 @@ void second_order_flows(WrongUses& wrong) {
     });
 
     for (const auto& [how, index] : wrong_indices(oscillator().parameter_values().size()))
-        wrong("variational_free_" + how, [index = index] { keep(VariationalSystem(oscillator(), {index})); });
-    wrong("variational_free_twice", [] { keep(VariationalSystem(oscillator(), {1, 0, 1})); });
+        wrong("variational_free_" + how,
+              [index = index] { keep(VariationalSystem(oscillator(), {ParameterId(index)})); });
+    wrong("variational_free_twice", [] {
+        keep(VariationalSystem(oscillator(), {ParameterId(1), ParameterId(0), ParameterId(1)}));
+    });
     const auto indices = [&](const std::string& name, std::size_t size,
                              const std::function<void(const VariationalSystem&, std::size_t)>& use) {
         for (const auto& [how, index] : wrong_indices(size))

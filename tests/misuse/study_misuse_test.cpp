@@ -314,7 +314,10 @@ void studies(WrongUses& wrong) {
             one.name = "a";
             one.model = oscillator();
             one.transient.time = 0.1;
-            one.axes = {{.name = "amplitude", .unit = "", .index = 2, .values = {0.5, 1}}};
+            one.axes = {{.name = "amplitude",
+                         .unit = "",
+                         .parameter = oscillator().independent_parameter("amplitude"),
+                         .values = {0.5, 1}}};
             Results results;
             RunnerOptions options;
             spoil(study, results, options);
@@ -341,7 +344,11 @@ void studies(WrongUses& wrong) {
         s.runs[0].value_names = s.runs[0].value_units = {"a"};
     });
     for (const auto& [kind, index] : wrong_indices(5))
-        run("axis_parameter_" + kind, [i = index](Study& s, Results&, RunnerOptions&) { s.runs[0].axes[0].index = i; });
+        run("axis_parameter_" + kind,
+            [i = index](Study& s, Results&, RunnerOptions&) { s.runs[0].axes[0].parameter = ParameterId(i); });
+    for (const auto& [kind, index] : wrong_indices(oscillator().states.size()))
+        run("axis_state_" + kind, [i = index](Study& s, Results&, RunnerOptions&) { s.runs[0].axes[0].state = i; });
+    run("axis_of_another_name", [](Study& s, Results&, RunnerOptions&) { s.runs[0].axes[0].name = "omega"; });
     run("axis_nan", [](Study& s, Results&, RunnerOptions&) { s.runs[0].axes[0].values = {not_a_number}; });
     run("axis_without_values", [](Study& s, Results&, RunnerOptions&) { s.runs[0].axes[0].values.clear(); });
     run("no_end", [](Study& s, Results&, RunnerOptions&) { s.runs[0].transient = {}; });

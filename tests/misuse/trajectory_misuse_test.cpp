@@ -150,7 +150,7 @@ void starts(WrongUses& wrong) {
         model.states[2].period = model.symbol("sigma");
         const Simulation simulation(model);
         std::vector<double> parameters = model.parameter_values();
-        parameters[model.independent_parameter("sigma")] = -1;
+        parameters[model.independent_parameter("sigma").place()] = -1;
         Observer nobody;
         Trajectory trajectory(simulation, parameters, nobody);
         trajectory.start(std::vector<double>(3), 0, 0, 1);

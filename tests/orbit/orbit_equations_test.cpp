@@ -64,13 +64,13 @@ class Equations : public testing::TestWithParam<Case> {
 protected:
     Equations() : model(model_of(GetParam().model)), orbit(orbit_of(model)) {}
 
-    std::unique_ptr<OrbitEquations> make(std::vector<std::size_t> free, std::size_t intervals = 40) const {
+    std::unique_ptr<OrbitEquations> make(std::vector<ParameterId> free, std::size_t intervals = 40) const {
         const Simulation simulation(model, {}, {}, integration(1e-14));
         if (GetParam().method == Method::shooting)
             return std::make_unique<Shooting>(simulation, orbit, free);
         return std::make_unique<Collocation>(simulation, orbit, free, intervals);
     }
-    std::size_t parameter() const { return model.independent_parameter(parameter_of(GetParam().model)); }
+    ParameterId parameter() const { return model.independent_parameter(parameter_of(GetParam().model)); }
 
     Model model;
     Orbit orbit;
@@ -170,7 +170,7 @@ TEST_P(Equations, a_tangent_is_a_direction_of_the_orbit) {
     std::vector<Orbit> beside;
     for (const double sign : {1.0, -1.0}) {
         Orbit guess = orbit;
-        guess.parameters[parameter()] += sign * step;
+        guess.parameters[parameter().place()] += sign * step;
         const OrbitSolution solution = solve_orbit(model, guess);
         ASSERT_EQ(solution.outcome, OrbitOutcome::converged);
         beside.push_back(solution.orbit);

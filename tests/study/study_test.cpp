@@ -48,7 +48,7 @@ vary = { omega = [3, 2.5], x = { from = 0, to = 1, points = 5 }, e = { from = 0.
     ASSERT_EQ(run.axes.size(), 4u);
     EXPECT_THAT(run.axes[0].values, ElementsAre(2.5, 3));
     EXPECT_THAT(run.axes[1].values, ElementsAre(0, 0.25, 0.5, 0.75, 1));
-    EXPECT_TRUE(run.axes[1].is_state);
+    EXPECT_TRUE(run.axes[1].state);
     EXPECT_NEAR(run.axes[2].values[1], 0.1, 1e-16);
     const Plan plan = plan_of(run, System(run.model), nullptr);
     EXPECT_EQ(plan.points(), 2u * 5 * 3 * 3);
@@ -57,8 +57,8 @@ vary = { omega = [3, 2.5], x = { from = 0, to = 1, points = 5 }, e = { from = 0.
         EXPECT_GE(at[3], 2);
         EXPECT_LT(at[3], 3);
         const PointStart start = plan.start(point);
-        EXPECT_EQ(start.state[run.axes[1].index], at[1]);
-        EXPECT_EQ(start.parameters[run.axes[0].index], at[0]);
+        EXPECT_EQ(start.state[*run.axes[1].state], at[1]);
+        EXPECT_EQ(start.parameters[run.axes[0].parameter.place()], at[0]);
         EXPECT_EQ(coordinates_of(run, point), at);
     }
     EXPECT_NE(coordinates_of(run, 0)[3], coordinates_of(run, 1)[3]);

@@ -15,14 +15,14 @@
 namespace graze {
 
 struct BranchSettings {
-    std::size_t parameter = 0;             ///< that varies: its place among the model's independent ones
+    ParameterId parameter;                 ///< that varies
     int direction = 1;                     ///< in which it goes at first: up (1) or down (-1)
     std::size_t steps = 1000;              ///< at most
     std::optional<double> least, greatest; ///< of the parameter, where the branch ends
     ContinuationOptions continuation;
     OrbitOptions orbit;
     std::vector<Monitor> monitors;
-    std::vector<std::size_t> free;    ///< further parameters that vary, one for each monitor that is fixed
+    std::vector<ParameterId> free;    ///< further parameters that vary, one for each monitor that is fixed
     std::vector<PointType> stop_at;   ///< types at which the branch ends
     bool stop_when_unphysical = true; ///< ends where orbits cease to be admissible
     /// Goes on with another signature where events change their order, a segment vanishes or a guard chooses another

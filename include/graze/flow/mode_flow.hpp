@@ -20,11 +20,11 @@ public:
     /// @param free independent parameters with respect to which there are derivatives
     /// @param starts states of the start with respect to which there are derivatives; all unless they are given
     /// @throws InputError for a tolerance, order, parameter or state that is out of range
-    ModeFlow(const System& system, double tolerance, int order = 0, std::vector<std::size_t> free = {},
+    ModeFlow(const System& system, double tolerance, int order = 0, std::vector<ParameterId> free = {},
              std::optional<std::vector<std::size_t>> starts = std::nullopt);
 
     const System& system() const { return system_; }
-    const std::vector<std::size_t>& free() const { return free_; }
+    const std::vector<ParameterId>& free() const { return free_; }
     const std::vector<std::size_t>& starts() const { return starts_; }
     /// To be called before `run`. @throws InputError unless there are as many as the system has
     void set_parameters(std::span<const double> parameters);
@@ -51,7 +51,8 @@ private:
     void require_fitting(std::size_t mode, std::span<const double> state) const;
 
     System system_;
-    std::vector<std::size_t> free_, starts_;
+    std::vector<ParameterId> free_;
+    std::vector<std::size_t> starts_;
     std::size_t states_, directions_, lanes_;
     StepSize step_size_;
     StepCheck step_check_;

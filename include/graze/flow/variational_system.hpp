@@ -21,11 +21,11 @@ class VariationalSystem {
 public:
     /// @param free independent parameters with respect to which there are derivatives
     /// @throws InputError for one that is out of range or named twice
-    explicit VariationalSystem(const System& system, std::vector<std::size_t> free = {});
+    explicit VariationalSystem(const System& system, std::vector<ParameterId> free = {});
 
     /// The system of which it is.
     const System& system() const { return parts_->system; }
-    const std::vector<std::size_t>& free() const { return parts_->free; }
+    const std::vector<ParameterId>& free() const { return parts_->free; }
     /// States and free parameters.
     std::size_t variables() const { return system().states() + free().size(); }
 
@@ -55,7 +55,7 @@ public:
 private:
     struct Parts {
         System system, modes;
-        std::vector<std::size_t> free;
+        std::vector<ParameterId> free;
         std::vector<Function> events, jumps, symmetries;
         std::vector<std::vector<Function>> sections; ///< of each: as it is, then under each symmetry
         std::size_t workspace = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/model/parameter_id.hpp"
 #include "graze/model/state_map.hpp"
 #include "graze/symbolic/expression.hpp"
 #include "graze/symbolic/function.hpp"
@@ -150,10 +151,10 @@ struct Model : ModelItems {
 
     /// Names of the independent parameters, in the order of `parameters`.
     std::vector<std::string> independent_parameters() const;
-    /// The place of a parameter among them.
-    std::optional<std::size_t> find_independent_parameter(std::string_view item) const;
+    /// Which of them has this name.
+    std::optional<ParameterId> find_independent_parameter(std::string_view item) const;
     /// The same. @throws InputError for a dependent parameter, and for an unknown name (with the nearest)
-    std::size_t independent_parameter(std::string_view item) const;
+    ParameterId independent_parameter(std::string_view item) const;
 
     /// Index of the named item.
     std::optional<std::size_t> find_parameter(std::string_view item) const; ///< among `parameters`

@@ -22,8 +22,8 @@ std::string_view name_of(RunKind kind);
 /// Something that varies from point to point: a parameter or an initial state.
 struct Variation {
     std::string name, unit;
-    bool is_state = false;
-    std::size_t index = 0;      ///< among the independent parameters, or the states
+    std::optional<std::size_t> state; ///< whose initial value varies; none: the parameter does
+    ParameterId parameter;
     std::vector<double> values; ///< in rising order as the file gives them; empty: drawn at random
     double low = 0, high = 0;   ///< of random draws
     bool logarithmic = false;   ///< draws are uniform in the logarithm
@@ -50,7 +50,7 @@ struct BranchRequest {
     Place signature_place;
     std::string table;            ///< file of a motion to start from; empty: none
     std::string table_text;       ///< its contents, where they are known already and no file is read
-    std::vector<std::size_t> set; ///< parameters that the run itself sets, rather than the orbit that it starts from
+    std::vector<ParameterId> set; ///< parameters that the run itself sets, rather than the orbit that it starts from
     BranchSettings settings;
 
     bool has_table() const { return !table.empty() || !table_text.empty(); }
