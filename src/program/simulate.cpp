@@ -75,13 +75,9 @@ std::vector<bool> chosen_events(const Model& model, const std::vector<std::strin
     std::vector<bool> chosen(model.events.size(), names.empty());
     for (const std::string& name : split_list(names)) {
         const auto index = model.find_event(name);
-        if (!index) {
-            std::vector<std::string> known;
-            for (const Event& event : model.events)
-                known.push_back(event.name);
+        if (!index)
             throw InputError({"--event", 0, 0}, fmt::format("the model has no event '{}'", name),
-                             name_advice(name, known, "it has none"));
-        }
+                             name_advice(name, names_of(model.events), "it has none"));
         chosen[*index] = true;
     }
     return chosen;
@@ -90,9 +86,8 @@ std::vector<bool> chosen_events(const Model& model, const std::vector<std::strin
 std::vector<std::string> chosen_directions(const Model& model, const SimulateArguments& arguments, TableKind kind) {
     if (kind != TableKind::derivatives)
         return {};
-    std::vector<std::string> known, chosen = split_list(arguments.derivatives);
-    for (const State& state : model.states)
-        known.push_back(state.name);
+    const std::vector<std::string> chosen = split_list(arguments.derivatives);
+    std::vector<std::string> known = names_of(model.states);
     for (const std::string& name : model.independent_parameters())
         known.push_back(name);
     if (chosen.empty() || chosen == std::vector<std::string>{"all"})

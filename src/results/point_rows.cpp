@@ -1,10 +1,14 @@
 #include "results/point_columns.hpp"
 
+#include "graze/results/name_advice.hpp"
 #include "graze/symbolic/require.hpp"
 #include "results/detail_rows.hpp"
 #include "results/result_file_state.hpp"
+#include "results/run_query.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace graze {
 
@@ -133,22 +137,14 @@ std::optional<PointRecord> ResultFile::nearest_point(const std::string& name, co
     const auto run = find_run(name);
     if (!run || run->is_branch())
         return std::nullopt;
-    const RunTables tables(*run);
-    const std::vector<std::string> columns = tables.names_of(ColumnGroup::coordinates);
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-        if (run->coordinates[i].name != coordinate)
-            continue;
-        const std::string direction_name =
-            direction && *direction < run->directions.size() ? run->directions[*direction] : "";
-        Statement row = state_->database.prepare(fmt::format("SELECT number FROM {} WHERE ?2 = '' OR direction = ?2 "
-                                                             "ORDER BY abs({} - ?1), number LIMIT 1",
-                                                             tables.points, quoted_name(columns[i])));
-        row.bind(1, value).bind(2, std::string_view(direction_name));
-        if (!row.step())
-            return std::nullopt;
-        return point(name, static_cast<std::size_t>(row.integer(0)));
-    }
-    return std::nullopt;
+    const std::vector<std::string> known = names_of(run->coordinates);
+    if (std::find(known.begin(), known.end(), coordinate) == known.end())
+        return std::nullopt;
+    std::vector<std::string> directions;
+    if (direction && *direction < run->directions.size())
+        directions.push_back(run->directions[*direction]);
+    const auto number = nearest_number(*this, *run, {{coordinate, value}}, directions);
+    return number ? point(name, *number) : std::nullopt;
 }
 
 } // namespace graze

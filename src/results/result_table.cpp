@@ -221,9 +221,7 @@ ResultTable table_of_rows(const ResultFile& file, const ResultTableRequest& requ
 
 std::vector<std::string> chosen_runs(const ResultFile& file, const std::vector<std::string>& wanted,
                                      const Place& place) {
-    std::vector<std::string> known;
-    for (const RunRecord& run : file.runs())
-        known.push_back(run.name);
+    const std::vector<std::string> known = names_of(file.runs());
     for (const std::string& name : wanted)
         if (std::find(known.begin(), known.end(), name) == known.end())
             throw InputError(place, fmt::format("there are no results of a run '{}'", name),

@@ -73,6 +73,25 @@ std::string RunQuery::order(bool with_samples) const {
     return !with_samples ? "p.number" : run_->is_branch() ? "p.number, s.segment" : "p.number, s.rowid";
 }
 
+std::optional<std::size_t> nearest_number(const ResultFile& file, const RunRecord& run,
+                                          const std::vector<std::pair<std::string, double>>& at,
+                                          const std::vector<std::string>& directions) {
+    const RunQuery query(run);
+    std::string order;
+    std::vector<double> values;
+    for (const auto& [name, value] : at) {
+        values.push_back(value);
+        order += fmt::format("abs({} - ?{}), ", query.quantity(name), values.size());
+    }
+    auto rows = file.query(fmt::format("SELECT p.number FROM {} WHERE {} ORDER BY {}p.number {} LIMIT 1",
+                                       query.tables(false, false), query.condition(directions, {}), order,
+                                       at.empty() ? "DESC" : "ASC"),
+                           values);
+    if (!rows.next())
+        return std::nullopt;
+    return static_cast<std::size_t>(rows.integer(0));
+}
+
 std::string unit_of(ColumnUnit unit, const StoredRun& run) {
     const std::string& time = run.model.time_unit;
     switch (unit) {

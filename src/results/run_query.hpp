@@ -3,7 +3,10 @@
 #include "graze/results/stored_run.hpp"
 #include "results/schema.hpp"
 
+#include <cstddef>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -35,6 +38,11 @@ private:
     const RunRecord* run_;
     RunTables tables_;
 };
+
+/// Number of the point of a run whose coordinates are nearest, as StoredRun::nearest.
+std::optional<std::size_t> nearest_number(const ResultFile& file, const RunRecord& run,
+                                          const std::vector<std::pair<std::string, double>>& at,
+                                          const std::vector<std::string>& directions);
 
 /// The unit of a column's numbers.
 std::string unit_of(const RunColumn& column, const StoredRun& run);

@@ -84,12 +84,10 @@ StoredOrbit find_stored_orbit(const ResultFile& file, const std::string& point, 
             return {StoredRun(file, point, place), file.orbits(point, false).front()};
     if (runs.size() == 1)
         return {StoredRun(file, runs.front().name, place), orbit_of_run(file, runs.front(), point, place)};
-    std::vector<std::string> having, known;
-    for (const RunRecord& run : runs) {
-        known.push_back(run.name);
+    std::vector<std::string> having;
+    for (const RunRecord& run : runs)
         if (look_up(file, run, point))
             having.push_back(run.name);
-    }
     if (having.size() > 1)
         throw_ambiguous(point, having, place);
     if (having.empty())

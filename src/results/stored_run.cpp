@@ -16,18 +16,8 @@ namespace {
 RunRecord record_named(const ResultFile& file, const std::string& name, const Place& place) {
     if (auto found = file.find_run(name))
         return std::move(*found);
-    std::vector<std::string> known;
-    for (const RunRecord& run : file.runs())
-        known.push_back(run.name);
     throw InputError(place, fmt::format("there are no results of a run '{}'", name),
-                     name_advice(name, known, "run the study first"));
-}
-
-std::vector<std::string> names_of(const std::vector<ResultColumn>& columns) {
-    std::vector<std::string> names;
-    for (const ResultColumn& column : columns)
-        names.push_back(column.name);
-    return names;
+                     name_advice(name, names_of(file.runs()), "run the study first"));
 }
 
 std::vector<std::string> texts_of(ResultFile::Rows rows) {
@@ -157,23 +147,11 @@ std::vector<std::string> StoredRun::special_labels() const {
 
 std::optional<std::size_t> StoredRun::nearest(const std::vector<std::pair<std::string, double>>& at,
                                               const std::vector<std::string>& directions) const {
-    const RunQuery query(record);
     const std::vector<std::string> known = coordinate_names();
-    std::string order;
-    std::vector<double> values;
-    for (const auto& [name, value] : at) {
+    for (const auto& [name, value] : at)
         if (std::find(known.begin(), known.end(), name) == known.end())
             throw std::out_of_range(fmt::format("run '{}' does not vary '{}'", record.name, name));
-        values.push_back(value);
-        order += fmt::format("abs({} - ?{}), ", query.quantity(name), values.size());
-    }
-    auto rows = file->query(fmt::format("SELECT p.number FROM {} WHERE {} ORDER BY {}p.number {} LIMIT 1",
-                                        query.tables(false, false), query.condition(directions, {}), order,
-                                        at.empty() ? "DESC" : "ASC"),
-                            values);
-    if (!rows.next())
-        return std::nullopt;
-    return static_cast<std::size_t>(rows.integer(0));
+    return nearest_number(*file, record, at, directions);
 }
 
 } // namespace graze

@@ -2,6 +2,7 @@
 #include "graze/results/name_advice.hpp"
 #include "graze/results/stored_orbit.hpp"
 #include "study/picture_kinds.hpp"
+#include "study/point_limits.hpp"
 
 #include "graze/symbolic/parser.hpp"
 
@@ -138,7 +139,7 @@ std::vector<Stretch> stretches_of(const std::vector<DrawnPoint>& points) {
 }
 
 bool alike(const PlanePoint& one, const PlanePoint& other) {
-    const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-6 * std::max(std::abs(a), std::abs(b)); };
+    const auto near = [](double a, double b) { return std::abs(a - b) <= same_point * std::max(std::abs(a), std::abs(b)); };
     return near(one.x, other.x) && near(one.y, other.y);
 }
 

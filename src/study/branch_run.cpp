@@ -2,6 +2,7 @@
 
 #include "graze/branch/switching.hpp"
 #include "graze/orbit/orbit_file.hpp"
+#include "study/point_limits.hpp"
 #include "study/start_point.hpp"
 
 #include <fmt/format.h>
@@ -209,8 +210,8 @@ public:
 private:
     /// Says so of a point that an earlier part has as well.
     void note_twin(OrbitRecord& record) {
-        const auto alike = [](double one, double other) { // as well as points are located, with some reserve
-            return std::abs(one - other) <= 1e-6 * std::max(std::abs(one), std::abs(other));
+        const auto alike = [](double one, double other) {
+            return std::abs(one - other) <= same_point * std::max(std::abs(one), std::abs(other));
         };
         for (const OrbitRecord& other : twin_.empty() ? std::vector<OrbitRecord>() : special_)
             if (other.part == twin_ && other.point.type == record.point.type &&

@@ -6,20 +6,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <map>
 
 namespace graze {
 
-ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& file) {
-    ResultPicture result;
-    const StoredRun run(file, picture.runs.front(), picture.place);
-    const std::string y = chosen_values(picture, run).front();
-    require_values(picture, run, {y});
-    const std::string x = picture.successive ? y : first_coordinate(picture, run);
-    const std::string group = picture.group.empty() ? "0" : picture.group;
+namespace {
+
+/// Points through which lines are laid, by the value of what makes the groups.
+std::map<double, std::vector<PlanePoint>> groups_of(const StudyPicture& picture, const StoredRun& run,
+                                                    const std::string& x, const std::string& y) {
     auto rows = run.rows({.samples = true,
                           .columns = {"number"},
-                          .quantities = {group, picture.successive ? "0" : x},
+                          .quantities = {picture.group.empty() ? "0" : picture.group, picture.successive ? "0" : x},
                           .values = {y},
                           .samplings = shown_samplings(picture, run),
                           .sorted_by = picture.group});
@@ -35,6 +35,52 @@ ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& 
         last = rows.integer(0);
         before = value;
     }
+    return groups;
+}
+
+/// The line through points, and from where to where they go.
+struct Fit {
+    Regression line;
+    double least = std::numeric_limits<double>::infinity(), greatest = -least;
+};
+
+Fit fit_of(const StudyPicture& picture, const std::vector<PlanePoint>& points) {
+    Fit fit;
+    std::vector<double> xs, ys;
+    for (const PlanePoint& point : points) {
+        const bool in_range = !picture.fit || (point.x > picture.fit->first && point.x < picture.fit->second);
+        if (!in_range || (picture.logarithmic_x && !(point.x > 0)) || (picture.logarithmic_y && !(point.y > 0)))
+            continue;
+        xs.push_back(picture.logarithmic_x ? std::log10(point.x) : point.x);
+        ys.push_back(picture.logarithmic_y ? std::log10(point.y) : point.y);
+        fit.least = std::min(fit.least, point.x);
+        fit.greatest = std::max(fit.greatest, point.x);
+    }
+    fit.line = regression(xs, ys);
+    return fit;
+}
+
+FigureSeries drawn(const StudyPicture& picture, const Fit& fit, const std::string& title, std::size_t colour) {
+    const Regression& line = fit.line;
+    FigureSeries series{fmt::format("{}slope {:.4f}, intercept {:.4f}", title, line.slope, line.intercept),
+                        FigureSeries::Style::line,
+                        colour,
+                        {}};
+    for (const double end : {fit.least, fit.greatest}) {
+        const double at = line.intercept + line.slope * (picture.logarithmic_x ? std::log10(end) : end);
+        series.points.push_back({end, picture.logarithmic_y ? std::pow(10, at) : at});
+    }
+    return series;
+}
+
+} // namespace
+
+ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& file) {
+    ResultPicture result;
+    const StoredRun run(file, picture.runs.front(), picture.place);
+    const std::string y = chosen_values(picture, run).front();
+    require_values(picture, run, {y});
+    const std::string x = picture.successive ? y : first_coordinate(picture, run);
     FigurePanel panel = panel_of(picture, picture.successive ? y + " of one contact" : x, run.unit(x),
                                  picture.successive ? y + " of the next" : y, run.unit(y));
     result.table = Table({{picture.group.empty() ? "group" : picture.group, run.unit(picture.group)},
@@ -45,33 +91,14 @@ ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& 
                           {"points", ""}});
     panel.key_inside = true;
     std::size_t colour = 0;
-    for (const auto& [value, points] : groups) {
-        std::vector<double> xs, ys;
-        double least = std::numeric_limits<double>::infinity(), greatest = -least;
-        for (const PlanePoint& point : points) {
-            const bool in_range = !picture.fit || (point.x > picture.fit->first && point.x < picture.fit->second);
-            if (!in_range || (picture.logarithmic_x && !(point.x > 0)) || (picture.logarithmic_y && !(point.y > 0)))
-                continue;
-            xs.push_back(picture.logarithmic_x ? std::log10(point.x) : point.x);
-            ys.push_back(picture.logarithmic_y ? std::log10(point.y) : point.y);
-            least = std::min(least, point.x);
-            greatest = std::max(greatest, point.x);
-        }
-        const Regression line = regression(xs, ys);
-        const std::string title =
-            picture.group.empty() ? "" : fmt::format("{} = {}: ", picture.group, title_number(value));
+    for (const auto& [value, points] : groups_of(picture, run, x, y)) {
+        const Fit fit = fit_of(picture, points);
+        const Regression& line = fit.line;
         panel.series.push_back({"", FigureSeries::Style::dots, colour, points});
-        if (line.points > 1) {
-            FigureSeries fit{fmt::format("{}slope {:.4f}, intercept {:.4f}", title, line.slope, line.intercept),
-                             FigureSeries::Style::line,
-                             colour,
-                             {}};
-            for (const double end : {least, greatest}) {
-                const double at = line.intercept + line.slope * (picture.logarithmic_x ? std::log10(end) : end);
-                fit.points.push_back({end, picture.logarithmic_y ? std::pow(10, at) : at});
-            }
-            panel.series.push_back(std::move(fit));
-        }
+        if (line.points > 1)
+            panel.series.push_back(drawn(
+                picture, fit, picture.group.empty() ? "" : fmt::format("{} = {}: ", picture.group, title_number(value)),
+                colour));
         for (const double number : {value, line.slope, line.slope_error, line.intercept, line.intercept_error,
                                     static_cast<double>(line.points)})
             result.table.add(number);

@@ -1,6 +1,7 @@
 #include "graze/study/runner.hpp"
 
 #include "graze/model/model_file.hpp"
+#include "graze/results/name_advice.hpp"
 #include "graze/study/stored_study.hpp"
 #include "graze/symbolic/require.hpp"
 #include "study/branch_run.hpp"
@@ -86,8 +87,7 @@ RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, 
         record.values.push_back({run.value_names[v], run.value_units[v]});
     for (const Sampling& sampling : run.is_branch() ? std::vector<Sampling>() : run.samplings)
         record.samplings.push_back(sampling.name);
-    for (const Mode& mode : run.model.modes)
-        record.modes.push_back(mode.name);
+    record.modes = names_of(run.model.modes);
     record.directions = direction_names(run);
     record.points = points;
     return record;

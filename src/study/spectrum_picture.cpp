@@ -1,6 +1,6 @@
 #include "study/picture_kinds.hpp"
 
-#include "graze/results/point_motion.hpp"
+#include "graze/study/point_motion.hpp"
 #include "graze/results/spectrum.hpp"
 
 #include <fmt/format.h>

@@ -177,8 +177,8 @@ Variation read_variation(const StudyReader& reader, const Model& model, const To
         variation.unit = model.states[*state].unit;
     } else {
         std::vector<std::string> known = model.independent_parameters();
-        for (const State& item : model.states)
-            known.push_back(item.name);
+        for (const std::string& name : names_of(model.states))
+            known.push_back(name);
         throw InputError(entry.place,
                          model.find_parameter(entry.name)
                              ? fmt::format("parameter '{}' follows from others", entry.name)

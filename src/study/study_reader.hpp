@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/model/named_value.hpp"
+#include "graze/results/name_advice.hpp"
 #include "graze/study/study.hpp"
 #include "model/model_file_toml.hpp"
 
@@ -71,15 +72,6 @@ void check_start(const StudyReader& reader, const StudyRun& run, const StudyRun&
 
 /// "did you mean", or all there are.
 std::string study_name_remedy(const std::string& name, const std::vector<std::string>& known);
-
-/// Names of what has some.
-template <class Item>
-std::vector<std::string> names_of(const std::vector<Item>& items) {
-    std::vector<std::string> names;
-    for (const Item& item : items)
-        names.push_back(item.name);
-    return names;
-}
 
 /// As what pictures of a study can be written.
 std::vector<std::string> picture_formats();

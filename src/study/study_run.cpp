@@ -1,6 +1,7 @@
 #include "graze/model/catalogue.hpp"
 #include "graze/symbolic/file_name.hpp"
 #include "graze/symbolic/parser.hpp"
+#include "study/point_limits.hpp"
 #include "study/study_reader.hpp"
 
 #include <fmt/format.h>
@@ -46,10 +47,8 @@ std::size_t section_index(const StudyReader& reader, const Model& model, const T
     const std::string name = reader.toml().string(entry);
     if (const auto index = model.find_section(name))
         return *index;
-    std::vector<std::string> known;
-    for (const Section& section : model.sections)
-        known.push_back(section.name);
-    reader.fail(entry, fmt::format("model '{}' has no section '{}'", model.name, name), study_name_remedy(name, known));
+    reader.fail(entry, fmt::format("model '{}' has no section '{}'", model.name, name),
+                study_name_remedy(name, names_of(model.sections)));
 }
 
 std::vector<std::size_t> events_of(const StudyReader& reader, const Model& model, const TomlEntry& entry) {
@@ -60,14 +59,11 @@ std::vector<std::size_t> events_of(const StudyReader& reader, const Model& model
                 events.push_back(i);
         return events;
     }
-    std::vector<std::string> known;
-    for (const Event& event : model.events)
-        known.push_back(event.name);
     for (const std::string& name : reader.strings(entry)) {
         const auto index = model.find_event(name);
         if (!index)
             reader.fail(entry, fmt::format("model '{}' has no event '{}'", model.name, name),
-                        study_name_remedy(name, known));
+                        study_name_remedy(name, names_of(model.events)));
         events.push_back(*index);
     }
     return events;
@@ -82,9 +78,7 @@ Sampling read_sampling(const StudyReader& reader, const Model& model, const Toml
              reader.toml().table(entry), entry.path, {"section", "maxima", "minima", "extrema", "contacts", "image"})) {
         if (item.name == "image") {
             const std::string name = reader.toml().string(item);
-            std::vector<std::string> known;
-            for (const Symmetry& symmetry : model.symmetries)
-                known.push_back(symmetry.name);
+            const std::vector<std::string> known = names_of(model.symmetries);
             const auto found = std::find(known.begin(), known.end(), name);
             if (found == known.end())
                 reader.fail(item, fmt::format("model '{}' declares no symmetry '{}'", model.name, name),
@@ -194,7 +188,6 @@ void read_start(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
 }
 
 void read_vary(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, bool& random) {
-    constexpr double most_points = 1e9, most_chains = 2e7; // of which something is kept in memory
     double points = static_cast<double>(std::max<std::size_t>(run.draws, 1));
     for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path)) {
         run.axes.push_back(read_variation(reader, run.model, item, random));
@@ -295,28 +288,9 @@ void complete(StudyRun& run, const TomlEntry& entry) {
                          "give vary = { PARAMETER = { from = A, to = B, step = S } }");
 }
 
-} // namespace
-
-StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const StudyDefaults& defaults, RunKeys& keys) {
-    StudyRun run;
-    run.name = entry.name;
-    run.place = entry.place;
-    require_file_name(run.name, "name of a run", entry.place);
-    const std::vector<std::string> known = run_keys();
-    for (TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path)) {
-        if (std::find(known.begin(), known.end(), item.name) == known.end())
-            throw InputError(item.place, fmt::format("unknown key '{}' in {}", item.name, entry.path),
-                             study_name_remedy(item.name, known));
-        keys.emplace(item.name, std::move(item));
-    }
-    if (!keys.contains("kind"))
-        throw InputError(entry.place, fmt::format("{} has no kind", entry.path),
-                         "give kind = \"simulate\", \"sweep\", \"basin\", \"orbit\" or \"continue\"");
-    run.kind =
-        static_cast<RunKind>(reader.choice(keys.at("kind"), {"simulate", "sweep", "basin", "orbit", "continue"}));
-    check_keys_of_kind(reader, run.kind, keys);
-    if (keys.contains("text"))
-        run.text = reader.toml().string(keys.at("text"));
+/// The model, with parameters, initial state and mode as the run asks for.
+void read_model(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const StudyDefaults& defaults,
+                const RunKeys& keys) {
     if (keys.contains("model"))
         run.model = model_of(reader, reader.toml().string(keys.at("model")),
                              reader.toml().place(*keys.at("model").node), run.model_path);
@@ -339,9 +313,10 @@ StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const Study
             reader.fail(keys.at("mode"), error.problem(), error.remedy());
         }
     }
-    if (keys.contains("section"))
-        run.attractor.section = run.model.sections[section_index(reader, run.model, keys.at("section"))].name;
-    read_settings(reader, run, keys);
+}
+
+/// What varies, with draws where it does so at random.
+void read_axes(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {
     bool random = false;
     if (keys.contains("vary"))
         read_vary(reader, run, keys.at("vary"), random);
@@ -353,6 +328,35 @@ StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const Study
                     "give something random: vary = { x = { random = [0, 1] } }");
     if (run.draws == 0 && keys.contains("seed"))
         reader.fail(keys.at("seed"), fmt::format("{} draws nothing", entry.path), "leave it out, or give draws = N");
+}
+
+} // namespace
+
+StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const StudyDefaults& defaults, RunKeys& keys) {
+    StudyRun run;
+    run.name = entry.name;
+    run.place = entry.place;
+    require_file_name(run.name, "name of a run", entry.place);
+    const std::vector<std::string> known = run_keys();
+    for (TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path)) {
+        if (std::find(known.begin(), known.end(), item.name) == known.end())
+            throw InputError(item.place, fmt::format("unknown key '{}' in {}", item.name, entry.path),
+                             study_name_remedy(item.name, known));
+        keys.emplace(item.name, std::move(item));
+    }
+    if (!keys.contains("kind"))
+        throw InputError(entry.place, fmt::format("{} has no kind", entry.path),
+                         "give kind = \"simulate\", \"sweep\", \"basin\", \"orbit\" or \"continue\"");
+    run.kind =
+        static_cast<RunKind>(reader.choice(keys.at("kind"), {"simulate", "sweep", "basin", "orbit", "continue"}));
+    check_keys_of_kind(reader, run.kind, keys);
+    if (keys.contains("text"))
+        run.text = reader.toml().string(keys.at("text"));
+    read_model(reader, run, entry, defaults, keys);
+    if (keys.contains("section"))
+        run.attractor.section = run.model.sections[section_index(reader, run.model, keys.at("section"))].name;
+    read_settings(reader, run, keys);
+    read_axes(reader, run, entry, keys);
     if (keys.contains("start"))
         read_start(reader, run, keys.at("start"));
     if (keys.contains("sample"))

@@ -14,6 +14,8 @@ constexpr double student = 2.26;          ///< 95 % of Student's distribution of
 constexpr double integration_errors = 10; ///< of growth over a return, in tolerances
 /// Of a tangent vector that a sticking contact has made vanish.
 constexpr double least_growth = -100;
+/// Lengths of the tangent vector, which grows and shrinks freely in between: far from where numbers end.
+constexpr double shortest_tangent = 1e-100, longest_tangent = 1e100;
 
 } // namespace
 
@@ -61,7 +63,7 @@ void Exponent::add_return(Trajectory& trajectory) {
         times_.push_back(time);
     }
     length_ = std::log(length);
-    if (length > 1e-100 && length < 1e100)
+    if (length > shortest_tangent && length < longest_tangent)
         return;
     // Anew in the same direction or, if there is none left, in the first.
     for (std::size_t i = 0; i < map_->states() && length > 0; ++i)

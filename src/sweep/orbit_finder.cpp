@@ -153,20 +153,7 @@ bool OrbitFinder::record() {
     residual_ = distance(watcher_.recent(0).state, point_);
     if (!(residual_ < closed))
         return fail();
-    duration_ = watcher_.recent(0).time;
-    contacts_ = watcher_.contacts(period_);
-    recorded_.clear();
-    extents_.assign(map_->states(), 0);
-    for (std::size_t i = 0; i < extents_.size(); ++i) {
-        double least = point_[i], greatest = point_[i];
-        for (std::size_t k = 0; k < period_; ++k) {
-            least = std::min(least, watcher_.recent(k).least[i]);
-            greatest = std::max(greatest, watcher_.recent(k).greatest[i]);
-        }
-        extents_[i] = greatest - least;
-    }
-    for (std::size_t k = period_; k-- > 0;)
-        recorded_.push_back(watcher_.recent(k).state);
+    keep_orbit();
     // States of which nothing is known but that they are the same.
     const auto indistinct = [&](std::span<const double> a, std::span<const double> b) {
         Eigen::VectorXd difference(scale_.size());
@@ -189,6 +176,30 @@ bool OrbitFinder::record() {
         stage_ = Stage::found;
         return false;
     }
+    start_comparison();
+    return true;
+}
+
+/// What is known of the orbit that has just been run: its duration, contacts, returns and extents.
+void OrbitFinder::keep_orbit() {
+    duration_ = watcher_.recent(0).time;
+    contacts_ = watcher_.contacts(period_);
+    recorded_.clear();
+    extents_.assign(map_->states(), 0);
+    for (std::size_t i = 0; i < extents_.size(); ++i) {
+        double least = point_[i], greatest = point_[i];
+        for (std::size_t k = 0; k < period_; ++k) {
+            least = std::min(least, watcher_.recent(k).least[i]);
+            greatest = std::max(greatest, watcher_.recent(k).greatest[i]);
+        }
+        extents_[i] = greatest - least;
+    }
+    for (std::size_t k = period_; k-- > 0;)
+        recorded_.push_back(watcher_.recent(k).state);
+}
+
+/// Runs the image under the symmetry to its first return, which is one of the orbit's if that is its own image.
+void OrbitFinder::start_comparison() {
     std::vector<double> image(map_->states());
     std::vector<double> inputs(point_), work(image_->workspace());
     inputs.insert(inputs.end(), parameters_.begin(), parameters_.end());
@@ -198,7 +209,6 @@ bool OrbitFinder::record() {
     watcher_.stop_after(1);
     watcher_.start_leg(0, soonest * duration_ / static_cast<double>(period_));
     trajectory_->start(image, (*image_modes_)[mode_], 0, guard_);
-    return true;
 }
 
 bool OrbitFinder::compare() {

@@ -57,6 +57,8 @@ private:
     void start_iteration();
     bool iterate();
     bool record();
+    void keep_orbit();
+    void start_comparison();
     bool compare();
     bool fail();
     bool arrived() const;

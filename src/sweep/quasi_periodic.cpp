@@ -15,6 +15,8 @@ constexpr double moves = 1e-3; ///< least extent at returns, relative to that of
 constexpr double back = 1e-4;
 /// By which the distance from an earlier return shrinks if the motion approaches a long orbit.
 constexpr double shrinking = 0.9;
+/// Distance, likewise, at which it has arrived there.
+constexpr double arrived = 1e-9;
 
 /// Functions of the states whose averages are compared: of each, one number for each return.
 std::vector<std::vector<double>> observables(const VisitedStates& visited, std::span<const double> extents,
@@ -102,7 +104,7 @@ bool comes_back(const VisitedStates& visited, std::span<const double> extents) {
             newer = std::max(newer, distance(visited, extents, last - k, last - k - lag));
             older = std::max(older, distance(visited, extents, lag + k, k));
         }
-        if (newer < 1e-9 || newer < shrinking * older)
+        if (newer < arrived || newer < shrinking * older)
             return true;
     }
     return false;

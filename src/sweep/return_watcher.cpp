@@ -14,6 +14,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double simultaneous = 1e-10;
 /// Extents smaller than this share of the largest that a state ever had are noise.
 constexpr double least_extent = 1e-6;
+/// Extents smaller than this share of a state's size are its round-off.
+constexpr double round_off = 1e-12;
 /// Shares of the threshold of a recurrence: for one that needs no other evidence, and for the one before it.
 constexpr double striking = 1e-3;
 constexpr double approaching = 30;
@@ -159,7 +161,7 @@ void ReturnWatcher::update_scale() {
         const double extent = std::max(high - low, least_extent * widest_[i]);
         // What does not move at all is measured by its size.
         const double size = std::max(std::abs(high), std::abs(low));
-        scale_[i] = extent > 1e-12 * size ? extent : size > 0 ? size : 1;
+        scale_[i] = extent > round_off * size ? extent : size > 0 ? size : 1;
     }
 }
 

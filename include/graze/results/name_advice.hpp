@@ -10,4 +10,13 @@ namespace graze {
 /// @param none what to say when there is nothing at all
 std::string name_advice(std::string_view name, const std::vector<std::string>& known, std::string_view none);
 
+/// Names of what has some.
+template <class Item>
+std::vector<std::string> names_of(const std::vector<Item>& items) {
+    std::vector<std::string> names;
+    for (const Item& item : items)
+        names.push_back(item.name);
+    return names;
+}
+
 } // namespace graze

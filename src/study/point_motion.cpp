@@ -1,7 +1,8 @@
-#include "graze/results/point_motion.hpp"
+#include "graze/study/point_motion.hpp"
 
 #include "graze/model/named_value.hpp"
 #include "graze/results/name_advice.hpp"
+#include "graze/study/stored_study.hpp"
 #include "graze/trajectory/recorder.hpp"
 #include "graze/trajectory/trajectory.hpp"
 
@@ -86,7 +87,7 @@ std::vector<std::vector<double>> dense_motion(const StoredRun& run, const PointR
     }
     double duration = settled ? point.result.duration : point.result.time;
     if (!settled) {
-        if (run.record.settings.find("\"start\":") != std::string::npos)
+        if (stored_run(run.record).start)
             throw InputError(place,
                              fmt::format("run '{}' began where another run ended, which is not kept", run.record.name),
                              "draw a motion of a run that begins at the model's initial state");
