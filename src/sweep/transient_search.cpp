@@ -14,6 +14,11 @@ namespace {
 
 constexpr double forever = std::numeric_limits<double>::infinity();
 
+/// Steps, passages and contacts without any that brings the end nearer, after which no end is expected where no time is
+/// given: a step goes over a part of an oscillation, so that there have been a hundred thousand of the fastest at
+/// least. (Of a motion at rest one step goes on for ever, and only passages come.)
+constexpr std::size_t patience = 1'000'000;
+
 [[noreturn]] void refuse(const std::string& problem, const std::string& remedy) {
     throw InputError(problem, remedy);
 }
@@ -67,6 +72,7 @@ void TransientSearch::begin(std::span<const double> parameters, std::span<const 
     trajectory_.emplace(setting_->simulation, parameters, static_cast<Observer&>(*this));
     result_ = {};
     periods_ = contacts_ = all_periods_ = 0;
+    waited_ = 0;
     stop_ = escaped_ = reached_ = false;
     shown_ = !(options.skip_time > 0) && options.skip_periods == 0;
     trajectory_->start(state, mode, 0, shown_ ? end_of(0) : options.skip_time > 0 ? options.skip_time : forever);
@@ -80,15 +86,40 @@ double TransientSearch::end_of(double time) const {
 void TransientSearch::step(const Step& step) {
     for (const StateBounds& bounds : setting_->options.bounds)
         escaped_ = escaped_ || !bounds.contain(step.state(bounds.state, step.length));
-    stop_ = stop_ || escaped_;
+    stop_ = stop_ || escaped_ || waits_in_vain();
+}
+
+/// Counts what happens; whether what is counted by the run, where nothing but a count ends the leg, has not happened
+/// for too long.
+bool TransientSearch::waits_in_vain() {
+    ++waited_;
+    const TransientOptions& options = setting_->options;
+    return waited_ >= patience && !((shown_ ? options.time : options.skip_time) > 0);
+}
+
+/// Of a motion that was given up.
+Outcome TransientSearch::end_in_vain() const {
+    const TransientOptions& options = setting_->options;
+    const bool by_contacts = shown_ && (options.contacts > 0 || options.greatest_speed > 0);
+    const bool by_periods = (shown_ ? options.periods : options.skip_periods) > 0;
+    const std::string missing = !by_periods   ? "contact"
+                                : by_contacts ? "contact or passage of the section"
+                                              : "passage of the section";
+    return {Ending::step_limit, trajectory_->time(),
+            fmt::format("no {} that ends the motion in the last {} steps and passages, up to time {:.6g}; {}", missing,
+                        waited_, trajectory_->time(),
+                        shown_ ? "give a time too, at which it ends in any case" : "skip a time instead of periods")};
 }
 
 void TransientSearch::contact(const Contact& contact) {
     if (shown_)
         recorder_.contact(contact);
+    stop_ = stop_ || waits_in_vain();
     if (!shown_ || contact.kind == ContactKind::touch || !setting_->counted[contact.event])
         return;
     ++contacts_;
+    if (setting_->options.contacts > 0)
+        waited_ = 0;
     const TransientOptions& options = setting_->options;
     reached_ = reached_ || (options.contacts > 0 && contacts_ >= options.contacts) ||
                (options.greatest_speed > 0 && -contact.rate_before > options.greatest_speed);
@@ -98,11 +129,14 @@ void TransientSearch::contact(const Contact& contact) {
 void TransientSearch::passage(const Passage& passage) {
     if (shown_)
         recorder_.passage(passage);
+    stop_ = stop_ || waits_in_vain();
     if (setting_->options.section.empty() || passage.probe + 1 != setting_->simulation.probes().size())
         return;
     ++periods_;
     ++all_periods_;
     const std::size_t wanted = shown_ ? setting_->options.periods : setting_->options.skip_periods;
+    if (wanted > 0)
+        waited_ = 0;
     reached_ = reached_ || (wanted > 0 && periods_ >= wanted);
     stop_ = stop_ || reached_;
 }
@@ -118,18 +152,19 @@ bool TransientSearch::proceed() {
     const bool leg_over = ending == Ending::end_time || (ending == Ending::stopped && reached_ && !escaped_);
     if (!shown_ && leg_over) {
         shown_ = true;
-        periods_ = 0;
+        periods_ = waited_ = 0;
         reached_ = false;
         recorder_.set_origin(trajectory_->time());
         trajectory_->extend(end_of(trajectory_->time()));
         return true;
     }
+    const bool in_vain = ending == Ending::stopped && !escaped_ && !leg_over;
     result_.label = escaped_ ? Label::escaped : leg_over ? Label::ended : label_of(ending);
     result_.cycles = result_.periods_run = all_periods_;
     result_.time = trajectory_->time();
     result_.state.assign(trajectory_->state().begin(), trajectory_->state().end());
     result_.mode = trajectory_->mode();
-    result_.outcome = trajectory_->outcome();
+    result_.outcome = in_vain ? end_in_vain() : trajectory_->outcome();
     result_.samples = std::move(recorder_.samples());
     return false;
 }

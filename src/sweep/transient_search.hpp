@@ -42,12 +42,15 @@ private:
     void passage(const Passage& passage) override;
     bool stop() override;
     double end_of(double time) const;
+    bool waits_in_vain();
+    Outcome end_in_vain() const;
 
     std::shared_ptr<const TransientSetting> setting_;
     SampleRecorder recorder_;
     std::optional<Trajectory> trajectory_;
     std::size_t periods_ = 0, contacts_ = 0, all_periods_ = 0;
-    bool shown_ = false; ///< the time that is sampled has begun
+    std::size_t waited_ = 0; ///< steps since something brought the end nearer
+    bool shown_ = false;     ///< the time that is sampled has begun
     bool reached_ = false, stop_ = false, escaped_ = false;
     PointResult result_;
 };

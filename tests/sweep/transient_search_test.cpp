@@ -1,0 +1,97 @@
+#include "graze/model/model_file.hpp"
+#include "graze/sweep/point_search.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+namespace graze {
+namespace {
+
+/// x'' + x = 0 from x = 0.5 at rest, and a wall at x = `wall`.
+Model oscillator(double wall, double time = 1) {
+    return parse_model(fmt::format(R"toml(
+name = "oscillator"
+[parameters]
+T = {:.17g}
+[states]
+x = 0.5
+v = 0
+theta = {{ initial = 0, period = "2*pi" }}
+[modes.only]
+rates = {{ x = "v/T", v = "-x/T", theta = "1/T" }}
+watch = ["wall"]
+[events]
+wall = "x + {}"
+[jumps.back]
+v = "-v"
+[[transitions]]
+mode = "only"
+event = "wall"
+jump = "back"
+next = "only"
+[sections.rest]
+function = "v"
+direction = "falling"
+[sections.turn]
+state = "theta"
+value = 0
+[sections.never]
+function = "x - 9"
+)toml",
+                                   time, wall),
+                       "oscillator.toml");
+}
+
+PointResult simulated(const Model& model, const TransientOptions& options) {
+    const auto factory = transient_searches(model, options, {}, {}, {});
+    const auto search = factory->make();
+    search->begin(model.parameter_values(), model.initial_state(), model.initial_mode);
+    JetSet jets(factory->simulation(), LaneKind::single);
+    do
+        run(search->trajectory(), jets);
+    while (search->proceed());
+    return std::move(search->result());
+}
+
+TEST(TransientSearch, ends_after_so_many_contacts) {
+    // A quarter of the way and back: the wall at the middle is met after pi/2, then every pi.
+    const PointResult result = simulated(oscillator(0), {.contacts = 3, .counted = {0}});
+    EXPECT_EQ(result.label, Label::ended);
+    EXPECT_NEAR(result.time, 2.5 * std::acos(-1.0), 1e-10);
+}
+
+/// In any unit of time: what is waited for are steps.
+TEST(TransientSearchSlow, gives_up_what_does_not_happen) {
+    for (const double time : {1.0, 1e-9, 1e9}) {
+        const PointResult result = simulated(oscillator(1, time), {.contacts = 3, .counted = {0}});
+        EXPECT_EQ(result.label, Label::failed);
+        EXPECT_EQ(result.outcome.ending, Ending::step_limit);
+        EXPECT_GT(result.time, 1e5 * time);
+        EXPECT_THAT(result.outcome.detail, testing::HasSubstr("no contact that ends the motion"));
+        EXPECT_THAT(result.outcome.detail, testing::HasSubstr("give a time too"));
+    }
+    // A motion at rest is one step, along which only the phase passes.
+    Model rest = oscillator(1);
+    rest.set_initial("x", 0);
+    EXPECT_EQ(simulated(rest, {.section = "turn", .contacts = 3, .counted = {0}}).outcome.ending, Ending::step_limit);
+    // Contacts there are, but too slow ones.
+    const PointResult slow = simulated(oscillator(0), {.counted = {0}, .greatest_speed = 2});
+    EXPECT_EQ(slow.outcome.ending, Ending::step_limit);
+    const PointResult skipped =
+        simulated(oscillator(0), {.section = "never", .time = 1, .skip_periods = 1, .counted = {0}});
+    EXPECT_EQ(skipped.label, Label::failed);
+    EXPECT_THAT(skipped.outcome.detail, testing::HasSubstr("skip a time instead of periods"));
+}
+
+TEST(TransientSearchSlow, waits_as_long_as_it_is_told_to) {
+    const PointResult result = simulated(oscillator(1), {.time = 4e6, .contacts = 3, .counted = {0}});
+    EXPECT_EQ(result.label, Label::ended);
+    EXPECT_EQ(result.time, 4e6);
+}
+
+} // namespace
+} // namespace graze
