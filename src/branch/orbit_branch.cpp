@@ -65,6 +65,19 @@ void BranchSettings::validate(const Model& model) const {
         if (one.place() >= model.independent_parameters().size() || one == parameter ||
             std::count(free.begin(), free.end(), one) > 1)
             throw InputError("a free parameter is not one of the model's, or there twice", "name other ones");
+    if (work == 0)
+        throw InputError("the points of the branch may take no steps of integration", "allow a million");
+    for (const FreeBounds& bounds : free_bounds) {
+        if (std::count(free.begin(), free.end(), bounds.parameter) == 0)
+            throw InputError("bounds are given of a further parameter that is not free",
+                             "name it among those that are, or give the branch's own parameter its bounds");
+        if ((bounds.least && std::isnan(*bounds.least)) || (bounds.greatest && std::isnan(*bounds.greatest)))
+            throw InputError("a bound of a free parameter is not a number", "give a number, or none");
+        if (bounds.least && bounds.greatest && !(*bounds.least < *bounds.greatest))
+            throw InputError(fmt::format("the bounds of the free parameter '{}' leave no room",
+                                         model.independent_parameters()[bounds.parameter.place()]),
+                             "give the smaller one first");
+    }
 }
 
 std::string_view name_of(BranchOutcome outcome) {
@@ -85,6 +98,8 @@ std::string_view name_of(BranchOutcome outcome) {
         return "no convergence";
     case BranchOutcome::undefined:
         return "undefined beyond";
+    case BranchOutcome::too_long:
+        return "too much work";
     case BranchOutcome::no_start:
         return "no start";
     }
@@ -128,11 +143,13 @@ public:
         const BranchPoint before = point;
         const std::vector<BranchTest> tests_before = tests_;
         Continuation& continuation = state_.continuation();
+        const std::size_t work_before = state_.problem().equations().work();
         if (!step_on_branch())
             return end(continuation.outcome() == ContinuationOutcome::undefined ? BranchOutcome::undefined
                                                                                 : BranchOutcome::no_convergence,
                        state_.problem().evaluation().problem);
         describe_here();
+        const std::size_t work = state_.problem().equations().work() - work_before;
         ++point.step;
         point.iterations = continuation.point().iterations;
         found = locator_.locate_all(before, tests_before);
@@ -142,6 +159,11 @@ public:
             finish(BranchOutcome::returned, back_on_regular);
         if (!ended_ && state_.continuation().outcome() == ContinuationOutcome::closed)
             finish(BranchOutcome::closed, "");
+        if (!ended_ && work > state_.settings().work)
+            finish(BranchOutcome::too_long,
+                   fmt::format("the last point took {} steps of integration, at period {:.6g}: bounds of what varies "
+                               "would end it before",
+                               work, point.solution.orbit.period()));
         return true;
     }
 
@@ -236,13 +258,28 @@ private:
         point = {};
         describe_here();
         is_regular_ = is_degenerate(state_, orbit_here(), same_orbit);
-        const double rise = state_.continuation().point().tangent[state_.problem().parameter_place()];
-        const auto& [least, greatest] = std::pair(state_.settings().least, state_.settings().greatest);
-        const bool leaves =
-            (rise < 0 && least && point.parameter <= *least) || (rise > 0 && greatest && point.parameter >= *greatest);
-        if (leaves || state_.is_outside(point.parameter))
+        if (begins_at_bound())
             finish(BranchOutcome::bound, "");
         return true;
+    }
+    /// Whether the first point lies beyond a bound of a parameter, or on one, and the branch goes across it.
+    bool begins_at_bound() {
+        const BranchSettings& settings = state_.settings();
+        const OrbitLayout& layout = state_.problem().equations().layout();
+        const ContinuationPoint& begun = state_.continuation().point();
+        const auto leaves = [&](std::size_t which, const auto& least, const auto& greatest) {
+            const double rise = begun.tangent[layout.parameter(which)], value = begun.u[layout.parameter(which)];
+            return (least && (value < *least || (rise < 0 && value <= *least))) ||
+                   (greatest && (value > *greatest || (rise > 0 && value >= *greatest)));
+        };
+        if (leaves(0, settings.least, settings.greatest))
+            return true;
+        for (const FreeBounds& bounds : settings.free_bounds) {
+            const auto found = std::find(settings.free.begin(), settings.free.end(), bounds.parameter);
+            if (leaves(1 + static_cast<std::size_t>(found - settings.free.begin()), bounds.least, bounds.greatest))
+                return true;
+        }
+        return false;
     }
 
     bool end(BranchOutcome how, std::string why) {

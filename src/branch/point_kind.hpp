@@ -24,11 +24,12 @@ struct BranchTest {
     double time = 0;     ///< of an interior minimum
     bool at_end = false; ///< of grazing: the segment's own event
     double rate = 0;     ///< of two_events: of the other event's function
-    /// Of bound and crossing: which monitor, and which of its crossings. None for bounds of the parameter.
+    /// Of bound and crossing: which monitor, and which of its crossings. None for bounds of parameters.
     std::optional<std::size_t> monitor = std::nullopt;
     std::size_t crossing = 0;
-    bool singular = false; ///< the equations cannot be solved where it is zero
-    bool appears = false;  ///< it may lose its meaning at a negative value, which has then become one within the step
+    std::optional<std::size_t> free = std::nullopt; ///< of bound: which of the settings' free bounds
+    bool singular = false;                          ///< the equations cannot be solved where it is zero
+    bool appears = false; ///< it may lose its meaning at a negative value, which has then become one within the step
 };
 
 /// A point of a branch as its test functions see it.

@@ -36,6 +36,8 @@ public:
     const Signature& signature() const { return ends_.signature(); }
     std::optional<std::size_t> symmetry() const { return ends_.symmetry(); }
     const std::vector<ParameterId>& free() const { return ends_.free(); }
+    /// Steps of integration since they were made.
+    std::size_t work() const { return flow_.steps(); }
     const OrbitLayout& layout() const { return layout_; }
     std::size_t unknowns() const { return layout_.unknowns(); }
     std::size_t mode_of(std::size_t piece) const { return modes_[layout_.segment_of(piece)]; }

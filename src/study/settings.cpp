@@ -3,6 +3,7 @@
 #include "graze/symbolic/require.hpp"
 #include "graze/symbolic/text_file.hpp"
 #include "study/asked_run.hpp"
+#include "study/point_limits.hpp"
 #include "study/settings_fields.hpp"
 #include "study/study_reader.hpp"
 
@@ -109,7 +110,15 @@ template <class Fields, class Settings>
 void describe_continuation(Fields& fields, Settings& branch, const std::vector<std::string>& parameters) {
     fields.named("along", branch.parameter, parameters);
     fields.field("steps", branch.steps);
+    if (fields.has("work", branch.work != BranchSettings().work))
+        fields.field("work", branch.work);
     fields.named("free", branch.free, parameters);
+    if (fields.has("free_bounds", !branch.free_bounds.empty()))
+        fields.list("free_bounds", branch.free_bounds, [&parameters](auto& one, auto& bounds) {
+            one.named("parameter", bounds.parameter, parameters);
+            one.optional("least", bounds.least);
+            one.optional("greatest", bounds.greatest);
+        });
     fields.words("stop", branch.stop_at, short_names());
     fields.field("stop_when_unphysical", branch.stop_when_unphysical);
     fields.field("reorder", branch.reorder);
@@ -243,7 +252,6 @@ void take_units(StudyRun& run, const std::vector<std::string>& units) {
 
 /// @throws InputError for what no study has, and what would be out of range
 void check(const StudyRun& run, const SettingsReader& fields) {
-    constexpr double most_points = 1e9, most_chains = 2e7; // of which something is kept in memory
     double points = static_cast<double>(std::max<std::size_t>(run.draws, 1));
     for (const Variation& axis : run.axes)
         points *= static_cast<double>(std::max<std::size_t>(axis.values.size(), 1));
@@ -302,9 +310,13 @@ StudyRun run_of(const AskedRun& asked, Model model) {
         run.start->place = run.place;
     take_units(run, asked.units);
     check(run, fields);
-    if (settings_of(run) != asked.settings)
-        throw InputError(run.place, "the stored settings say more than this version of graze knows",
-                         fmt::format("use graze {}, which wrote them", asked.version));
+    if (settings_of(run) != asked.settings) {
+        if (asked.version != GRAZE_VERSION)
+            throw InputError(run.place, "the stored settings say more than this version of graze knows",
+                             fmt::format("use graze {}, which wrote them", asked.version));
+        throw InputError(run.place, "the stored settings are not as graze wrote them: they were changed afterwards",
+                         "change the study file instead, and run it");
+    }
     return run;
 }
 

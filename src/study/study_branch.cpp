@@ -22,6 +22,17 @@ ParameterId parameter_named(const StudyReader& reader, const Model& model, const
     return *place;
 }
 
+/// Further parameters with their bounds.
+void read_free(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    BranchSettings& settings = run.branch.settings;
+    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path)) {
+        const ParameterId parameter = parameter_named(reader, run.model, item, item.name);
+        const auto [least, greatest] = reader.range(run.model, item);
+        settings.free.push_back(parameter);
+        settings.free_bounds.push_back({parameter, least, greatest});
+    }
+}
+
 void read_along(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     BranchSettings& settings = run.branch.settings;
     if (entry.node->is_string()) {
@@ -177,6 +188,8 @@ void read_branch(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
     });
     with("tolerance", [&](const TomlEntry& e) { settings.orbit.tolerance = reader.positive(run.model, e); });
     with("free", [&](const TomlEntry& e) {
+        if (e.node->is_table())
+            return read_free(reader, run, e);
         for (const std::string& name : reader.strings(e))
             settings.free.push_back(parameter_named(reader, run.model, e, name));
     });

@@ -144,6 +144,74 @@ TEST(MonitorsOfBranches, that_are_held_free_a_parameter) {
     expect_resonance_curve(model, monitor("norm", Monitor::Kind::norm, model, "x"), 0.2);
 }
 
+/// With the amplitude held at 0.3, along the frequency from 1.7 down: the force is 0.3 / |H|, least near resonance.
+BranchSettings along_resonance(const Model& model) {
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("omega");
+    settings.free = {model.independent_parameter("F")};
+    settings.direction = -1;
+    settings.least = 0.4;
+    settings.monitors = {monitor("amplitude", Monitor::Kind::maximum, model, "x")};
+    settings.monitors[0].fixed = true;
+    settings.monitors[0].held = 0.3;
+    return settings;
+}
+
+TEST(MonitorsOfBranches, free_a_parameter_that_may_have_bounds) {
+    const Model model = model_from(linear);
+    const Orbit start = settled(model, "phase0").orbit;
+    BranchSettings settings = along_resonance(model);
+    const ParameterId force = settings.free[0];
+    const double bound = 0.3 / amplitude(0.1, 1.2, 1); // above resonance, on the way down
+    settings.free_bounds = {{force, bound, 5.0}};
+    const Branch branch = follow_branch(model, start, settings);
+    ASSERT_EQ(branch.outcome, BranchOutcome::bound) << branch.detail;
+    EXPECT_EQ(names(branch), "BD");
+    EXPECT_NEAR(branch.points.back().parameter, 1.2, 1e-9);
+    const SpecialPoint& end = branch.special.back();
+    EXPECT_EQ(end.solution.orbit.parameters[force.place()], bound);
+    EXPECT_EQ(end.detail.rfind("F = ", 0), 0u) << end.detail;
+    // The other way the force rises; begun a little lower the branch ends at its first point.
+    settings.direction = 1;
+    settings.greatest = 1.5;
+    const Branch back = follow_branch(model, end.solution.orbit, settings);
+    EXPECT_EQ(back.outcome, BranchOutcome::bound);
+    EXPECT_EQ(back.points.back().parameter, 1.5);
+    settings.free_bounds = {{force, {}, 0.9 * bound}};
+    const Branch outside = follow_branch(model, end.solution.orbit, settings);
+    EXPECT_EQ(outside.outcome, BranchOutcome::bound);
+    EXPECT_EQ(outside.points.size(), 1u);
+}
+
+TEST(MonitorsOfBranches, refuse_bounds_of_what_is_not_free) {
+    const Model model = model_from(linear);
+    const Orbit start = settled(model, "phase0").orbit;
+    const std::vector<FreeBounds> wrong{{model.independent_parameter("omega"), 0.1, 1.0},
+                                        {model.independent_parameter("F"), 1.0, 0.5},
+                                        {model.independent_parameter("F"), NAN, {}},
+                                        {ParameterId(99), 0.1, 1.0}};
+    for (const FreeBounds& bounds : wrong) {
+        BranchSettings settings = along_resonance(model);
+        settings.free_bounds = {bounds};
+        EXPECT_THROW(follow_branch(model, start, settings), InputError);
+    }
+}
+
+TEST(MonitorsOfBranchesSlow, that_slow_a_branch_down_for_ever_do_not_hang_it) {
+    Model model = model_from(linear);
+    model.set_parameter("omega", 0.7);
+    // Along the force with the frequency free: towards force = amplitude, where the frequency is zero.
+    BranchSettings settings = along_resonance(model);
+    std::swap(settings.parameter, settings.free[0]);
+    settings.direction = 1;
+    settings.monitors[0].held = amplitude(0.1, 0.7, 0.8);
+    settings.work = 20'000;
+    const Branch branch = follow_branch(model, settled(model, "phase0").orbit, settings);
+    ASSERT_EQ(branch.outcome, BranchOutcome::too_long) << branch.detail;
+    EXPECT_LT(branch.points.back().solution.orbit.parameters[settings.free[0].place()], 0.01);
+    EXPECT_NEAR(branch.points.back().parameter, *settings.monitors[0].held, 1e-3);
+}
+
 TEST(MonitorsOfBranches, must_match_what_is_free) {
     const Model model = model_from(linear);
     const OrbitSolution solution = settled(model, "phase0");

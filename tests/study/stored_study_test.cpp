@@ -329,7 +329,12 @@ TEST_F(StoredStudyTest, says_what_is_wrong_with_settings) {
     EXPECT_THAT(changed("\"cycles\":60", "\"cycles\":-1"), HasSubstr("'cycles' is not a whole number"));
     EXPECT_THAT(changed("\"omega\"", "\"omicron\""), HasSubstr("'omicron'"));
     EXPECT_THAT(changed("\"kind\":\"sweep\"", "\"kind\":\"basin\""), HasSubstr("settings"));
-    EXPECT_THAT(changed("\"cycles\":60", "\"cycles\":60,\"new\":1"), HasSubstr("more than this version"));
+    EXPECT_THAT(changed("\"cycles\":60", "\"cycles\":60,\"new\":1"), HasSubstr("changed afterwards"));
+    EXPECT_THAT(changed("\"cycles\":60", "\"cycles\": 60"), HasSubstr("change the study file instead"));
+    RunRecord later = good;
+    later.version = "99.1.0";
+    later.settings.insert(1, "\"new\":1,");
+    EXPECT_THAT(refusal(later), HasSubstr("more than this version of graze knows; use graze 99.1.0"));
     RunRecord many = *file.find_run("basin");
     many.settings.replace(many.settings.find("\"draws\":9"), 9, "\"draws\":999999999");
     EXPECT_THAT(refusal(many), HasSubstr("twenty million"));

@@ -14,17 +14,26 @@
 
 namespace graze {
 
+/// Where a branch ends in a further parameter that is free.
+struct FreeBounds {
+    ParameterId parameter;
+    std::optional<double> least, greatest;
+};
+
 struct BranchSettings {
-    ParameterId parameter;                 ///< that varies
-    int direction = 1;                     ///< in which it goes at first: up (1) or down (-1)
-    std::size_t steps = 1000;              ///< at most
+    ParameterId parameter;    ///< that varies
+    int direction = 1;        ///< in which it goes at first: up (1) or down (-1)
+    std::size_t steps = 1000; ///< at most
+    /// Steps of integration for one point, beyond which the branch ends: hundreds or thousands are usual.
+    std::size_t work = 1'000'000;
     std::optional<double> least, greatest; ///< of the parameter, where the branch ends
     ContinuationOptions continuation;
     OrbitOptions orbit;
     std::vector<Monitor> monitors;
-    std::vector<ParameterId> free;    ///< further parameters that vary, one for each monitor that is fixed
-    std::vector<PointType> stop_at;   ///< types at which the branch ends
-    bool stop_when_unphysical = true; ///< ends where orbits cease to be admissible
+    std::vector<ParameterId> free;       ///< further parameters that vary, one for each monitor that is fixed
+    std::vector<FreeBounds> free_bounds; ///< of some of those, or of all
+    std::vector<PointType> stop_at;      ///< types at which the branch ends
+    bool stop_when_unphysical = true;    ///< ends where orbits cease to be admissible
     /// Goes on with another signature where events change their order, a segment vanishes or a guard chooses another
     /// mode, as the model's motion does. What is grazed ends a branch in any case.
     bool reorder = true;
@@ -44,13 +53,14 @@ struct BranchPoint {
 
 enum class BranchOutcome {
     steps,          ///< all that were allowed have been made
-    bound,          ///< of the parameter is reached
+    bound,          ///< of a parameter or monitor is reached
     stopped,        ///< at a point of a type that was to stop it
     unphysical,     ///< beyond the last special point orbits are not admissible
     closed,         ///< it has come back to its first point
     returned,       ///< it has come back to a branch of more regular orbits: of half the period, or symmetric
     no_convergence, ///< steps have become too small
     undefined,      ///< the model is not defined beyond
+    too_long,       ///< orbits take more and more steps of integration, as where a period grows without end
     no_start,       ///< no orbit was found to start from
 };
 std::string_view name_of(BranchOutcome outcome);
