@@ -1,7 +1,7 @@
 #include "study/picture_kinds.hpp"
 
-#include "graze/study/point_motion.hpp"
 #include "graze/results/spectrum.hpp"
+#include "graze/study/point_motion.hpp"
 
 #include <fmt/format.h>
 
