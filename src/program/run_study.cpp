@@ -90,8 +90,23 @@ std::string labels_of(const StoredRun& run) {
     return text;
 }
 
+/// Why the first point that failed did.
+std::string first_failure(const StoredRun& run) {
+    const auto counts = run.label_counts();
+    const auto failed = [](const auto& label) { return label.first == name_of(Label::failed); };
+    if (std::none_of(counts.begin(), counts.end(), failed))
+        return "";
+    auto rows = run.rows({.columns = {"number", "label", "detail"}});
+    while (rows.next())
+        if (rows.text(1) == name_of(Label::failed))
+            return fmt::format("point {}: {}", rows.integer(0), rows.text(2));
+    return "";
+}
+
 /// How the branches of a run ended: of each part, what its last point says.
 std::string ends_of(const StoredRun& run) {
+    if (!run.record.is_branch())
+        return first_failure(run);
     if (run.record.kind != name_of(RunKind::follow))
         return "";
     std::vector<std::pair<std::string, std::string>> ends; // parts in the order in which they ended
@@ -101,9 +116,14 @@ std::string ends_of(const StoredRun& run) {
         ends.emplace_back(rows.text(0), rows.text(1));
     }
     std::string text;
-    for (const auto& [part, detail] : ends)
+    const bool unfinished = run.record.status == RunStatus::unfinished; // of which only the last part can be
+    for (std::size_t p = 0; p < ends.size(); ++p) {
+        const auto& [part, detail] = ends[p];
         text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", part,
-                            detail.empty() ? "a point that was asked for" : detail);
+                            !detail.empty()                      ? detail
+                            : unfinished && p + 1 == ends.size() ? "interrupted; the same command begins the run again"
+                                                                 : "a point that was asked for");
+    }
     return text;
 }
 
@@ -168,9 +188,7 @@ std::string made_folder(const std::string& folder) {
 }
 
 void check_names(const Study& study, const std::vector<std::string>& only) {
-    std::vector<std::string> known;
-    for (const StudyRun& run : study.runs)
-        known.push_back(run.name);
+    const std::vector<std::string> known = names_of(study.runs);
     for (const std::string& name : only)
         if (std::find(known.begin(), known.end(), name) == known.end())
             throw InputError({"--only", 0, 0}, fmt::format("the study has no run '{}'", name),

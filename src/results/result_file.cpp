@@ -1,9 +1,11 @@
 #include "graze/results/result_file.hpp"
 
+#include "graze/results/name_advice.hpp"
 #include "graze/symbolic/file_name.hpp"
 #include "results/point_columns.hpp"
 #include "results/result_file_state.hpp"
 #include "results/run_columns.hpp"
+#include "results/run_names.hpp"
 
 #include <fmt/format.h>
 
@@ -168,6 +170,7 @@ void ResultFile::begin_run(const RunRecord& given) {
     RunRecord run = given;
     run.status = RunStatus::unfinished;
     require_names(run, path());
+    require_free_name(run.name, run.is_branch(), names_of(runs()), Place{path(), 0, 0});
     remove_run(run.name);
     state_->at_once([&] {
         const Database& database = state_->database;

@@ -139,7 +139,9 @@ std::vector<Stretch> stretches_of(const std::vector<DrawnPoint>& points) {
 }
 
 bool alike(const PlanePoint& one, const PlanePoint& other) {
-    const auto near = [](double a, double b) { return std::abs(a - b) <= same_point * std::max(std::abs(a), std::abs(b)); };
+    const auto near = [](double a, double b) {
+        return std::abs(a - b) <= same_point * std::max(std::abs(a), std::abs(b));
+    };
     return near(one.x, other.x) && near(one.y, other.y);
 }
 

@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/file_name.hpp"
 #include "graze/symbolic/text_file.hpp"
+#include "results/run_names.hpp"
 #include "study/start_point.hpp"
 #include "study/study_reader.hpp"
 
@@ -65,6 +66,26 @@ void check_pictures(const Study& study) {
                                  study_name_remedy(run, names));
 }
 
+/// One point, or a list of points, each given by one coordinate.
+void read_points(const StudyReader& reader, const TomlEntry& entry, StudyPicture& picture) {
+    const Model none;
+    const auto points = entry.node->is_array() ? reader.toml().elements(entry) : std::vector<TomlEntry>{entry};
+    for (const TomlEntry& point : points)
+        for (const TomlEntry& at : reader.toml().entries(reader.toml().table(point), point.path)) {
+            require_plain_line(at.name, "coordinate", at.place);
+            picture.at.emplace_back(at.name, reader.number(none, at));
+        }
+}
+
+void read_logarithmic(const StudyReader& reader, const TomlEntry& entry, StudyPicture& picture) {
+    for (const std::string& axis : reader.strings(entry)) {
+        picture.logarithmic_x = picture.logarithmic_x || axis == "x";
+        picture.logarithmic_y = picture.logarithmic_y || axis == "y";
+        if (axis != "x" && axis != "y")
+            reader.fail(entry, fmt::format("there is no axis '{}'", axis), "name x, y or both");
+    }
+}
+
 } // namespace
 
 StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
@@ -102,21 +123,11 @@ StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
         } else if (key == "fit") {
             picture.fit = reader.range(none, item);
         } else if (key == "at") {
-            // One point, or a list of points, each given by one coordinate.
-            const auto points = item.node->is_array() ? reader.toml().elements(item) : std::vector<TomlEntry>{item};
-            for (const TomlEntry& point : points)
-                for (const TomlEntry& at : reader.toml().entries(reader.toml().table(point), point.path))
-                    require_plain_line(at.name, "coordinate", at.place),
-                        picture.at.emplace_back(at.name, reader.number(none, at));
+            read_points(reader, item, picture);
         } else if (key == "points") {
             picture.points = reader.strings(item);
         } else if (key == "logarithmic") {
-            for (const std::string& axis : reader.strings(item)) {
-                picture.logarithmic_x = picture.logarithmic_x || axis == "x";
-                picture.logarithmic_y = picture.logarithmic_y || axis == "y";
-                if (axis != "x" && axis != "y")
-                    reader.fail(item, fmt::format("there is no axis '{}'", axis), "name x, y or both");
-            }
+            read_logarithmic(reader, item, picture);
         } else if (key == "successive") {
             picture.successive = reader.toml().boolean(item);
         } else if (key == "group") {
@@ -177,6 +188,8 @@ Study parse_study(std::string_view text, const std::string& file) {
     }
     if (study.runs.empty())
         throw InputError(runs->place, "the study has no runs", "add a table [runs.NAME]");
+    for (const StudyRun& run : study.runs)
+        require_free_name(run.name, run.is_branch(), names_of(study.runs), run.place);
     study.runs = in_order(std::move(study.runs));
     for (const StudyRun& run : study.runs)
         if (run.start)

@@ -7,11 +7,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <set>
+#include <sstream>
 #include <thread>
 
 namespace graze {
@@ -179,6 +183,166 @@ TEST_F(RunStudyTest, results_are_gone_on_with_and_done_again_from_their_file_alo
     const testing::Printed drawn = run_graze({"run", path("a")});
     EXPECT_EQ(drawn.code, 0) << drawn.err;
     EXPECT_TRUE(std::filesystem::exists(path("a/sweep.png")));
+}
+
+/// Asks the program to end, as Ctrl-C does, once it has written so many lines.
+class Interrupting : public std::stringbuf {
+public:
+    explicit Interrupting(int lines) : left_(lines) {}
+
+protected:
+    int overflow(int c) override {
+        count(static_cast<char>(c));
+        return std::stringbuf::overflow(c);
+    }
+    std::streamsize xsputn(const char* text, std::streamsize size) override {
+        for (std::streamsize i = 0; i < size; ++i)
+            count(text[i]);
+        return std::stringbuf::xsputn(text, size);
+    }
+
+private:
+    void count(char c) {
+        if (c == '\n' && --left_ == 0)
+            std::raise(SIGINT);
+    }
+    int left_;
+};
+
+TEST_F(RunStudyTest, a_branch_that_was_interrupted_says_so_and_how_to_go_on) {
+    std::ofstream(path("branch.toml")) << R"(
+name = "b"
+model = "impact-oscillator"
+[runs.chain]
+kind = "continue"
+set = { omega = 1.2, sigma = 0.5, amplitude = 0.1 }
+along = { amplitude = [0.01, 0.2] }
+direction = "both"
+)";
+    const std::vector<std::string> command{"run",           path("branch.toml"), "--output", path("b"),
+                                           "--no-pictures", "--steps",           "--format", "csv"};
+    Interrupting buffer(5);
+    std::ostringstream out;
+    std::ostream err(&buffer);
+    EXPECT_EQ(run_program(command, {out, err, false}), exit_interrupted);
+    EXPECT_THAT(out.str(), HasSubstr("interrupted; the same command begins the run again"));
+    EXPECT_THAT(out.str(), ::testing::Not(HasSubstr("asked for")));
+    const testing::Printed again = run_graze(command);
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_THAT(again.out, HasSubstr("amplitude = 0.2"));
+    EXPECT_THAT(again.out, ::testing::Not(HasSubstr("interrupted")));
+}
+
+TEST_F(RunStudyTest, a_motion_that_waits_in_vain_says_so) {
+    std::ofstream(path("wait.toml")) << R"(
+name = "w"
+model = "impact-oscillator"
+[runs.wait]
+kind = "simulate"
+set = { amplitude = 0, sigma = 1 }
+contacts = 3
+)";
+    const testing::Printed run =
+        run_graze({"run", path("wait.toml"), "--output", path("w"), "--no-pictures", "--format", "csv"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("failed 1"));
+    EXPECT_THAT(run.out, HasSubstr("no contact that ends the motion"));
+    EXPECT_THAT(run.out, HasSubstr("give a time too"));
+}
+
+/// Whoever may do everything is not kept out by permissions.
+bool is_kept_out(const std::string& folder) {
+    return access(folder.c_str(), W_OK) != 0;
+}
+
+TEST_F(RunStudyTest, what_cannot_be_written_is_told_in_one_line) {
+    ASSERT_EQ(study_run("a").code, 0);
+    using std::filesystem::perms;
+    std::filesystem::create_directories(path("closed"));
+    std::filesystem::permissions(path("closed"), perms::owner_read | perms::owner_exec);
+    std::filesystem::permissions(path("a"), perms::owner_read | perms::owner_exec);
+    std::filesystem::permissions(path("a") + "/results.sqlite", perms::owner_read);
+    const bool kept_out = is_kept_out(path("closed"));
+    if (kept_out)
+        for (const std::string output : {"closed", "closed/below", "a"}) {
+            const testing::Printed run = run_graze({"run", path("study.toml"), "--output", path(output)});
+            EXPECT_EQ(run.code, 2) << output;
+            EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+            EXPECT_THAT(run.err, HasSubstr(path(output))) << run.err;
+        }
+    // What is only read, is read.
+    EXPECT_EQ(run_graze({"export", path("a"), "--run", "sweep", "--format", "csv"}).code, 0);
+    for (const char* folder : {"closed", "a"})
+        std::filesystem::permissions(path(folder), perms::owner_all);
+    if (!kept_out)
+        GTEST_SKIP() << "permissions do not keep this user out";
+}
+
+TEST_F(RunStudyTest, names_that_are_those_of_columns_stay_apart) {
+    std::ofstream(path("names.toml")) << R"toml(
+name = "names"
+[parameters]
+T = 1
+label = 2
+run = 3
+[states]
+start = 0.5
+number = { initial = 0, period = "2*pi" }
+arclength = 0
+[modes.only]
+rates = { start = "arclength", number = "T", arclength = "cos(number) - start - 0.2*arclength" }
+[sections.part]
+state = "number"
+value = 0
+)toml";
+    std::ofstream(path("study.toml")) << R"toml(
+name = "names"
+model = "names.toml"
+values = ["start", "Start = 2*start", "rowid = 3*start", "period = 4*start"]
+[runs.point]
+kind = "sweep"
+vary = { T = [1, 2] }
+cycles = 60
+[runs.samples]
+kind = "continue"
+along = { T = [0.9, 1.1] }
+monitors = { a = { maximum = "start" }, A = { minimum = "start" }, type = "period", parameter = { maximum = "arclength" } }
+)toml";
+    const testing::Printed run =
+        run_graze({"run", path("study.toml"), "--output", path("n"), "--no-pictures", "--format", "csv"});
+    ASSERT_EQ(run.code, 0) << run.err << run.out;
+    for (const std::string name : {"point", "samples"})
+        for (const std::string what : {"points", name == "point" ? "samples" : "segments"}) {
+            const testing::Printed table =
+                run_graze({"export", path("n"), "--run", name, "--what", what, "--format", "csv"});
+            ASSERT_EQ(table.code, 0) << table.err;
+            EXPECT_GT(testing::split(table.out, '\n').size(), 2u);
+            std::set<std::string> columns;
+            for (std::string column : testing::split(testing::header(table.out), ',')) {
+                std::transform(column.begin(), column.end(), column.begin(),
+                               [](unsigned char c) { return std::tolower(c); });
+                EXPECT_TRUE(columns.insert(column).second) << column << " is there twice in " << table.out;
+            }
+        }
+    const testing::Csv samples(
+        run_graze({"export", path("n"), "--run", "point", "--what", "samples", "--format", "csv"}).out);
+    for (std::size_t r = 0; r < samples.rows.size(); ++r) {
+        EXPECT_EQ(samples.number(r, "Start_2"), 2 * samples.number(r, "start"));
+        EXPECT_EQ(samples.number(r, "rowid_2"), 3 * samples.number(r, "start"));
+    }
+    const testing::Csv orbits(run_graze({"export", path("n"), "--format", "csv", "--sql",
+                                         "SELECT a, A_2, type_2, period FROM branch_samples"})
+                                  .out);
+    for (std::size_t r = 0; r < orbits.rows.size(); ++r) {
+        EXPECT_NEAR(orbits.number(r, "a"), -orbits.number(r, "A_2"), 1e-9);
+        EXPECT_EQ(orbits.number(r, "type_2"), orbits.number(r, "period"));
+    }
+    EXPECT_EQ(run_graze({"export", path("n"), "--format", "hdf5", "--output", path("n.h5")}).code, 0);
+    EXPECT_EQ(run_graze({"points", path("n"), "--run", "samples", "--format", "csv"}).code, 0);
+    for (const char* view : {"all_points", "label_changes", "branch_points", "special_points", "orbits"})
+        EXPECT_EQ(run_graze({"export", path("n"), "--sql", std::string("SELECT * FROM ") + view}).code, 0) << view;
+    for (const std::string name : {"point", "samples"})
+        EXPECT_EQ(run_graze({"plot", path("n"), "--run", name, "--output", path(name + ".svg")}).code, 0) << name;
 }
 
 TEST_F(RunStudyTest, what_is_neither_study_nor_results_is_refused) {

@@ -1,5 +1,6 @@
 #include "graze/study/study.hpp"
 
+#include "graze/model/model_file.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/study/stored_study.hpp"
 #include "graze/study/study_catalogue.hpp"
@@ -202,6 +203,44 @@ TEST(Study, accuracy_reaches_the_continuation) {
     const StudyRun run = only_run("[runs.a]\nkind = \"continue\"\nalong = \"omega\"\naccuracy = 1e-7");
     EXPECT_EQ(run.branch.settings.orbit.accuracy, 1e-7);
     EXPECT_EQ(run.branch.settings.continuation.accuracy, 1e-7);
+}
+
+TEST(Study, what_a_branch_frees_may_have_bounds) {
+    const std::string follow = "[runs.a]\nkind = \"continue\"\nalong = { omega = [1, 2] }\n"
+                               "monitors = { reach = { maximum = \"x\", fixed = true } }\n";
+    const StudyRun run = only_run(follow + "free = { amplitude = [0.1, \"10*e\"] }");
+    ASSERT_EQ(run.branch.settings.free.size(), 1u);
+    ASSERT_EQ(run.branch.settings.free_bounds.size(), 1u);
+    EXPECT_EQ(run.branch.settings.free[0], run.model.independent_parameter("amplitude"));
+    const FreeBounds& bounds = run.branch.settings.free_bounds[0];
+    EXPECT_EQ(bounds.parameter, run.branch.settings.free[0]);
+    EXPECT_EQ(bounds.least, 0.1);
+    EXPECT_EQ(bounds.greatest, 10 * run.model.parameter_values()[run.model.independent_parameter("e").place()]);
+    EXPECT_TRUE(only_run(follow + "free = [\"amplitude\"]").branch.settings.free_bounds.empty());
+    // As a result file keeps them.
+    RunRecord record;
+    record.name = "a";
+    record.kind = "continue";
+    record.model = write_model(run.model);
+    record.settings = settings_of(run);
+    for (const State& state : run.model.states)
+        record.states.push_back({state.name, state.unit});
+    for (const Mode& mode : run.model.modes)
+        record.modes.push_back(mode.name);
+    const StudyRun again = stored_run(record);
+    EXPECT_EQ(again.branch.settings.free_bounds.at(0).parameter, bounds.parameter);
+    EXPECT_EQ(again.branch.settings.free_bounds.at(0).greatest, bounds.greatest);
+    EXPECT_THAT(refusal(head + follow + "free = { amplitude = [2, 1] }"), HasSubstr("give the smaller number first"));
+    EXPECT_THAT(refusal(head + follow + "free = { amplitude = 1 }"), HasSubstr("runs.a.free.amplitude"));
+    EXPECT_THAT(refusal(head + follow + "free = { ampltude = [1, 2] }"), HasSubstr("did you mean 'amplitude'?"));
+    EXPECT_THAT(refusal(head + follow + "free = { omega = [1, 2] }"), HasSubstr("a free parameter is not one"));
+}
+
+TEST(Study, runs_have_names_that_a_result_file_tells_apart) {
+    const std::string settings = "kind = \"orbit\"\n";
+    EXPECT_THAT(refusal(head + "[runs.a]\n" + settings + "[runs.A]\n" + settings), HasSubstr("differ in case only"));
+    EXPECT_THAT(refusal(head + "[runs.points]\n" + settings), HasSubstr("give it another name"));
+    EXPECT_EQ(refusal(head + "[runs.points]\nkind = \"simulate\"\ntime = 1\n"), "");
 }
 
 TEST(Study, of_two_keys_that_contradict_none_is_ignored) {
