@@ -3,9 +3,7 @@
 // of that branch need when derivatives are taken by differences. Then orbits of more and more segments.
 
 #include "duel.hpp"
-
-#include "graze/branch/orbit_branch.hpp"
-#include "graze/model/catalogue.hpp"
+#include "microactuator.hpp"
 
 #include <benchmark/benchmark.h>
 #include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
@@ -19,37 +17,6 @@
 namespace {
 
 using namespace graze;
-
-Model microactuator(double voltage) {
-    Model model = load_model("impact-microactuator");
-    model.set_parameter("omega", 0.9189);
-    model.set_parameter("V", voltage);
-    return model;
-}
-
-BranchSettings settings(double largest_step) {
-    BranchSettings result;
-    result.greatest = 1.5;
-    result.steps = 200;
-    result.continuation.largest_step = largest_step;
-    return result;
-}
-
-/// The stable orbit {J1, J8} at V = 0.865, followed down to 0.82.
-const Orbit& orbit_to_start_from() {
-    static const Orbit orbit = [] {
-        AttractorOptions settle;
-        settle.section = "phase0";
-        settle.cycles = 4000;
-        const Orbit stable = find_orbit(microactuator(0.865), settle).orbit;
-        BranchSettings down = settings(0.1);
-        down.direction = -1;
-        down.least = 0.82;
-        const Branch branch = follow_branch(microactuator(0.865), stable, down);
-        return branch.special.back().solution.orbit;
-    }();
-    return orbit;
-}
 
 /// The smooth motions of the two segments, by hand.
 class OdeintFlows {
@@ -90,22 +57,22 @@ public:
 };
 
 void BranchOfTheMicroactuator(benchmark::State& state) {
-    const Model model = microactuator(0.82);
-    const Orbit& orbit = orbit_to_start_from();
-    const Branch known = follow_branch(model, orbit, settings(0.008));
+    const Model model = microactuator(microactuator_start);
+    const Orbit& orbit = microactuator_orbit();
+    const Branch known = follow_branch(model, orbit, microactuator_settings());
     if (known.points.size() != 201 || model.parameter_symbols()[0].name() != "V" || model.modes[0].name != "stick")
         throw std::logic_error("the branch is not what is to be measured");
     Duel duel;
     OdeintFlows peer;
     for (auto _ : state)
-        state.SetIterationTime(
-            duel.round([&] { benchmark::DoNotOptimize(follow_branch(model, orbit, settings(0.008)).points.size()); },
-                       [&] {
-                           for (const BranchPoint& point : known.points) // the tangent takes one more evaluation
-                               for (std::size_t i = 0; i <= point.iterations; ++i)
-                                   peer.evaluate(point.solution.orbit);
-                           benchmark::DoNotOptimize(peer.sum);
-                       }));
+        state.SetIterationTime(duel.round(
+            [&] { benchmark::DoNotOptimize(follow_branch(model, orbit, microactuator_settings()).points.size()); },
+            [&] {
+                for (const BranchPoint& point : known.points) // the tangent takes one more evaluation
+                    for (std::size_t i = 0; i <= point.iterations; ++i)
+                        peer.evaluate(point.solution.orbit);
+                benchmark::DoNotOptimize(peer.sum);
+            }));
     state.counters["seconds"] = duel.own();
     state.counters["odeint_flows_ratio"] = duel.peer() / duel.own();
     state.counters["special"] = static_cast<double>(known.special.size());
@@ -124,10 +91,10 @@ Orbit repeated(const Orbit& one, std::size_t times) {
 }
 
 void OrbitOfManySegments(benchmark::State& state) {
-    const Model model = microactuator(0.82);
+    const Model model = microactuator(microactuator_start);
     const std::size_t segments = static_cast<std::size_t>(state.range(0));
-    const Orbit orbit = repeated(orbit_to_start_from(), segments / 2), two = orbit_to_start_from();
-    BranchSettings few = settings(0.008);
+    const Orbit orbit = repeated(microactuator_orbit(), segments / 2), two = microactuator_orbit();
+    BranchSettings few = microactuator_settings();
     few.steps = 5;
     Duel duel;
     for (auto _ : state)

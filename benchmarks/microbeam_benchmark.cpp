@@ -1,14 +1,18 @@
-// The microbeam with a compliant stop: what nine modes cost against one, and derivatives with respect to all states and
-// the voltage against none.
+// The microbeam with a compliant stop: what nine modes cost against one, derivatives with respect to all states and the
+// voltage against none, and the folds that end its branches. Names with `large` in them take long.
 
 #include "duel.hpp"
 
+#include "graze/branch/switching.hpp"
 #include "graze/model/microbeam.hpp"
 #include "graze/trajectory/trajectory.hpp"
 
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace {
@@ -72,6 +76,85 @@ void beam(benchmark::State& state, int modes, bool derivatives, int peer_modes) 
     state.counters["ratio"] = duel.peer() / duel.own();
 }
 
+/// What one of the two folds takes: seconds from the model on, and points.
+struct FoldRun {
+    double seconds = 0, voltage = 0;
+    std::size_t points = 0;
+};
+
+Orbit settled_orbit(const Model& model) {
+    AttractorOptions settle;
+    settle.section = "phase0";
+    settle.cycles = 2000;
+    const OrbitSolution solution = find_orbit(model, settle);
+    if (solution.outcome != OrbitOutcome::converged)
+        throw std::logic_error("the beam does not settle: " + solution.detail);
+    return solution.orbit;
+}
+
+BranchSettings in_voltage(const Model& model, int direction) {
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("V");
+    settings.direction = direction;
+    settings.least = 0.005;
+    settings.greatest = 0.06;
+    settings.steps = 5000;
+    settings.stop_at = {PointType::fold};
+    return settings;
+}
+
+double fold_of(const std::vector<SpecialPoint>& special) {
+    if (special.empty() || special.back().type != PointType::fold || !special.back().located)
+        throw std::logic_error("the beam's branch does not end in a fold");
+    return special.back().parameter;
+}
+
+/// From rest at a small voltage: up to where the stop is grazed, and on with contact to the fold that ends the branch
+/// of low penetration.
+void low_fold(int modes, FoldRun& run) {
+    const Model model = microbeam({.modes = modes, .voltage = 0.01});
+    const System system(model);
+    const BranchSettings settings = in_voltage(model, 1);
+    const Branch free = follow_branch(system, settled_orbit(model), settings);
+    if (free.special.empty() || free.special.back().type != PointType::grazing)
+        throw std::logic_error("the beam does not graze its stop");
+    const std::vector<BranchStart> starts = branches_at(system, free.special.back(), settings);
+    OrbitBranch contact(system, starts.at(0).orbit, settings);
+    run.points = free.points.size();
+    std::vector<SpecialPoint> last;
+    for (bool going = contact.start_along(starts[0].direction, starts[0].distance); going; going = contact.step()) {
+        ++run.points;
+        if (!contact.found().empty())
+            last = contact.found();
+    }
+    run.voltage = fold_of(last);
+}
+
+/// From rest at a large voltage, where it settles deep in its stop: down to the fold that ends the branch of high
+/// penetration.
+void high_fold(int modes, FoldRun& run) {
+    const Model model = microbeam({.modes = modes, .voltage = 0.034});
+    const Branch branch = follow_branch(model, settled_orbit(model), in_voltage(model, -1));
+    run.points = branch.points.size();
+    run.voltage = fold_of(branch.special);
+}
+
+/// The peer is one mode. @param voltage of the fold, as known otherwise
+void fold(benchmark::State& state, int modes, void (*find)(int, FoldRun&), double voltage) {
+    FoldRun own, one;
+    Duel duel;
+    for (auto unused : state)
+        state.SetIterationTime(duel.round([&] { find(modes, own); }, [&] { find(1, one); }));
+    constexpr double last_digit = 1e-12;
+    if (!(std::abs(own.voltage - voltage) < last_digit))
+        state.SkipWithError("the fold is not where it is known to be");
+    state.counters["s"] = duel.own();
+    state.counters["points"] = static_cast<double>(own.points);
+    state.counters["points_of_peer"] = static_cast<double>(one.points);
+    state.counters["ratio"] = duel.peer() / duel.own();
+    state.counters["V"] = own.voltage;
+}
+
 const int registered = [] {
     const auto add = [](const char* name, int modes, bool derivatives, int peer_modes) {
         benchmark::RegisterBenchmark(name, beam, modes, derivatives, peer_modes)
@@ -81,6 +164,17 @@ const int registered = [] {
     add("beam/1_mode/9_modes", 9, false, 1);
     add("beam/1_mode/1_mode_with_derivatives", 1, true, 1);
     add("beam/9_modes/9_modes_with_derivatives", 9, true, 9);
+    const auto add_fold = [](const std::string& name, int modes, void (*find)(int, FoldRun&), double voltage) {
+        auto* one = benchmark::RegisterBenchmark(name.c_str(), fold, modes, find, voltage)
+                        ->UseManualTime()
+                        ->Unit(benchmark::kMillisecond);
+        if (modes > 1)
+            one->Iterations(1);
+    };
+    add_fold("low_fold/1_mode/1_mode", 1, low_fold, 0.032825650930776);
+    add_fold("high_fold/1_mode/1_mode", 1, high_fold, 0.022532683475758);
+    add_fold("large/low_fold/1_mode/9_modes", 9, low_fold, 0.032895909148145);
+    add_fold("large/high_fold/1_mode/9_modes", 9, high_fold, 0.02272192415);
     return 0;
 }();
 
