@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace peers {
+
+/// A line of AUTO's fort.7: what it found, and the columns.
+struct AutoPoint {
+    int type = 0; ///< 5: fold, 6: branch point, 7: flip, -4: a value that was asked for, 9: an end, -9: no convergence
+    std::vector<double> columns; ///< the branch's parameter, the norm, maxima of the first states, other parameters
+};
+
+struct AutoRun {
+    std::vector<AutoPoint> points;
+    double seconds = 0; ///< of the processor
+
+    /// Parameters at all points of a type.
+    std::vector<double> located(int type) const;
+    double milliseconds_per_point() const { return 1e3 * seconds / static_cast<double>(points.size()); }
+};
+
+/// How AUTO is asked to compute.
+struct AutoSettings {
+    std::string problem;   ///< the program's name
+    std::string constants; ///< besides those below
+    int states = 0, intervals = 20, points = 40;
+    double accuracy = 1e-7, first_step = 0.01, largest_step = 0.05;
+};
+
+/// Runs an AUTO program, in one thread, in the present folder. @throws std::runtime_error when it fails
+AutoRun run_auto(const AutoSettings& settings);
+
+} // namespace peers

@@ -1,0 +1,275 @@
+#include "branch_peers.hpp"
+
+#include "../chain.hpp"
+#include "../microactuator.hpp"
+#include "auto_peer.hpp"
+#include "work_precision.hpp"
+
+#include "graze/branch/switching.hpp"
+#include "graze/flow/mode_flow.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace peers {
+
+namespace {
+
+using namespace graze;
+
+constexpr int fold_of_auto = 5, flip_of_auto = 7, value_of_auto = -4;
+
+/// A branch of graze with the processor's time that it took.
+struct TimedBranch {
+    std::vector<BranchPoint> points;
+    std::vector<SpecialPoint> special;
+    double seconds = 0;
+
+    double milliseconds_per_point() const { return 1e3 * seconds / static_cast<double>(points.size()); }
+    std::vector<double> located(PointType type) const {
+        std::vector<double> result;
+        for (const SpecialPoint& point : special)
+            if (point.type == type)
+                result.push_back(point.parameter);
+        return result;
+    }
+};
+
+/// Follows a branch until it ends or takes longer than a budget.
+TimedBranch follow(const System& system, const Orbit& orbit, const BranchSettings& settings, double budget) {
+    TimedBranch result;
+    const double begin = processor_seconds();
+    Branch branch = follow_branch(system, orbit, settings, [&](const BranchPoint&, const std::vector<SpecialPoint>&) {
+        return processor_seconds() - begin < budget;
+    });
+    result.seconds = processor_seconds() - begin;
+    result.points = std::move(branch.points);
+    result.special = std::move(branch.special);
+    return result;
+}
+
+Orbit settled(const Model& model, std::size_t cycles = 4000) {
+    AttractorOptions settle;
+    settle.section = "phase0";
+    settle.cycles = cycles;
+    const OrbitSolution solution = find_orbit(model, settle);
+    if (solution.outcome != OrbitOutcome::converged)
+        throw std::runtime_error(model.name + " does not settle: " + solution.detail);
+    return solution.orbit;
+}
+
+/// In how many digits a value agrees with the right one, of the eleven that AUTO prints.
+double digits(double value, double right) {
+    return std::min(11.0, -std::log10(std::max(std::abs(value - right) / std::abs(right), 1e-17)));
+}
+
+/// "0.31667(4.9)": each value with the digits in which the nearest of the right ones agrees.
+std::string with_digits(const std::vector<double>& values, const std::vector<double>& right) {
+    std::string text;
+    for (const double value : values) {
+        double most = 0;
+        for (const double one : right)
+            most = std::max(most, digits(value, one));
+        char buffer[64];
+        std::snprintf(buffer, sizeof buffer, "%s%.10g (%.1f)", text.empty() ? "" : ", ", value, most);
+        text += buffer;
+    }
+    return text.empty() ? "-" : text;
+}
+
+std::string list_of(const std::vector<double>& values) {
+    std::string text;
+    for (const double value : values) {
+        char buffer[64];
+        std::snprintf(buffer, sizeof buffer, "%s%.13g", text.empty() ? "" : ", ", value);
+        text += buffer;
+    }
+    return text.empty() ? "-" : text;
+}
+
+void print_row(const char* who, std::size_t points, double milliseconds, double from, double to,
+               const std::string& located) {
+    std::printf("| %s | %zu | %.3g | %.4g to %.4g | %s |\n", who, points, milliseconds, from, to, located.c_str());
+    std::fflush(stdout);
+}
+
+void print_head(const std::string& title, const char* parameter, const char* located) {
+    std::printf("\n%s\n\n| | points | ms a point | %s | %s |\n|---|---|---|---|---|\n", title.c_str(), parameter,
+                located);
+}
+
+double first_of(const AutoRun& run) {
+    return run.points.front().columns.front();
+}
+double last_of(const AutoRun& run) {
+    return run.points.back().columns.front();
+}
+
+/// A mesh and an accuracy as people use them, and fine ones.
+struct Fineness {
+    const char* name;
+    int intervals;
+    double accuracy;
+};
+constexpr std::array fineness = {Fineness{"AUTO, 20 x 4, EPS 1e-7", 20, 1e-7},
+                                 Fineness{"AUTO, 20 x 4, EPS 1e-9", 20, 1e-9},
+                                 Fineness{"AUTO, 100 x 4, EPS 1e-9", 100, 1e-9}};
+
+/// Writes the orbit where AUTO is to begin: its two segments side by side, each over a unit of time.
+void write_start(const Model& model, const Orbit& orbit) {
+    constexpr int samples = 200;
+    std::ofstream parameters("microactuator.par"), data("microactuator.dat");
+    parameters.precision(17);
+    data.precision(17);
+    parameters << orbit.parameters[0] << ' ' << orbit.durations[0] << ' ' << orbit.durations[1] << '\n';
+    ModeFlow flow(model, 1e-13);
+    flow.set_parameters(orbit.parameters);
+    std::vector<double> stick = orbit.starts[0], slip = orbit.starts[1];
+    // Graze keeps the phase below pi.
+    const double turns = slip[4] < stick[4] ? std::acos(-1.0) : 0;
+    for (int i = 0; i <= samples; ++i) {
+        data << static_cast<double>(i) / samples;
+        for (const double value : {stick[2], stick[3], stick[4], slip[1], slip[2], slip[3], slip[4] + turns})
+            data << ' ' << value;
+        data << '\n';
+        flow.run(orbit.signature[0].mode, stick, orbit.durations[0] / samples);
+        flow.run(orbit.signature[1].mode, slip, orbit.durations[1] / samples);
+    }
+}
+
+/// Durations of both segments at values of the voltage that were asked for, against graze's orbits there.
+std::string durations_against(const AutoRun& run, const Model& model, const TimedBranch& branch) {
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t count = 0;
+    for (const AutoPoint& point : run.points) {
+        if (point.type != value_of_auto)
+            continue;
+        // The branch passes each voltage twice: in the durations it tells which time it is.
+        const double voltage = point.columns.front(), stick = point.columns[point.columns.size() - 2];
+        const auto distance = [&](const BranchPoint& one) {
+            return std::abs(one.parameter - voltage) + std::abs(one.solution.orbit.durations[0] - stick);
+        };
+        const auto near = std::min_element(
+            branch.points.begin(), branch.points.end(),
+            [&](const BranchPoint& one, const BranchPoint& other) { return distance(one) < distance(other); });
+        Orbit guess = near->solution.orbit;
+        guess.parameters[0] = voltage;
+        const OrbitSolution exact = solve_orbit(model, guess);
+        for (std::size_t s = 0; s < 2; ++s)
+            least = std::min(least, digits(point.columns[point.columns.size() - 2 + s], exact.orbit.durations[s]));
+        ++count;
+    }
+    char buffer[96];
+    std::snprintf(buffer, sizeof buffer, "; durations at %zu orbits to %.1f digits", count, least);
+    return count == 0 ? "" : buffer;
+}
+
+void compare_microactuator(bool quick) {
+    const Model model = microactuator(microactuator_start);
+    const System system(model);
+    const Orbit& orbit = microactuator_orbit();
+    TimedBranch branch;
+    double least = std::numeric_limits<double>::infinity();
+    for (int repeat = 0; repeat < (quick ? 1 : 5); ++repeat) {
+        branch = follow(system, orbit, microactuator_settings(), std::numeric_limits<double>::infinity());
+        least = std::min(least, branch.seconds);
+    }
+    branch.seconds = least;
+    print_head("The microactuator's orbit {J1, J8} in V; AUTO solves its segments side by side, without multipliers",
+               "V", "located (digits)");
+    const std::vector<double> folds = branch.located(PointType::fold);
+    print_row("graze, 1e-13", branch.points.size(), branch.milliseconds_per_point(), branch.points.front().parameter,
+              branch.points.back().parameter, list_of(branch.located(PointType::flip)) + "; " + list_of(folds));
+    write_start(model, orbit);
+    for (const Fineness& one : fineness) {
+        AutoSettings settings{.problem = "microactuator",
+                              .constants = "IPS= 4, IRS= 0, dat= 'microactuator', ISP= 1, NBC= 9, NINT= 0\n"
+                                           "ICP= [1, 2, 3], UZR= {1: [0.85, 0.9, 0.95]}",
+                              .states = 7,
+                              .intervals = one.intervals,
+                              .points = 200,
+                              .accuracy = one.accuracy,
+                              .first_step = 0.001,
+                              .largest_step = 0.0096};
+        AutoRun run = run_auto(settings);
+        for (int repeat = 1; repeat < (quick ? 1 : 3); ++repeat)
+            run.seconds = std::min(run.seconds, run_auto(settings).seconds);
+        print_row(one.name, run.points.size(), run.milliseconds_per_point(), first_of(run), last_of(run),
+                  "- ; " + with_digits(run.located(fold_of_auto), folds) + durations_against(run, model, branch));
+    }
+}
+
+void compare_resting() {
+    Model model = microactuator(0.1);
+    BranchSettings settings;
+    settings.greatest = 0.65;
+    settings.least = 0.05;
+    const System system(model);
+    const TimedBranch branch = follow(system, settled(model), settings, 60);
+    const std::vector<double> flips = branch.located(PointType::flip), folds = branch.located(PointType::fold);
+    print_head("The microactuator without impacts in V, with multipliers", "V", "flips; folds (digits)");
+    print_row("graze, 1e-13", branch.points.size(), branch.milliseconds_per_point(), branch.points.front().parameter,
+              branch.points.back().parameter, list_of(flips) + "; " + list_of(folds));
+    for (const Fineness& one : fineness) {
+        const AutoRun run = run_auto({.problem = "resting",
+                                      .constants = "IPS= 2, IRS= 0, ISP= 2, NBC= 0, NINT= 0\n"
+                                                   "ICP= [1, 11], NPAR= 11, THL= {11: 0.0}, STOP= ['LP1']",
+                                      .states = 4,
+                                      .intervals = one.intervals,
+                                      .points = 200,
+                                      .accuracy = one.accuracy});
+        print_row(one.name, run.points.size(), run.milliseconds_per_point(), first_of(run), last_of(run),
+                  with_digits(run.located(flip_of_auto), flips) + "; " + with_digits(run.located(fold_of_auto), folds));
+    }
+}
+
+/// The chain far from its walls, so that both follow the same branch.
+void compare_chain(std::size_t oscillators, bool quick) {
+    constexpr double far = 100, first_force = 0.05, last_force = 2;
+    Model model = chain(oscillators, first_force);
+    model.set_parameter("wall", far);
+    BranchSettings settings;
+    settings.least = 0.01;
+    settings.greatest = last_force;
+    settings.steps = quick ? 40 : 2000;
+    const System system(model);
+    const TimedBranch branch = follow(system, settled(model), settings, quick ? 2 : 20);
+    const std::vector<double> folds = branch.located(PointType::fold);
+    print_head("The chain of " + std::to_string(oscillators) + " without contacts in F, with multipliers", "F",
+               "folds (digits)");
+    print_row("graze, 1e-13", branch.points.size(), branch.milliseconds_per_point(), branch.points.front().parameter,
+              branch.points.back().parameter, list_of(folds));
+    for (const Fineness& one : fineness) {
+        if (quick && one.intervals > 20)
+            continue;
+        const AutoRun run = run_auto({.problem = "chain",
+                                      .constants = "IPS= 2, IRS= 0, ISP= 2, NBC= 0, NINT= 0\n"
+                                                   "ICP= [1, 11], NPAR= 11, THL= {11: 0.0}, UZSTOP= {1: 2}",
+                                      .states = static_cast<int>(2 * oscillators + 2),
+                                      .intervals = one.intervals,
+                                      .points = one.intervals > 20 ? 20 : 40,
+                                      .accuracy = one.accuracy,
+                                      .first_step = 0.1,
+                                      .largest_step = 0.5});
+        print_row(one.name, run.points.size(), run.milliseconds_per_point(), first_of(run), last_of(run),
+                  with_digits(run.located(fold_of_auto), folds));
+    }
+}
+
+} // namespace
+
+void compare_branches(bool quick) {
+    compare_microactuator(quick);
+    compare_resting();
+    for (const std::size_t oscillators : quick ? std::vector<std::size_t>{5} : std::vector<std::size_t>{5, 10, 20})
+        compare_chain(oscillators, quick);
+}
+
+} // namespace peers
