@@ -1,5 +1,5 @@
 // A chain of forced oscillators with walls, which can be made as large as one likes: how start-up, memory, a period,
-// derivatives and points of branches grow with it. Names with `large` in them take long.
+// derivatives and points of branches grow with it. Times are the processor's. Names with `large` in them take long.
 
 #include "chain.hpp"
 #include "duel.hpp"
@@ -25,6 +25,13 @@ using namespace graze;
 constexpr double period = 2 * std::numbers::pi / Chain::frequency;
 constexpr double tolerance = 1e-12;
 
+/// How many short runs are timed together, so that the processor's clock resolves them.
+/// @param size of one run, as a multiple of a period of one oscillator
+int resolved_runs(std::size_t size) {
+    constexpr std::size_t enough = 200;
+    return 1 + static_cast<int>(enough / size);
+}
+
 /// What is aimed at, in milliseconds.
 constexpr double allowed_start_up = 30;
 double allowed_point(std::size_t oscillators) {
@@ -46,7 +53,7 @@ void start_up(benchmark::State& state, std::size_t oscillators) {
     double least = std::numeric_limits<double>::infinity();
     const double megabytes = peak_megabytes([&] { first_jet(oscillators); });
     for (auto unused : state) {
-        const double time = seconds([&] { first_jet(oscillators); });
+        const double time = seconds([&] { first_jet(oscillators); }, Clock::processor);
         state.SetIterationTime(time);
         least = std::min(least, time);
     }
@@ -96,14 +103,15 @@ private:
 /// The peer is the shortest chain, times the number of oscillators: a ratio of 1 is a cost that grows as the model
 /// does.
 void plain(benchmark::State& state, std::size_t oscillators, double force) {
-    constexpr int periods = 4;
+    const int periods = resolved_runs(oscillators), periods_of_one = resolved_runs(1);
     ChainRun own(oscillators, force), one(1, force);
-    Duel duel;
+    Duel duel(Clock::processor);
     for (auto unused : state)
-        state.SetIterationTime(duel.round([&] { own.run(periods); }, [&] { one.run(periods); }));
+        state.SetIterationTime(duel.round([&] { own.run(periods); }, [&] { one.run(periods_of_one); }));
     own.require_end();
-    state.counters["ms_a_period"] = 1e3 * duel.own() / periods;
-    state.counters["ratio"] = duel.peer() * static_cast<double>(oscillators) / duel.own();
+    const double seconds = duel.own() / periods, seconds_of_one = duel.peer() / periods_of_one;
+    state.counters["ms_a_period"] = 1e3 * seconds;
+    state.counters["ratio"] = seconds_of_one * static_cast<double>(oscillators) / seconds;
     state.counters["contacts_a_period"] =
         static_cast<double>(own.contacts()) / static_cast<double>(periods * state.iterations());
 }
@@ -122,21 +130,26 @@ void derivatives(benchmark::State& state, std::size_t oscillators, std::size_t i
     flow.set_parameters(settled.model().parameter_values());
     without.set_parameters(settled.model().parameter_values());
     std::vector<double> end, matrix(start.size() * inputs);
-    Duel duel;
+    Duel duel(Clock::processor);
     ModeFlow::Ending ending = ModeFlow::Ending::done;
+    const int runs = resolved_runs(oscillators * inputs), runs_without = resolved_runs(oscillators);
     for (auto unused : state)
         state.SetIterationTime(duel.round(
             [&] {
-                end = start;
-                ending = flow.run(0, end, period, matrix);
+                for (int i = 0; i < runs; ++i) {
+                    end = start;
+                    ending = flow.run(0, end, period, matrix);
+                }
             },
             [&] {
-                end = start;
-                without.run(0, end, period);
+                for (int i = 0; i < runs_without; ++i) {
+                    end = start;
+                    without.run(0, end, period);
+                }
             }));
     if (ending != ModeFlow::Ending::done)
         state.SkipWithError("the flow with derivatives does not reach the end");
-    const double times = duel.own() / duel.peer();
+    const double times = duel.own() / runs / (duel.peer() / runs_without);
     state.counters["times_plain"] = times;
     state.counters["ratio"] = (2 + 0.5 * static_cast<double>(inputs)) / times;
     const auto steps = [&](ModeFlow& one, auto&& run) {
@@ -173,7 +186,8 @@ void branch(benchmark::State& state, std::size_t oscillators) {
     double least = std::numeric_limits<double>::infinity();
     Branch followed;
     for (auto unused : state) {
-        const double time = seconds([&] { followed = follow_branch(system, orbit, in_force(steps)); });
+        const double time =
+            seconds([&] { followed = follow_branch(system, orbit, in_force(steps)); }, Clock::processor);
         state.SetIterationTime(time);
         least = std::min(least, time);
     }
@@ -193,17 +207,20 @@ void branch_with_contact(benchmark::State& state, std::size_t oscillators) {
     std::size_t points = 0;
     Branch smooth;
     for (auto unused : state) {
-        to_grazing = std::min(to_grazing, seconds([&] { smooth = follow_branch(system, orbit, in_force(many)); }));
+        to_grazing = std::min(
+            to_grazing, seconds([&] { smooth = follow_branch(system, orbit, in_force(many)); }, Clock::processor));
         if (smooth.special.empty() || smooth.special.back().type != PointType::grazing)
             throw std::logic_error("the branch of the chain does not graze a wall");
         const std::vector<BranchStart> starts = branches_at(system, smooth.special.back(), in_force(steps));
-        const double time = seconds([&] {
-            OrbitBranch impacting(system, starts.at(0).orbit, in_force(steps));
-            points = 0;
-            for (bool going = impacting.start_along(starts[0].direction, starts[0].distance); going;
-                 going = impacting.step())
-                ++points;
-        });
+        const double time = seconds(
+            [&] {
+                OrbitBranch impacting(system, starts.at(0).orbit, in_force(steps));
+                points = 0;
+                for (bool going = impacting.start_along(starts[0].direction, starts[0].distance); going;
+                     going = impacting.step())
+                    ++points;
+            },
+            Clock::processor);
         least = std::min(least, time);
         state.SetIterationTime(time);
     }
@@ -224,10 +241,13 @@ const int registered = [] {
         if (is_large)
             one->Iterations(2);
     };
-    for (const std::size_t n : {1, 5, 10, 20, 50, 100, 200}) {
+    const std::vector<std::size_t> sizes = {1, 5, 10, 20, 50, 100, 200};
+    // First, while there is little memory that could be used again.
+    for (const std::size_t n : sizes)
+        add("start_up/30_ms/chain_of_" + std::to_string(n), n > 20, start_up, n);
+    for (const std::size_t n : sizes) {
         const std::string chain = "chain_of_" + std::to_string(n);
         const bool is_large = n > 20;
-        add("start_up/30_ms/" + chain, is_large, start_up, n);
         add("plain/one_oscillator/" + chain, is_large, plain, n, Chain::small_force);
         add("plain_with_contact/one_oscillator/" + chain, is_large, plain, n, Chain::large_force);
         add("derivatives/plain/" + chain + "/1", is_large, derivatives, n, 1);

@@ -139,10 +139,10 @@ void high_fold(int modes, FoldRun& run) {
     run.voltage = fold_of(branch.special);
 }
 
-/// The peer is one mode. @param voltage of the fold, as known otherwise
+/// The peer is one mode; times are the processor's. @param voltage of the fold, as known otherwise
 void fold(benchmark::State& state, int modes, void (*find)(int, FoldRun&), double voltage) {
     FoldRun own, one;
-    Duel duel;
+    Duel duel(Clock::processor);
     for (auto unused : state)
         state.SetIterationTime(duel.round([&] { find(modes, own); }, [&] { find(1, one); }));
     constexpr double last_digit = 1e-12;

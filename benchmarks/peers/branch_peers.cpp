@@ -45,11 +45,11 @@ struct TimedBranch {
 /// Follows a branch until it ends or takes longer than a budget.
 TimedBranch follow(const System& system, const Orbit& orbit, const BranchSettings& settings, double budget) {
     TimedBranch result;
-    const double begin = processor_seconds();
+    const double begin = read_clock(Clock::processor);
     Branch branch = follow_branch(system, orbit, settings, [&](const BranchPoint&, const std::vector<SpecialPoint>&) {
-        return processor_seconds() - begin < budget;
+        return read_clock(Clock::processor) - begin < budget;
     });
-    result.seconds = processor_seconds() - begin;
+    result.seconds = read_clock(Clock::processor) - begin;
     result.points = std::move(branch.points);
     result.special = std::move(branch.special);
     return result;
@@ -70,15 +70,20 @@ double digits(double value, double right) {
     return std::min(11.0, -std::log10(std::max(std::abs(value - right) / std::abs(right), 1e-17)));
 }
 
-/// "0.31667(4.9)": each value with the digits in which the nearest of the right ones agrees.
+/// "0.3166740397 (7.9)": each value with the digits in which the nearest of the right ones agrees, if it is known.
 std::string with_digits(const std::vector<double>& values, const std::vector<double>& right) {
+    constexpr double same = 3; // digits that tell a value from another
     std::string text;
     for (const double value : values) {
         double most = 0;
         for (const double one : right)
             most = std::max(most, digits(value, one));
         char buffer[64];
-        std::snprintf(buffer, sizeof buffer, "%s%.10g (%.1f)", text.empty() ? "" : ", ", value, most);
+        std::snprintf(buffer, sizeof buffer, "%s%.10g", text.empty() ? "" : ", ", value);
+        text += buffer;
+        if (most < same)
+            continue;
+        std::snprintf(buffer, sizeof buffer, " (%.1f)", most);
         text += buffer;
     }
     return text.empty() ? "-" : text;
@@ -96,13 +101,14 @@ std::string list_of(const std::vector<double>& values) {
 
 void print_row(const char* who, std::size_t points, double milliseconds, double from, double to,
                const std::string& located) {
-    std::printf("| %s | %zu | %.3g | %.4g to %.4g | %s |\n", who, points, milliseconds, from, to, located.c_str());
+    std::printf("| %s | %zu | %.3g | %.3g | %.4g to %.4g | %s |\n", who, points, milliseconds,
+                1e-3 * milliseconds * static_cast<double>(points), from, to, located.c_str());
     std::fflush(stdout);
 }
 
 void print_head(const std::string& title, const char* parameter, const char* located) {
-    std::printf("\n%s\n\n| | points | ms a point | %s | %s |\n|---|---|---|---|---|\n", title.c_str(), parameter,
-                located);
+    std::printf("\n%s\n\n| | points | ms a point | s in all | %s | %s |\n|---|---|---|---|---|---|\n", title.c_str(),
+                parameter, located);
 }
 
 double first_of(const AutoRun& run) {

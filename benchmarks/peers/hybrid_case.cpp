@@ -102,7 +102,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 
 HybridCase chain_case(std::size_t oscillators, double force, int periods) {
     HybridCase one;
-    one.name = "chain of " + std::to_string(oscillators);
+    one.name = "chain of " + std::to_string(oscillators) + (force < Chain::large_force ? "" : ", contacts");
     one.model = chain(oscillators, force);
     one.motions = chain_motions(oscillators, force);
     for (std::size_t i = 0; i < oscillators; ++i)

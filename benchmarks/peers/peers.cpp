@@ -1,5 +1,5 @@
-// Graze against AUTO-07p and CVODES in one run: `./run peers`, or `./run peers --quick` for a look that takes seconds.
-// AUTO runs in the present folder and leaves its files there.
+// Graze against AUTO-07p and CVODES in one run: `./run peers`, or `./run peers --quick` for a look that takes seconds;
+// `branches` or `derivatives` for one half. AUTO runs in the present folder and leaves its files there.
 
 #include "branch_peers.hpp"
 #include "derivative_peers.hpp"
@@ -9,15 +9,23 @@
 #include <string>
 
 int main(int count, char** arguments) {
-    const bool quick = count > 1 && arguments[1] == std::string("--quick");
-    if (count > 2 || (count == 2 && !quick)) {
-        std::fprintf(stderr, "usage: peers [--quick]\n");
-        return 2;
+    bool quick = false, branches = false, derivatives = false;
+    for (int i = 1; i < count; ++i) {
+        const std::string argument = arguments[i];
+        quick = quick || argument == "--quick";
+        branches = branches || argument == "branches";
+        derivatives = derivatives || argument == "derivatives";
+        if (argument != "--quick" && argument != "branches" && argument != "derivatives") {
+            std::fprintf(stderr, "usage: peers [--quick] [branches] [derivatives]\n");
+            return 2;
+        }
     }
     try {
         std::printf("All times are those of the processor, the least of several where they are short.\n");
-        peers::compare_branches(quick);
-        peers::compare_derivatives(quick);
+        if (branches || !derivatives)
+            peers::compare_branches(quick);
+        if (derivatives || !branches)
+            peers::compare_derivatives(quick);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "peers: %s\n", error.what());
         return 1;

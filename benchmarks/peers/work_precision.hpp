@@ -1,6 +1,6 @@
 #pragma once
 
-#include <ctime>
+#include "../duel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,23 +15,23 @@ struct Effort {
     double tolerance = 0, seconds = 0, error = 0;
 };
 
-/// Time of the processor, which others who use the machine do not lengthen much.
-inline double processor_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// The least of several times, of which there are the more the shorter they are.
+/// The least of several times of the processor, of which there are the more the shorter they are. Runs that the clock
+/// could not resolve are timed together.
 template <class Run>
 double least_seconds(double budget, Run&& run) {
-    constexpr int most = 200;
-    double least = INFINITY, spent = 0;
-    for (int i = 0; i < most && (i == 0 || spent < budget); ++i) {
-        const double begin = processor_seconds();
-        run();
-        const double time = processor_seconds() - begin;
-        least = std::min(least, time);
+    constexpr int most = 100;
+    constexpr double resolved = 1e-3;
+    const double first = seconds(run, Clock::processor);
+    const int together = 1 + static_cast<int>(resolved / std::max(first, 1e-3 * resolved));
+    double least = together > 1 ? INFINITY : first, spent = first;
+    for (int i = 0; i < most && (std::isinf(least) || spent < budget); ++i) {
+        const double time = seconds(
+            [&] {
+                for (int j = 0; j < together; ++j)
+                    run();
+            },
+            Clock::processor);
+        least = std::min(least, time / together);
         spent += time;
     }
     return least;
