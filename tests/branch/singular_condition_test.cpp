@@ -49,7 +49,7 @@ TEST(SingularConditions, gradients_are_those_of_the_values_for_every_shipped_mod
         const Model model = load_model(name);
         const Orbit orbit = candidate(model, motion.time);
         const Simulation simulation(model, {}, {}, integration(1e-14));
-        Shooting equations(simulation, orbit, {0, 1});
+        Shooting equations(simulation, orbit, {ParameterId(0), ParameterId(1)});
         check_gradients(equations, orbit, name, random);
     }
 }
@@ -75,7 +75,7 @@ value = 0
 )toml");
     const Orbit orbit{parse_signature(model, "start"), model.parameter_values(), {{1, 0, 0}}, {2 * pi}, {}};
     const Simulation simulation(model, {}, {}, integration(1e-14));
-    Shooting equations(simulation, orbit, {0, 1});
+    Shooting equations(simulation, orbit, {ParameterId(0), ParameterId(1)});
     OrbitEvaluation at = equations.evaluation();
     ASSERT_TRUE(equations.evaluate(equations.unknowns_of(orbit), at));
     auto condition = TorusCondition::of_pair(equations, at);
@@ -88,7 +88,7 @@ value = 0
     EXPECT_NEAR(gradient[gradient.size() - 1], 0, 1e-11);
     std::mt19937 random(6);
     EXPECT_TRUE(check_gradients(equations, orbit, "torus", random));
-    Shooting with_p(simulation, orbit, {0});
+    Shooting with_p(simulation, orbit, {ParameterId(0)});
     const Meeting met = meet(with_p, orbit, TorusCondition::of_pair);
     EXPECT_GT(met.iterations, 0U);
     EXPECT_LT(met.iterations, 10U);
@@ -99,7 +99,7 @@ TEST(SingularConditions, fold_and_flip_of_the_bouncing_ball_have_their_closed_fo
     // A ball on a table a sin(w t), one contact a period: it folds where a w^2 = g pi (1 - e) / (1 + e) and doubles
     // its period where cos of the phase is -2 (1 + e^2) g / ((1 + e)^2 a w^2); by Newton's method, from orbits between.
     const Model model = load_model("bouncing-ball");
-    const auto value = [&](const char* name) { return model.parameter_values()[model.independent_parameter(name)]; };
+    const auto value = [&](const char* name) { return model.parameter_values()[model.independent_parameter(name).place()]; };
     const double g = value("g"), e = value("e"), w = 2 * pi * value("f");
     const double rise = pi * (1 - e) / (1 + e), turn = 2 * (1 + e * e) / ((1 + e) * (1 + e));
     const double fold = g / (w * w) * rise, flip = g / (w * w) * std::hypot(rise, turn);
@@ -111,7 +111,7 @@ TEST(SingularConditions, fold_and_flip_of_the_bouncing_ball_have_their_closed_fo
                     {{a * std::sin(phase), g / (2 * value("f")), phase}},
                     {1 / value("f")},
                     {}};
-        orbit.parameters[model.independent_parameter("a")] = a;
+        orbit.parameters[model.independent_parameter("a").place()] = a;
         const double multiplier = share < 0.5 ? 1 : -1;
         for (const bool by_collocation : {false, true}) {
             std::unique_ptr<OrbitEquations> equations =
@@ -122,7 +122,7 @@ TEST(SingularConditions, fold_and_flip_of_the_bouncing_ball_have_their_closed_fo
             const Meeting met = meet(*equations, orbit, of_multiplier(multiplier));
             ASSERT_GT(met.iterations, 0U) << share << ' ' << multiplier;
             EXPECT_LT(met.iterations, 10U);
-            EXPECT_NEAR(met.orbit.parameters[model.independent_parameter("a")], multiplier > 0 ? fold : flip,
+            EXPECT_NEAR(met.orbit.parameters[model.independent_parameter("a").place()], multiplier > 0 ? fold : flip,
                         1e-12 * fold)
                 << share;
         }
@@ -154,7 +154,7 @@ TEST(SingularConditions, vanish_where_their_tests_have_found_points_of_symmetric
             const Meeting met =
                 meet(equations, special.solution.orbit, of_multiplier(special.type == PointType::fold ? 1 : -1));
             ASSERT_GT(met.iterations, 0U);
-            EXPECT_NEAR(met.orbit.parameters[settings.parameter], special.parameter, 1e-11);
+            EXPECT_NEAR(met.orbit.parameters[settings.parameter.place()], special.parameter, 1e-11);
         }
     }
     EXPECT_GE(folds, 1U);
