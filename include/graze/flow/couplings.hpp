@@ -1,0 +1,79 @@
+#pragma once
+
+#include "graze/flow/system.hpp"
+#include "graze/tape/jet.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace graze {
+
+/// How strongly the rates of a mode's states depend on the states, somewhere: the sizes of the Jacobian's entries, and
+/// what follows from them whatever units states are counted in.
+///
+/// What one state's errors do to the others tells how accurate these need be. Within the response time no disturbance
+/// outgrows itself by way of others, so that the sizes to which a disturbance can bring all states are well defined.
+class Couplings {
+public:
+    /// @throws InputError, here and below, for a mode or numbers that do not fit the system
+    Couplings(const System& system, std::size_t mode);
+    /// @param parameters as many as the system has
+    void set_parameters(std::span<const double> parameters);
+    /// Finds the Jacobian at a place: columns that share no row at once (Curtis, Powell and Reid 1974), side by side in
+    /// tangent lanes.
+    void measure(std::span<const double> states);
+
+    /// The reciprocal of a bound on the eigenvalues: of the largest sum of a row's entries among states that depend on
+    /// each other, in units in which rows and columns are about as large (Osborne 1960). Infinity where no state
+    /// depends on itself, 0 where the Jacobian is not finite.
+    double response_time() const { return response_time_; }
+
+    /// Raises sizes of states until no coupling, over a time, makes any larger: s_i >= time |J_ij| s_j for all i, j.
+    /// @param time at most the response time
+    /// @param sizes [state * width + lane]; @param lanes the first ones, that matter
+    void spread(double time, std::span<double> sizes, std::size_t width, std::size_t lanes) const;
+
+private:
+    struct Entry {
+        std::size_t row, column;
+        double strength = 0;
+        bool returns = false; ///< whether its row's state acts on its column's again
+    };
+
+    void find_entries(const Tape& tape);
+    void find_colours();
+    void find_cycles();
+    void balance();
+    double largest_row() const;
+
+    std::size_t states_, width_;
+    std::unique_ptr<Jet> jet_;
+    std::vector<Entry> entries_;                    ///< row by row
+    std::vector<std::size_t> row_starts_;           ///< in `entries_`
+    std::vector<std::vector<std::size_t>> columns_; ///< entries of each
+    std::vector<std::size_t> colours_;              ///< of columns
+    std::size_t colour_count_ = 0;
+    std::vector<bool> vanishing_; ///< entries that were zero when cycles were found
+    std::vector<double> units_;   ///< in which rows and columns are about as large
+    std::vector<double> seeds_, parameter_lanes_;
+    double response_time_ = 0;
+    bool fresh_ = true;
+};
+
+/// Couplings for the modes of a system, made when first needed.
+class ModeCouplings {
+public:
+    explicit ModeCouplings(const System& system) : system_(system), all_(system.model().modes.size()) {}
+    void set_parameters(std::span<const double> parameters);
+    /// Those of a mode at a place.
+    const Couplings& measured(std::size_t mode, std::span<const double> states);
+
+private:
+    System system_;
+    std::vector<double> parameters_;
+    std::vector<std::unique_ptr<Couplings>> all_;
+};
+
+} // namespace graze

@@ -1,0 +1,306 @@
+#include "graze/flow/couplings.hpp"
+
+#include "graze/symbolic/require.hpp"
+#include "tape/tape_analysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+namespace graze {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The states that each register's value depends on, sorted.
+std::vector<std::vector<std::size_t>> dependences_of(const Tape& tape) {
+    std::vector<std::vector<std::size_t>> all(tape.registers);
+    for (std::size_t i = 0; i < tape.states; ++i)
+        all[i] = {i};
+    std::vector<std::size_t> merged;
+    // Some registers are read before they are written to.
+    for (bool grows = true; grows;) {
+        grows = false;
+        for (const Instruction& instruction : tape.code) {
+            std::vector<std::size_t>& own = all[instruction.result];
+            visit_operands(tape, instruction, [&](std::uint32_t operand) {
+                if (all[operand].empty() || operand == instruction.result)
+                    return;
+                merged.clear();
+                std::set_union(own.begin(), own.end(), all[operand].begin(), all[operand].end(),
+                               std::back_inserter(merged));
+                grows = grows || merged.size() > own.size();
+                own.swap(merged);
+            });
+        }
+    }
+    return all;
+}
+
+/// Strongly connected components (Tarjan 1972), by a stack of its own: chains of states may be long.
+class Components {
+public:
+    template <class Successors>
+    Components(std::size_t count, const Successors& successors)
+        : numbers_(count, unseen), lowest_(count, 0), component_(count, unseen) {
+        for (std::size_t root = 0; root < count; ++root)
+            if (numbers_[root] == unseen)
+                visit(root, successors);
+    }
+    std::size_t of(std::size_t node) const { return component_[node]; }
+
+private:
+    static constexpr std::size_t unseen = std::numeric_limits<std::size_t>::max();
+
+    template <class Successors>
+    void visit(std::size_t root, const Successors& successors) {
+        struct Frame {
+            std::size_t node, next;
+        };
+        std::vector<Frame> frames{{root, 0}};
+        enter(root);
+        while (!frames.empty()) {
+            Frame& frame = frames.back();
+            const std::size_t node = frame.node, other = successors(node, frame.next);
+            if (other == unseen) {
+                frames.pop_back();
+                leave(node);
+                if (!frames.empty())
+                    lowest_[frames.back().node] = std::min(lowest_[frames.back().node], lowest_[node]);
+            } else {
+                ++frame.next;
+                if (numbers_[other] == unseen) {
+                    enter(other);
+                    frames.push_back({other, 0});
+                } else if (component_[other] == unseen) {
+                    lowest_[node] = std::min(lowest_[node], numbers_[other]);
+                }
+            }
+        }
+    }
+    void enter(std::size_t node) {
+        numbers_[node] = lowest_[node] = seen_++;
+        open_.push_back(node);
+    }
+    void leave(std::size_t node) {
+        if (lowest_[node] != numbers_[node])
+            return;
+        std::size_t member = unseen;
+        while (member != node) {
+            member = open_.back();
+            open_.pop_back();
+            component_[member] = node;
+        }
+    }
+
+    std::vector<std::size_t> numbers_, lowest_, component_, open_;
+    std::size_t seen_ = 0;
+};
+
+/// Raises the sizes of one state by those of another; whether any grew by much.
+template <std::size_t lanes>
+bool raise(double* to, const double* from, double gain) {
+    constexpr double much = 1.5;
+    int grown = 0;
+    for (std::size_t l = 0; l < lanes; ++l) {
+        const double before = to[l], moved = gain * from[l];
+        to[l] = moved > before ? moved : before;
+        grown |= moved > much * before ? 1 : 0;
+    }
+    return grown != 0;
+}
+
+bool raise(double* to, const double* from, double gain, std::size_t lanes) {
+    bool grown = false;
+    std::size_t l = 0;
+    for (; l + 4 <= lanes; l += 4)
+        grown = raise<4>(to + l, from + l, gain) || grown;
+    for (; l < lanes; ++l)
+        grown = raise<1>(to + l, from + l, gain) || grown;
+    return grown;
+}
+
+} // namespace
+
+Couplings::Couplings(const System& system, std::size_t mode)
+    : states_(system.states()), jet_(make_jet(system.mode(mode).tape, 1, LaneKind::tangent)) {
+    width_ = static_cast<std::size_t>(jet_->width());
+    units_.assign(states_, 1.0);
+    seeds_.resize(states_ * width_);
+    parameter_lanes_.assign(system.parameters() * width_, 0.0);
+    find_entries(system.mode(mode).tape);
+    find_colours();
+}
+
+void Couplings::find_entries(const Tape& tape) {
+    const std::vector<std::vector<std::size_t>> dependences = dependences_of(tape);
+    columns_.resize(states_);
+    for (std::size_t i = 0; i < states_; ++i) {
+        row_starts_.push_back(entries_.size());
+        if (tape.rates[i].constant)
+            continue;
+        for (const std::size_t k : dependences[tape.rates[i].index]) {
+            columns_[k].push_back(entries_.size());
+            entries_.push_back({i, k});
+        }
+    }
+    row_starts_.push_back(entries_.size());
+    vanishing_.assign(entries_.size(), false);
+}
+
+/// Columns of one colour have no row in common. Each takes the first colour that is free.
+void Couplings::find_colours() {
+    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    colours_.assign(states_, none);
+    std::vector<std::size_t> taken_by;
+    for (std::size_t k = 0; k < states_; ++k) {
+        taken_by.resize(colour_count_, none);
+        for (const std::size_t entry : columns_[k])
+            for (std::size_t e = row_starts_[entries_[entry].row]; e < row_starts_[entries_[entry].row + 1]; ++e)
+                if (const std::size_t colour = colours_[entries_[e].column]; colour != none)
+                    taken_by[colour] = k;
+        const auto free = std::find_if(taken_by.begin(), taken_by.end(), [k](std::size_t by) { return by != k; });
+        colours_[k] = static_cast<std::size_t>(free - taken_by.begin());
+        colour_count_ = std::max(colour_count_, colours_[k] + 1);
+    }
+}
+
+void Couplings::set_parameters(std::span<const double> parameters) {
+    require_size(parameters.size() * width_, parameter_lanes_.size(), "independent parameters");
+    for (std::size_t j = 0; j < parameters.size(); ++j)
+        parameter_lanes_[j * width_] = parameters[j];
+    jet_->set_parameters(parameter_lanes_);
+}
+
+void Couplings::measure(std::span<const double> states) {
+    require_size(states.size(), states_, "states");
+    const std::size_t lanes = width_ - 1;
+    for (std::size_t first = 0; first < colour_count_; first += lanes) {
+        for (std::size_t k = 0; k < states_; ++k) {
+            std::fill_n(&seeds_[k * width_], width_, 0.0);
+            seeds_[k * width_] = states[k];
+            if (colours_[k] >= first && colours_[k] < first + lanes)
+                seeds_[k * width_ + 1 + colours_[k] - first] = 1;
+        }
+        jet_->begin(seeds_);
+        for (Entry& entry : entries_)
+            if (const std::size_t colour = colours_[entry.column]; colour >= first && colour < first + lanes)
+                entry.strength = std::abs(jet_->state(entry.row)[width_ + 1 + colour - first]);
+    }
+    const bool finite =
+        std::all_of(entries_.begin(), entries_.end(), [](const Entry& e) { return std::isfinite(e.strength); });
+    if (!finite) {
+        response_time_ = 0;
+        return;
+    }
+    find_cycles();
+    balance();
+    response_time_ = 1 / largest_row();
+}
+
+/// Which entries belong to cycles of states that act on each other: others than before only where some vanish.
+void Couplings::find_cycles() {
+    bool changed = std::exchange(fresh_, false);
+    for (std::size_t e = 0; e < entries_.size(); ++e)
+        if (const bool vanishing = entries_[e].strength == 0; vanishing != vanishing_[e]) {
+            vanishing_[e] = vanishing;
+            changed = true;
+        }
+    if (!changed)
+        return;
+    const Components components(states_, [this](std::size_t node, std::size_t& next) {
+        const std::vector<std::size_t>& out = columns_[node];
+        while (next < out.size() && entries_[out[next]].strength == 0)
+            ++next;
+        return next < out.size() ? entries_[out[next]].row : std::numeric_limits<std::size_t>::max();
+    });
+    for (Entry& entry : entries_)
+        entry.returns = entry.strength != 0 && components.of(entry.row) == components.of(entry.column);
+}
+
+/// Gives each state a unit in which what acts on it, of those on which it acts again, is as large as what it does.
+/// Units change little from one place to the next, so that mostly one sweep is enough.
+void Couplings::balance() {
+    constexpr int most_sweeps = 20;
+    constexpr double close = 1.1;
+    bool moved = true;
+    for (int sweep = 0; sweep < most_sweeps && moved; ++sweep) {
+        moved = false;
+        for (std::size_t i = 0; i < states_; ++i) {
+            double row = 0, column = 0;
+            for (std::size_t e = row_starts_[i]; e < row_starts_[i + 1]; ++e)
+                if (const Entry& entry = entries_[e]; entry.returns && entry.column != i)
+                    row += entry.strength * units_[entry.column];
+            for (const std::size_t e : columns_[i])
+                if (const Entry& entry = entries_[e]; entry.returns && entry.row != i)
+                    column += entry.strength / units_[entry.row];
+            const double unit = std::sqrt(row / column);
+            if (!(unit > 0 && std::isfinite(unit)))
+                continue;
+            moved = moved || unit > close * units_[i] || units_[i] > close * unit;
+            units_[i] = unit;
+        }
+    }
+}
+
+/// Of the sums of the entries in a row, in these units.
+double Couplings::largest_row() const {
+    double most = 0;
+    for (std::size_t i = 0; i < states_; ++i) {
+        double row = 0;
+        for (std::size_t e = row_starts_[i]; e < row_starts_[i + 1]; ++e)
+            if (entries_[e].returns)
+                row += entries_[e].strength * units_[entries_[e].column];
+        row /= units_[i];
+        most = std::isnan(row) ? infinity : std::max(most, row);
+    }
+    return most;
+}
+
+void Couplings::spread(double time, std::span<double> sizes, std::size_t width, std::size_t lanes) const {
+    require_size(sizes.size(), states_ * width, "sizes of states");
+    require_index(lanes, width + 1, "number of lanes");
+    const auto pull = [&](std::size_t e) {
+        const Entry& entry = entries_[e];
+        return entry.strength > 0 && entry.row != entry.column &&
+               raise(&sizes[entry.row * width], &sizes[entry.column * width], time * entry.strength, lanes);
+    };
+    // States are mostly counted along what they are the states of: in turn up and down. What has been passed is raised
+    // at once, so that a chain is gone along in one sweep, however position and speed take turns in it.
+    bool grown = true;
+    for (std::size_t sweep = 0; sweep <= states_ && grown; ++sweep) {
+        const bool up = sweep % 2 == 0;
+        grown = false;
+        for (std::size_t count = 0; count < states_; ++count) {
+            const std::size_t i = up ? count : states_ - 1 - count;
+            for (std::size_t e = row_starts_[i]; e < row_starts_[i + 1]; ++e)
+                grown = pull(e) || grown;
+            for (const std::size_t e : columns_[i])
+                if (up ? entries_[e].row < i : entries_[e].row > i)
+                    grown = pull(e) || grown;
+        }
+    }
+}
+
+void ModeCouplings::set_parameters(std::span<const double> parameters) {
+    parameters_.assign(parameters.begin(), parameters.end());
+    for (const auto& couplings : all_)
+        if (couplings)
+            couplings->set_parameters(parameters_);
+}
+
+const Couplings& ModeCouplings::measured(std::size_t mode, std::span<const double> states) {
+    require_index(mode, all_.size(), "mode");
+    auto& couplings = all_[mode];
+    if (!couplings) {
+        couplings = std::make_unique<Couplings>(system_, mode);
+        couplings->set_parameters(parameters_);
+    }
+    couplings->measure(states);
+    return *couplings;
+}
+
+} // namespace graze
