@@ -1,6 +1,5 @@
 #include "graze/flow/mode_flow.hpp"
 
-#include "graze/flow/tangent_reach.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
 
@@ -17,8 +16,6 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_steps = 2'000'000;
-/// What derivatives are allowed of the tolerance of the states.
-constexpr double allowance = 50;
 /// Share of an arc below which a step means that the solution ceases to exist.
 constexpr double smallest_share = 1e-14;
 /// Share of an arc over which sizes are taken where the start alone does not show them.
@@ -45,22 +42,19 @@ ModeFlow::ModeFlow(const System& system, double tolerance, int order, std::vecto
                    std::optional<std::vector<std::size_t>> starts)
     : system_(system), free_(std::move(free)), starts_(starts_of(system, std::move(starts))), states_(system.states()),
       directions_(starts_.size() + free_.size()), step_size_(order_of(tolerance, order), tolerance),
-      step_check_(system, order_of(tolerance, order), tolerance), tolerance_(allowance * tolerance),
+      step_check_(system, order_of(tolerance, order), tolerance),
       single_(system, order_of(tolerance, order), LaneKind::single),
-      tangent_(system, single_.order(), LaneKind::tangent) {
+      tangents_(system, single_.order(), tolerance, directions_) {
     for (const ParameterId parameter : free_)
         require_index(parameter.place(), system.parameters(), "independent parameter");
     for (const std::size_t state : starts_)
         require_index(state, states_, "state");
-    lanes_ = static_cast<std::size_t>(tangent_.width()) - 1;
-    const std::size_t width = lanes_ + 1;
-    parameter_lanes_.resize(system.parameters() * width);
-    seeds_.resize(states_ * width);
-    sums_.resize(std::max<std::size_t>(states_, 1) * width);
-    slopes_.resize(sums_.size());
+    parameter_seeds_.assign(system.parameters() * directions_, 0.0);
+    for (std::size_t f = 0; f < free_.size(); ++f)
+        parameter_seeds_[free_[f].place() * directions_ + starts_.size() + f] = 1;
+    sums_.resize(std::max<std::size_t>(states_, 1));
     next_.resize(states_ * directions_);
     matrix_.resize(states_ * directions_);
-    times_.resize(width);
 }
 
 void ModeFlow::require_fitting(std::size_t mode, std::span<const double> state) const {
@@ -76,15 +70,7 @@ void ModeFlow::set_parameters(std::span<const double> parameters) {
     std::copy(parameters.begin(), parameters.end(), parameters_.begin());
     single_.set_parameters(parameters_);
     step_check_.set_parameters(parameters_);
-    const std::size_t width = lanes_ + 1;
-    std::fill(parameter_lanes_.begin(), parameter_lanes_.end(), 0.0);
-    for (std::size_t j = 0; j < parameters_.size(); ++j)
-        parameter_lanes_[j * width] = parameters_[j];
-    if (directions_ <= lanes_) {
-        for (std::size_t f = 0; f < free_.size(); ++f)
-            parameter_lanes_[free_[f].place() * width + 1 + starts_.size() + f] = 1;
-        tangent_.set_parameters(parameter_lanes_);
-    }
+    tangents_.set_parameters(parameters_, parameter_seeds_);
 }
 
 /// Length of the next step, with the sign of what remains: chosen from the series, and believed as far as the model
@@ -139,22 +125,6 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
                                                                                               : Ending::undefined;
 }
 
-/// Fills lanes with a state and its derivatives in `count` directions from `first` on.
-void ModeFlow::load(std::size_t mode, std::span<const double> state, std::size_t first, std::size_t count) {
-    const std::size_t width = lanes_ + 1;
-    if (directions_ > lanes_) {
-        for (std::size_t f = 0; f < free_.size(); ++f)
-            for (std::size_t l = 0; l < lanes_; ++l)
-                parameter_lanes_[free_[f].place() * width + 1 + l] = first + l == starts_.size() + f ? 1 : 0;
-        tangent_.set_parameters(mode, parameter_lanes_);
-    }
-    for (std::size_t i = 0; i < states_; ++i) {
-        seeds_[i * width] = state[i];
-        for (std::size_t l = 0; l < lanes_; ++l)
-            seeds_[i * width + 1 + l] = l < count ? matrix_[i * directions_ + first + l] : 0;
-    }
-}
-
 ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double duration,
                                std::span<double> derivatives) {
     require_fitting(mode, state);
@@ -163,7 +133,6 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
         return run(mode, state, duration);
     if (!std::isfinite(duration))
         return Ending::undefined;
-    const std::size_t width = lanes_ + 1;
     std::fill(matrix_.begin(), matrix_.end(), 0.0);
     for (std::size_t d = 0; d < starts_.size(); ++d)
         matrix_[starts_[d] * directions_ + d] = 1;
@@ -172,33 +141,13 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
     for (std::size_t count = 0; remaining != 0; ++count) {
         if (count >= most_steps)
             return Ending::too_long;
-        double step = 0;
-        bool done = false;
-        while (!done) {
-            done = true;
-            for (std::size_t first = 0; first < directions_ && done; first += lanes_) {
-                const std::size_t here = std::min(lanes_, directions_ - first);
-                load(mode, state, first, here);
-                const Jet& jet = tangent_.computed(mode, seeds_);
-                if (step == 0)
-                    step = step_of(mode, jet, remaining, false);
-                if (std::isnan(step))
-                    return Ending::undefined;
-                const double reach = std::copysign(tangent_reach(jet, states_, here, tolerance_, std::abs(step)), step);
-                const double followed =
-                    follow_tangents(jet, tangent_.next(mode), states_, here, tolerance_, reach, times_, sums_, slopes_);
-                if (std::abs(followed) < std::abs(step)) {
-                    step = followed;
-                    done = first == 0; // derivatives computed before need the shorter step as well
-                }
-                if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining)
-                    return Ending::singular;
-                for (std::size_t i = 0; i < states_; ++i)
-                    std::copy_n(&sums_[i * width + 1], here, &next_[i * directions_ + first]);
-            }
-        }
-        for (std::size_t i = 0; i < states_; ++i)
-            state[i] = sums_[i * width];
+        const double wanted = step_of(mode, tangents_.begin(mode, state, matrix_), remaining, false);
+        if (std::isnan(wanted))
+            return Ending::undefined;
+        const double step = tangents_.carry(mode, state, matrix_, wanted, next_);
+        if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining)
+            return Ending::singular;
+        std::copy(tangents_.state().begin(), tangents_.state().end(), state.begin());
         matrix_.swap(next_);
         ++steps_;
         remaining = step == remaining ? 0 : remaining - step;

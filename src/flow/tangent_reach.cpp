@@ -17,12 +17,45 @@ namespace {
 constexpr double nothing = 1e-200;
 constexpr std::size_t most_lanes = 32;
 
+void require_lanes(const Jet& jet, std::size_t states, std::size_t count) {
+    require_index(count, std::min(static_cast<std::size_t>(jet.width()), most_lanes + 1), "number of derivatives");
+    if (states > 0)
+        static_cast<void>(jet.state(states - 1)); // which there must be
+}
+
 /// Size of a series whose first three terms are zero.
 double size_of_all(const double* c, std::size_t width, std::size_t order, double step) {
     double sum = 0;
     for (std::size_t k = order + 1; k-- > 0;)
         sum = sum * step + std::abs(c[k * width]);
     return sum;
+}
+
+/// The largest share that the last two terms have in the sizes of series, the latter at least as given.
+double largest_share(const Jet& jet, std::size_t states, std::size_t count, double reach,
+                     std::span<const double> floors) {
+    const auto order = static_cast<std::size_t>(jet.order()), width = static_cast<std::size_t>(jet.width());
+    const std::span<const Series> series = jet.series();
+    double power = 1, worst = 0;
+    for (std::size_t k = 1; k < order; ++k)
+        power *= reach;
+    for (std::size_t i = 0; i < states; ++i) {
+        const double* c = series[i].first + 1;
+        std::array<double, most_lanes> sizes, lasts;
+        for (std::size_t l = 0; l < count; ++l) {
+            sizes[l] = std::abs(c[l]) + reach * (std::abs(c[width + l]) + reach * std::abs(c[2 * width + l]));
+            lasts[l] = power * std::max(std::abs(c[(order - 1) * width + l]), reach * std::abs(c[order * width + l]));
+        }
+        if (!floors.empty())
+            for (std::size_t l = 0; l < count; ++l)
+                sizes[l] = std::max(sizes[l], floors[i * width + l + 1]);
+        for (std::size_t l = 0; l < count; ++l) {
+            const double size = sizes[l] > 0 || lasts[l] == 0 ? sizes[l] : size_of_all(c + l, width, order, reach);
+            if (lasts[l] > worst * size && size > nothing)
+                worst = lasts[l] / size;
+        }
+    }
+    return worst;
 }
 
 /// Differences between the slopes of derivatives' polynomials and what the variational equations say, after part of a
@@ -36,42 +69,61 @@ public:
           slopes_(slopes) {}
 
     /// The largest, in units of what is allowed.
-    double after(double step);
+    double after(double step) {
+        evaluate(step);
+        return compare(step);
+    }
+    /// The same as before, where floors allow more.
+    double above(std::span<const double> floors, double step) {
+        floors_ = floors;
+        return compare(step);
+    }
     /// From now on differences are allowed that there are for no other reason than round-off.
     void measure_noise(double step);
 
 private:
+    double compare(double step) const;
     void evaluate(double step) {
         std::fill(times_.begin(), times_.end(), step);
         jet_.evaluate_states(times_, sums_, slopes_);
         next_.begin(sums_);
     }
-    double rate(std::size_t i, std::size_t l) const { return next_.state(i)[width_ + 1 + l]; }
-    double difference(std::size_t i, std::size_t l) const { return std::abs(slopes_[i * width_ + l + 1] - rate(i, l)); }
+    double difference(std::size_t i, std::size_t l) const {
+        return std::abs(slopes_[i * width_ + l + 1] - next_.state(i)[width_ + 1 + l]);
+    }
 
     const Jet& jet_;
     Jet& next_;
     std::size_t states_, count_, order_, width_;
     double tolerance_;
     std::span<double> times_, sums_, slopes_;
+    std::span<const double> floors_;
     std::vector<double> noise_; ///< of rates, states x count; none before it is measured
 };
 
-double Misfit::after(double step) {
+double Misfit::compare(double step) const {
     constexpr double roundoff = 1e4 * 0x1p-53;
-    evaluate(step);
     const double length = std::abs(step);
+    const std::span<const Series> here = jet_.series(), there = next_.series();
+    std::array<double, most_lanes> apart, size;
     double most = 0;
     for (std::size_t i = 0; i < states_; ++i) {
-        const double* c = jet_.state(i) + 1;
+        const double *c = here[i].first + 1, *rates = there[i].first + width_ + 1;
+        const double *ends = &sums_[i * width_ + 1], *slopes = &slopes_[i * width_ + 1];
+        int exceed = 0;
         for (std::size_t l = 0; l < count_; ++l) {
-            const double apart = length * difference(i, l);
-            double size = StepCheck::size_over(c[l], c[width_ + l], sums_[i * width_ + l + 1], rate(i, l), length);
-            if (apart <= StepCheck::allowance * tolerance_ * size)
+            apart[l] = length * std::abs(slopes[l] - rates[l]);
+            size[l] = StepCheck::size_over(c[l], c[width_ + l], ends[l], rates[l], length);
+            exceed |= apart[l] <= StepCheck::allowance * tolerance_ * size[l] ? 0 : 1;
+        }
+        for (std::size_t l = 0; l < count_ && exceed != 0; ++l) {
+            if (apart[l] <= StepCheck::allowance * tolerance_ * size[l])
                 continue;
-            size = std::max(size, size_of_all(c + l, width_, order_, length));
+            size[l] = std::max(size[l], size_of_all(c + l, width_, order_, length));
+            if (!floors_.empty())
+                size[l] = std::max(size[l], floors_[i * width_ + l + 1]);
             const double noise = noise_.empty() ? 0 : length * noise_[i * count_ + l],
-                         ratio = apart / ((StepCheck::allowance * tolerance_ + roundoff) * size + noise);
+                         ratio = apart[l] / ((StepCheck::allowance * tolerance_ + roundoff) * size[l] + noise);
             most = std::isnan(ratio) ? std::numeric_limits<double>::infinity() : std::max(most, ratio);
         }
     }
@@ -94,40 +146,31 @@ void Misfit::measure_noise(double step) {
 
 } // namespace
 
-double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, double tolerance, double step) {
-    const auto order = static_cast<std::size_t>(jet.order()), width = static_cast<std::size_t>(jet.width());
-    require_index(count, std::min(width, most_lanes + 1), "number of derivatives");
-    const double root = 1.0 / static_cast<double>(order - 1);
-    double reach = step;
+double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, double tolerance, double step,
+                     const TangentFloors& floors) {
+    require_lanes(jet, states, count);
+    const double root = 1.0 / (jet.order() - 1);
+    double reach = step, worst = largest_share(jet, states, count, reach, {});
+    if (!(worst > tolerance))
+        return step;
+    std::span<const double> least;
+    if (floors) {
+        least = floors();
+        require_room(least.size(), states * static_cast<std::size_t>(jet.width()), "floors of derivatives");
+        worst = largest_share(jet, states, count, reach, least);
+    }
     // Sizes shrink with the step: a few rounds.
-    for (int round = 0; round < 6; ++round) {
-        double power = 1, worst = 0;
-        for (std::size_t k = 1; k < order; ++k)
-            power *= reach;
-        for (std::size_t i = 0; i < states; ++i) {
-            const double* c = jet.state(i) + 1;
-            std::array<double, most_lanes> sizes, lasts;
-            for (std::size_t l = 0; l < count; ++l) {
-                sizes[l] = std::abs(c[l]) + reach * (std::abs(c[width + l]) + reach * std::abs(c[2 * width + l]));
-                lasts[l] =
-                    power * std::max(std::abs(c[(order - 1) * width + l]), reach * std::abs(c[order * width + l]));
-            }
-            for (std::size_t l = 0; l < count; ++l) {
-                const double size = sizes[l] > 0 || lasts[l] == 0 ? sizes[l] : size_of_all(c + l, width, order, reach);
-                if (lasts[l] > worst * size && size > nothing)
-                    worst = lasts[l] / size;
-            }
-        }
-        if (!(worst > tolerance))
-            break;
+    for (int round = 0; round < 6 && worst > tolerance; ++round) {
         reach *= std::pow(tolerance / worst, root);
+        worst = largest_share(jet, states, count, reach, least);
     }
     return std::isfinite(reach) && reach > 0 ? reach : step;
 }
 
 double follow_tangents(const Jet& jet, Jet& next, std::size_t states, std::size_t count, double tolerance, double step,
-                       std::span<double> times, std::span<double> sums, std::span<double> slopes) {
-    require_index(count, static_cast<std::size_t>(jet.width()), "number of derivatives");
+                       std::span<double> times, std::span<double> sums, std::span<double> slopes,
+                       const TangentFloors& floors) {
+    require_lanes(jet, states, count);
     require_room(times.size(), static_cast<std::size_t>(jet.width()), "times");
     // What is left out falls with a high power of the step. What does not is the round-off of derivatives that have
     // only begun to differ from zero: no shorter step would be better.
@@ -136,6 +179,12 @@ double follow_tangents(const Jet& jet, Jet& next, std::size_t states, std::size_
     Misfit misfit(jet, next, states, count, tolerance, times, sums, slopes);
     if (misfit.after(step) <= 1)
         return step;
+    if (floors) {
+        const std::span<const double> least = floors();
+        require_room(least.size(), states * static_cast<std::size_t>(jet.width()), "floors of derivatives");
+        if (misfit.above(least, step) <= 1)
+            return step;
+    }
     misfit.measure_noise(step);
     double part = step, first = 0;
     for (int halving = 0; halving <= most_halvings; ++halving, part *= 0.5) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "graze/tape/jet.hpp"
+#include "graze/flow/tangent_steps.hpp"
 #include "graze/trajectory/simulation.hpp"
 #include "graze/trajectory/trajectory.hpp"
 
@@ -25,15 +25,12 @@ public:
     bool valid() const { return valid_; }
     void invalidate() { valid_ = false; }
 
-    /// Derivatives along the arc that starts at `state`, a time s later.
-    /// @param matrix states x directions, may be empty; @param row of the output `series` of the mode's tape
-    ///        (its watched events, then observed expressions), directions; may be empty
-    void evaluate(std::size_t mode, std::span<const double> state, double s, std::span<double> matrix,
-                  std::size_t series, std::span<double> row);
     /// Derivatives of coefficient k of an output at the start of the arc.
     void coefficient(std::size_t mode, std::span<const double> state, std::size_t series, int k, std::span<double> row);
 
-    /// Moves along the arc. @param series, row as of `evaluate`
+    /// Moves along the arc that starts at `state`, by a time s.
+    /// @param row derivatives at its end of the output `series` of the mode's tape (its watched events, then observed
+    ///        expressions), directions; may be empty
     void advance(std::size_t mode, std::span<const double> state, double s, std::size_t series = 0,
                  std::span<double> row = {});
     /// Passes a jump that comes `shift` (derivatives, directions) later than time says: at a contact, minus the
@@ -46,23 +43,10 @@ public:
     void add_product(std::span<const double> column, std::span<const double> row);
 
 private:
-    /// Values and the directions from `first` on, for a jet.
-    void fill(std::span<double> lanes, std::span<const double> values, std::span<const double> tangents,
-              std::size_t first) const;
-    /// The jet with the directions from `first` on.
-    const Jet& compute(std::size_t mode, std::span<const double> state, std::span<const double> matrix,
-                       std::size_t first);
-    /// Moves derivatives as far as they may be moved at once, up to s, into `after_`, and the state into `moved_`.
-    /// @return how far
-    double step(std::size_t mode, std::span<const double> state, std::span<const double> matrix, double s,
-                std::size_t series, std::span<double> row);
-
     std::size_t states_, parameter_count_, directions_;
-    double tolerance_;
-    JetSet jets_;
-    std::size_t lanes_; ///< directions a pass
-    std::vector<double> parameters_, parameter_seeds_, matrix_, next_, seeds_, sums_, slopes_, times_, parameter_lanes_;
-    std::vector<double> middle_, after_, between_, moved_; ///< within arcs that are followed in parts
+    TangentSteps steps_;
+    std::vector<double> parameter_seeds_, matrix_, next_;
+    std::vector<double> here_; ///< state, within arcs that are followed in parts
     bool valid_ = true;
 };
 

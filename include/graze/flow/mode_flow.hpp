@@ -3,6 +3,7 @@
 #include "graze/flow/mode_jets.hpp"
 #include "graze/flow/step_check.hpp"
 #include "graze/flow/step_size.hpp"
+#include "graze/flow/tangent_steps.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -46,20 +47,18 @@ public:
 
 private:
     double step_of(std::size_t mode, const Jet& jet, double remaining, bool watched);
-    void load(std::size_t mode, std::span<const double> state, std::size_t first, std::size_t count);
-
     void require_fitting(std::size_t mode, std::span<const double> state) const;
 
     System system_;
     std::vector<ParameterId> free_;
     std::vector<std::size_t> starts_;
-    std::size_t states_, directions_, lanes_;
+    std::size_t states_, directions_;
     StepSize step_size_;
     StepCheck step_check_;
-    double tolerance_;
-    ModeJets single_, tangent_;
-    std::vector<double> parameters_, parameter_lanes_, seeds_, sums_, slopes_, next_, times_, guarded_;
-    std::vector<double> matrix_; ///< states x directions, row by row
+    ModeJets single_;
+    TangentSteps tangents_;
+    std::vector<double> parameters_, parameter_seeds_, sums_, guarded_;
+    std::vector<double> matrix_, next_; ///< states x directions, row by row
     double previous_ = 0;
     std::size_t steps_ = 0;
 };

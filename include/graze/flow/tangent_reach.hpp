@@ -3,9 +3,14 @@
 #include "graze/tape/jet.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <span>
 
 namespace graze {
+
+/// Sizes below which derivatives need not be known, [state * width + lane]: asked for only where the derivatives' own
+/// sizes are too small a measure.
+using TangentFloors = std::function<std::span<const double>()>;
 
 /// How far the series of derivatives in a tangent jet may be followed: the last two terms of each must stay below a
 /// tolerance relative to its first three, as for the states themselves. A motion may be much slower than what
@@ -14,7 +19,8 @@ namespace graze {
 /// @param states whose derivatives count; @param count lanes that are in use, after the first
 /// @param tolerance of the derivatives: the last two terms are some orders of magnitude larger than what is cut off
 /// @return the step itself, or less
-double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, double tolerance, double step);
+double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, double tolerance, double step,
+                     const TangentFloors& floors = {});
 
 /// Follows the series of a tangent jet for a step, or for a part of it over which the derivatives' polynomials are what
 /// the variational equations say at the end, as StepCheck asks of states.
@@ -22,6 +28,7 @@ double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, doub
 /// to work in, as `Jet::evaluate_states` needs it; sums are those at the end
 /// @param tolerance that derivatives are allowed; @return the step, or the part
 double follow_tangents(const Jet& jet, Jet& next, std::size_t states, std::size_t count, double tolerance, double step,
-                       std::span<double> times, std::span<double> sums, std::span<double> slopes);
+                       std::span<double> times, std::span<double> sums, std::span<double> slopes,
+                       const TangentFloors& floors = {});
 
 } // namespace graze
