@@ -16,6 +16,8 @@ namespace {
 /// What is so small against anything a double can hold that nothing may be said of its relative accuracy.
 constexpr double nothing = 1e-200;
 constexpr std::size_t most_lanes = 32;
+/// Share of a step that derivatives are content with before other sizes than their own are asked for.
+constexpr double little_shorter = 0.8;
 
 void require_lanes(const Jet& jet, std::size_t states, std::size_t count) {
     require_index(count, std::min(static_cast<std::size_t>(jet.width()), most_lanes + 1), "number of derivatives");
@@ -153,16 +155,20 @@ double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, doub
     double reach = step, worst = largest_share(jet, states, count, reach, {});
     if (!(worst > tolerance))
         return step;
-    std::span<const double> least;
-    if (floors) {
-        least = floors();
-        require_room(least.size(), states * static_cast<std::size_t>(jet.width()), "floors of derivatives");
-        worst = largest_share(jet, states, count, reach, least);
-    }
     // Sizes shrink with the step: a few rounds.
-    for (int round = 0; round < 6 && worst > tolerance; ++round) {
-        reach *= std::pow(tolerance / worst, root);
+    const auto shorten = [&](std::span<const double> least) {
+        for (int round = 0; round < 6 && worst > tolerance; ++round) {
+            reach *= std::pow(tolerance / worst, root);
+            worst = largest_share(jet, states, count, reach, least);
+        }
+    };
+    shorten({});
+    if (floors && !(reach >= little_shorter * step)) {
+        const std::span<const double> least = floors();
+        require_room(least.size(), states * static_cast<std::size_t>(jet.width()), "floors of derivatives");
+        reach = step;
         worst = largest_share(jet, states, count, reach, least);
+        shorten(least);
     }
     return std::isfinite(reach) && reach > 0 ? reach : step;
 }
@@ -177,9 +183,10 @@ double follow_tangents(const Jet& jet, Jet& next, std::size_t states, std::size_
     constexpr int most_halvings = 8;
     constexpr double least_gain = 0.1;
     Misfit misfit(jet, next, states, count, tolerance, times, sums, slopes);
-    if (misfit.after(step) <= 1)
+    const double most = misfit.after(step);
+    if (most <= 1)
         return step;
-    if (floors) {
+    if (floors && most > std::pow(little_shorter, -jet.order())) {
         const std::span<const double> least = floors();
         require_room(least.size(), states * static_cast<std::size_t>(jet.width()), "floors of derivatives");
         if (misfit.above(least, step) <= 1)

@@ -176,7 +176,8 @@ TEST(TangentSteps, AreHardlyMoreThanThoseOfTheMotion) {
             chain.cubic = 0.1 / (unit * unit);
             const Model model = parse_model(chain.model(), "chain.toml");
             const Flow alone = flow_of(model, tolerance, 7, false), flow = flow_of(model, tolerance, 7, true);
-            EXPECT_LE(flow.steps, alone.steps + 1 + alone.steps / 10) << tolerance;
+            // Sizes other than their own are asked for where steps would be shorter than 0.8 of the motion's.
+            EXPECT_LE(flow.steps, alone.steps + 1 + alone.steps / 4) << tolerance;
             EXPECT_TRUE(others == 0 || flow.steps == others) << tolerance << ' ' << unit;
             others = flow.steps;
             for (std::size_t i = 0; i < alone.state.size(); ++i)
