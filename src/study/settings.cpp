@@ -314,7 +314,7 @@ StudyRun run_of(const AskedRun& asked, Model model) {
         if (asked.version != GRAZE_VERSION)
             throw InputError(run.place, "the stored settings say more than this version of graze knows",
                              fmt::format("use graze {}, which wrote them", asked.version));
-        throw InputError(run.place, "the stored settings are not as graze wrote them: they were changed afterwards",
+        throw InputError(run.place, "the stored settings are not as they were written: they were changed afterwards",
                          "change the study file instead, and run it");
     }
     return run;

@@ -129,7 +129,7 @@ struct Flow {
 
 Flow flow_of(const Model& model, double tolerance, double time, bool with_derivatives) {
     const std::size_t n = model.states.size();
-    ModeFlow flow(model, tolerance, 0, {0});
+    ModeFlow flow(model, tolerance, 0, {ParameterId(0)});
     flow.set_parameters(model.parameter_values());
     Flow result{model.initial_state(), std::vector<double>(n * (n + 1)), 0};
     EXPECT_EQ(with_derivatives ? flow.run(0, result.state, time, result.derivatives) : flow.run(0, result.state, time),
