@@ -121,7 +121,8 @@ void plain(benchmark::State& state, std::size_t oscillators, double force) {
 void derivatives(benchmark::State& state, std::size_t oscillators, std::size_t inputs) {
     const ChainRun settled(oscillators, Chain::small_force);
     const std::vector<double> start(settled.trajectory().state().begin(), settled.trajectory().state().end());
-    std::vector<std::size_t> starts, free;
+    std::vector<std::size_t> starts;
+    std::vector<ParameterId> free;
     for (std::size_t i = 0; i < std::min(inputs, start.size()); ++i)
         starts.push_back(i);
     if (inputs > start.size())

@@ -121,7 +121,7 @@ HybridCase beam_case(int modes, int periods) {
     HybridCase one;
     one.name = "microbeam, " + std::to_string(modes) + (modes == 1 ? " mode" : " modes");
     one.model = microbeam(options);
-    one.parameter = one.model.independent_parameter("V");
+    one.parameter = one.model.independent_parameter("V").place();
     one.motions = beam_motions(options);
     const auto count = static_cast<std::size_t>(modes);
     one.order = same_order(2 * count + 1);
@@ -143,7 +143,7 @@ HybridCase testbed_case(int periods) {
     one.name = "testbed, period 3";
     one.model = testbed.model;
     one.model.set_initial("I", 0.1);
-    one.parameter = one.model.independent_parameter("V0");
+    one.parameter = one.model.independent_parameter("V0").place();
     one.motions = testbed_motions(groups);
     one.order = same_order(4);
     const std::vector values = one.model.values_of(

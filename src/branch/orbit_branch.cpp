@@ -275,8 +275,8 @@ private:
         if (leaves(0, settings.least, settings.greatest))
             return true;
         for (const FreeBounds& bounds : settings.free_bounds) {
-            const auto found = std::find(settings.free.begin(), settings.free.end(), bounds.parameter);
-            if (leaves(1 + static_cast<std::size_t>(found - settings.free.begin()), bounds.least, bounds.greatest))
+            const auto at = std::find(settings.free.begin(), settings.free.end(), bounds.parameter);
+            if (leaves(1 + static_cast<std::size_t>(at - settings.free.begin()), bounds.least, bounds.greatest))
                 return true;
         }
         return false;

@@ -205,12 +205,12 @@ Function Model::function_of(std::span<const Expression> expressions) const {
 Function Model::function_of_parameters(std::span<const Expression> expressions) const {
     // Mostly numbers, of which there may be thousands, and where none has to be expanded there is no need of a copy.
     const std::shared_ptr<Graph> own = Graph::create();
-    std::vector<Expression> parameters, adopted;
+    std::vector<Expression> own_symbols, adopted;
     for (const std::string& parameter : independent_parameters())
-        parameters.push_back(own->symbol(parameter));
+        own_symbols.push_back(own->symbol(parameter));
     for (const Expression& expression : expressions)
         adopted.push_back(own->adopt(expression));
-    const SymbolIndex inputs(parameters);
+    const SymbolIndex inputs(own_symbols);
     const std::vector<Expression> symbols = symbols_of(adopted);
     if (std::all_of(symbols.begin(), symbols.end(), [&](const Expression& one) { return inputs.find(one.index()); }))
         return {inputs, adopted};

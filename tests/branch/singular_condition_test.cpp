@@ -99,7 +99,9 @@ TEST(SingularConditions, fold_and_flip_of_the_bouncing_ball_have_their_closed_fo
     // A ball on a table a sin(w t), one contact a period: it folds where a w^2 = g pi (1 - e) / (1 + e) and doubles
     // its period where cos of the phase is -2 (1 + e^2) g / ((1 + e)^2 a w^2); by Newton's method, from orbits between.
     const Model model = load_model("bouncing-ball");
-    const auto value = [&](const char* name) { return model.parameter_values()[model.independent_parameter(name).place()]; };
+    const auto value = [&](const char* name) {
+        return model.parameter_values()[model.independent_parameter(name).place()];
+    };
     const double g = value("g"), e = value("e"), w = 2 * pi * value("f");
     const double rise = pi * (1 - e) / (1 + e), turn = 2 * (1 + e * e) / ((1 + e) * (1 + e));
     const double fold = g / (w * w) * rise, flip = g / (w * w) * std::hypot(rise, turn);

@@ -22,8 +22,8 @@ std::string_view name_of(RunKind kind);
 /// Something that varies from point to point: a parameter or an initial state.
 struct Variation {
     std::string name, unit;
-    std::optional<std::size_t> state; ///< whose initial value varies; none: the parameter does
-    ParameterId parameter;
+    std::optional<std::size_t> state = std::nullopt; ///< whose initial value varies; none: the parameter does
+    ParameterId parameter{};
     std::vector<double> values; ///< in rising order as the file gives them; empty: drawn at random
     double low = 0, high = 0;   ///< of random draws
     bool logarithmic = false;   ///< draws are uniform in the logarithm

@@ -60,13 +60,13 @@ struct AttractorOptions {
 
 /// How a plain simulation ends: whichever comes first; 0 means never.
 struct TransientOptions {
-    std::string section;            ///< whose passages are periods; may be empty
+    std::string section = {};       ///< whose passages are periods; may be empty
     double skip_time = 0, time = 0; ///< time of which nothing is sampled; then time that is
     std::size_t skip_periods = 0, periods = 0;
     std::size_t contacts = 0; ///< contacts at the events `counted`
-    std::vector<std::size_t> counted;
-    std::vector<StateBounds> bounds; ///< leaving them ends it
-    double greatest_speed = 0;       ///< of approach at a counted contact, after which the simulation ends; 0: any
+    std::vector<std::size_t> counted = {};
+    std::vector<StateBounds> bounds = {}; ///< leaving them ends it
+    double greatest_speed = 0;            ///< of approach at a counted contact, after which the simulation ends; 0: any
     /// @throws InputError naming the option that is out of range, or that the simulation need not end
     void validate(const Model& model) const;
 };
