@@ -41,7 +41,8 @@ void TangentSteps::set_parameters(std::span<const double> parameters, std::span<
     for (std::size_t j = 0; j < parameters.size(); ++j) {
         parameter_lanes_[j * width] = parameters[j];
         if (directions_ <= lanes_)
-            std::copy_n(&seeds[j * directions_], directions_, &parameter_lanes_[j * width + 1]);
+            std::copy_n(seeds.begin() + static_cast<std::ptrdiff_t>(j * directions_), directions_,
+                        parameter_lanes_.begin() + static_cast<std::ptrdiff_t>(j * width + 1));
     }
     jets_.set_parameters(parameter_lanes_);
     couplings_.set_parameters(parameters_);

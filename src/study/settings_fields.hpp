@@ -203,7 +203,7 @@ public:
         named(name, places, names);
         parameters.clear();
         for (const std::size_t place : places)
-            parameters.push_back(ParameterId(place));
+            parameters.emplace_back(place);
     }
     void expression(std::string_view name, Expression& value) const;
     void expressions(std::string_view name, std::vector<Expression>& values) const;
