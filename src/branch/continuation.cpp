@@ -24,6 +24,28 @@ constexpr std::size_t good_iterations = 3;
 /// How near a branch must come to its first point, in units of the scales, to be closed.
 constexpr double same_point = 1e-6;
 
+/// A point of the cubic of Hermite through two points of a branch along their tangents: 0 at the first, 1 at the
+/// second.
+/// @param length between them
+std::vector<double> on_cubic(const ContinuationPoint& first, const ContinuationPoint& second, double length, double f) {
+    const double g = 1 - f;
+    std::vector<double> result(first.u.size());
+    for (std::size_t i = 0; i < result.size(); ++i)
+        result[i] = g * g * (1 + 2 * f) * first.u[i] + f * f * (3 - 2 * f) * second.u[i] +
+                    length * f * g * (g * first.tangent[i] - f * second.tangent[i]);
+    return result;
+}
+
+/// Adds a correction. @param moved is set to how far that is from where corrections began
+void advance(std::vector<double>& u, std::span<const double> step, std::span<const double> begin,
+             std::vector<double>& moved) {
+    moved.resize(u.size());
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        u[i] += step[i];
+        moved[i] = u[i] - begin[i];
+    }
+}
+
 void require(bool good, const char* problem, const char* remedy) {
     if (!good)
         throw InputError(problem, remedy);
@@ -113,15 +135,12 @@ bool Continuation::correct(std::vector<double>& u, std::span<const double> row, 
 bool Continuation::newton(std::vector<double>& u, std::span<const double> row, double allowed,
                           std::size_t& iterations) {
     const std::vector<double> begin = u;
-    std::vector<double> moved(u.size());
+    std::vector<double> moved;
     double before = 0;
     for (iterations = 1; iterations <= options_.iterations; ++iterations) {
         if (!problem_->evaluate(u) || !problem_->solve(row, 0, false, step_, nullptr))
             return false;
-        for (std::size_t i = 0; i < u.size(); ++i) {
-            u[i] += step_[i];
-            moved[i] = u[i] - begin[i];
-        }
+        advance(u, step_, begin, moved);
         const double size = size_of(step_);
         if (!std::isfinite(size) || std::sqrt(product(moved, moved)) > allowed)
             return false;
@@ -152,7 +171,7 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
     // From the first correction to the second: what Newton's method needs three iterations for shrinks by as much.
     constexpr double fast = 0.1;
     const std::vector<double> begin = u;
-    std::vector<double> moved(u.size()), step(u.size());
+    std::vector<double> moved, step(u.size());
     double before = 0;
     made_.clear();
     for (iterations = 1;; ++iterations) {
@@ -161,10 +180,7 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
             !(first ? problem_->solve(row, 0, false, step, nullptr) : problem_->chord(u, row, step)))
             return false;
         accelerate(step);
-        for (std::size_t i = 0; i < u.size(); ++i) {
-            u[i] += step[i];
-            moved[i] = u[i] - begin[i];
-        }
+        advance(u, step, begin, moved);
         const double size = size_of(step);
         if (!std::isfinite(size) || std::sqrt(product(moved, moved)) > allowed)
             return false;
@@ -340,7 +356,7 @@ void Continuation::require_point(std::span<const double> u) const {
 std::vector<double> Continuation::predict(double length) const {
     constexpr double much = 0.5; // share of the step
     const std::size_t count = point_.u.size();
-    std::vector<double> result(count), chord(count), off(count);
+    std::vector<double> result(count), chord(count);
     for (std::size_t i = 0; i < count; ++i) {
         result[i] = point_.u[i] + length * point_.tangent[i];
         chord[i] = point_.u[i] - previous_.u[i];
@@ -348,10 +364,9 @@ std::vector<double> Continuation::predict(double length) const {
     const double last = steps_ == 0 ? 0 : std::sqrt(product(chord, chord));
     if (!(last > 0) || !(length <= growth * last))
         return result;
-    const double f = 1 + length / last, g = 1 - f;
+    std::vector<double> off = on_cubic(previous_, point_, last, 1 + length / last);
     for (std::size_t i = 0; i < count; ++i)
-        off[i] = g * g * (1 + 2 * f) * previous_.u[i] + f * f * (3 - 2 * f) * point_.u[i] +
-                 last * f * g * (g * previous_.tangent[i] - f * point_.tangent[i]) - result[i];
+        off[i] -= result[i];
     const double along = product(off, point_.tangent);
     for (std::size_t i = 0; i < count; ++i)
         off[i] -= along * point_.tangent[i];
@@ -437,14 +452,11 @@ bool Continuation::between(double fraction, ContinuationPoint& result) {
     const std::size_t count = point_.u.size();
     const double length = point_.arclength - previous_.arclength;
     std::vector<double> chord(count), row;
-    result.u.resize(count);
-    // Hermite's cubic through both points along both tangents, moved into the hyperplane.
-    const double f = fraction, g = 1 - f;
-    for (std::size_t i = 0; i < count; ++i) {
+    // The cubic, moved into the hyperplane.
+    const double f = fraction;
+    result.u = on_cubic(previous_, point_, length, f);
+    for (std::size_t i = 0; i < count; ++i)
         chord[i] = point_.u[i] - previous_.u[i];
-        result.u[i] = g * g * (1 + 2 * f) * previous_.u[i] + f * f * (3 - 2 * f) * point_.u[i] +
-                      length * f * g * (g * previous_.tangent[i] - f * point_.tangent[i]);
-    }
     std::vector<double> offset(count);
     for (std::size_t i = 0; i < count; ++i)
         offset[i] = previous_.u[i] + f * chord[i] - result.u[i];

@@ -6,6 +6,7 @@
 #include "graze/trajectory/simulation.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/orbit_equations.hpp"
+#include "orbit/shooting.hpp"
 
 #include "follow.hpp"
 
@@ -106,5 +107,18 @@ inline constexpr Motion motions[] = {
     {"ball-and-shaker", 1.5},         {"bouncing-ball", 1.2},      {"dry-friction-oscillator", 9},
     {"electromagnetic-testbed", 0.2}, {"impact-microactuator", 8}, {"impact-oscillator-two-stops", 9},
     {"impact-oscillator", 9},         {"mems-switch", 9},          {"microbeam", 9}};
+
+/// The equations of such a motion, with its model's first two parameters free.
+struct FollowedEquations {
+    explicit FollowedEquations(const Motion& motion)
+        : model(load_model(motion.model)), orbit(candidate(model, motion.time)),
+          simulation(model, {}, {}, integration(1e-14)),
+          equations(simulation, orbit, {ParameterId(0), ParameterId(1)}) {}
+
+    Model model;
+    Orbit orbit;
+    Simulation simulation;
+    Shooting equations;
+};
 
 } // namespace graze::testing

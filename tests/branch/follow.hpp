@@ -21,6 +21,28 @@ inline Model model_from(const std::string& text) {
     return parse_model(text, "test.toml");
 }
 
+/// (u, v) turn with the frequency w and grow with p: multipliers exp(2 pi (p +- i w)) on u = v = 0, which is
+/// x = cos(theta), y = sin(2 theta) / 3.
+inline Model torus_model() {
+    return model_from(R"toml(
+[parameters]
+p = -0.1
+w = 0.3
+[states]
+x = 1
+y = 0
+theta = { initial = 0, period = "2*pi" }
+[definitions]
+u = "x - cos(theta)"
+v = "y - sin(2*theta)/3"
+[modes.only]
+rates = { x = "p*u - w*v - u*(u^2 + v^2) - sin(theta)", y = "w*u + p*v - v*(u^2 + v^2) + 2*cos(2*theta)/3", theta = 1 }
+[sections.start]
+state = "theta"
+value = 0
+)toml");
+}
+
 inline OrbitSolution settled(const Model& model, const std::string& section, std::size_t cycles = 2000) {
     AttractorOptions settle;
     settle.section = section;

@@ -147,24 +147,7 @@ TEST(NormalForms, pitchfork_with_and_without_declared_symmetry) {
 }
 
 TEST(NormalForms, torus_where_a_focus_loses_its_stability) {
-    // (u, v) turn with frequency w and grow with p: multipliers exp(2 pi (p +- i w)) on u = v = 0.
-    const Model model = model_from(R"toml(
-[parameters]
-p = -0.1
-w = 0.3
-[states]
-x = 1
-y = 0
-theta = { initial = 0, period = "2*pi" }
-[definitions]
-u = "x - cos(theta)"
-v = "y - sin(2*theta)/3"
-[modes.only]
-rates = { x = "p*u - w*v - u*(u^2 + v^2) - sin(theta)", y = "w*u + p*v - v*(u^2 + v^2) + 2*cos(2*theta)/3", theta = 1 }
-[sections.start]
-state = "theta"
-value = 0
-)toml");
+    const Model model = torus_model();
     BranchSettings settings;
     settings.greatest = 0.1;
     const Branch branch = follow_branch(model, orbit_from(model, {1, 0, 0}, 2 * pi), settings);

@@ -31,11 +31,11 @@ TEST(OrbitQuantities, gradients_are_those_of_the_values_for_every_shipped_model)
     std::mt19937 random(3);
     EXPECT_EQ(std::size(motions), catalogue().size());
     for (const Motion& motion : motions) {
+        FollowedEquations followed(motion);
+        const Model& model = followed.model;
+        const Orbit& orbit = followed.orbit;
+        Shooting& equations = followed.equations;
         const std::string name = motion.model;
-        const Model model = load_model(name);
-        const Orbit orbit = candidate(model, motion.time);
-        const Simulation simulation(model, {}, {}, integration(1e-14));
-        Shooting equations(simulation, orbit, {ParameterId(0), ParameterId(1)});
         const Eigen::VectorXd unknowns = equations.unknowns_of(orbit);
         OrbitEvaluation at = equations.evaluation();
         ASSERT_TRUE(equations.evaluate(unknowns, at)) << name << ' ' << at.problem;
@@ -72,11 +72,10 @@ TEST(OrbitQuantities, gradients_of_what_vanishes_at_special_points) {
     std::mt19937 random(4);
     std::size_t touches = 0, guards = 0;
     for (const Motion& motion : motions) {
+        FollowedEquations followed(motion);
+        const Orbit& orbit = followed.orbit;
+        Shooting& equations = followed.equations;
         const std::string name = motion.model;
-        const Model model = load_model(name);
-        const Orbit orbit = candidate(model, motion.time);
-        const Simulation simulation(model, {}, {}, integration(1e-14));
-        Shooting equations(simulation, orbit, {ParameterId(0), ParameterId(1)});
         const Eigen::VectorXd unknowns = equations.unknowns_of(orbit);
         OrbitEvaluation at = equations.evaluation();
         ASSERT_TRUE(equations.evaluate(unknowns, at)) << name;

@@ -45,34 +45,13 @@ bool check_gradients(OrbitEquations& equations, const Orbit& orbit, const std::s
 TEST(SingularConditions, gradients_are_those_of_the_values_for_every_shipped_model) {
     std::mt19937 random(5);
     for (const Motion& motion : motions) {
-        const std::string name = motion.model;
-        const Model model = load_model(name);
-        const Orbit orbit = candidate(model, motion.time);
-        const Simulation simulation(model, {}, {}, integration(1e-14));
-        Shooting equations(simulation, orbit, {ParameterId(0), ParameterId(1)});
-        check_gradients(equations, orbit, name, random);
+        FollowedEquations followed(motion);
+        check_gradients(followed.equations, followed.orbit, motion.model, random);
     }
 }
 
 TEST(SingularConditions, torus_has_its_closed_form) {
-    // (u, v) turn with the frequency w and grow with p: multipliers exp(2 pi (p +- i w)) on u = v = 0.
-    const Model model = model_from(R"toml(
-[parameters]
-p = -0.1
-w = 0.3
-[states]
-x = 1
-y = 0
-theta = { initial = 0, period = "2*pi" }
-[definitions]
-u = "x - cos(theta)"
-v = "y - sin(2*theta)/3"
-[modes.only]
-rates = { x = "p*u - w*v - u*(u^2 + v^2) - sin(theta)", y = "w*u + p*v - v*(u^2 + v^2) + 2*cos(2*theta)/3", theta = 1 }
-[sections.start]
-state = "theta"
-value = 0
-)toml");
+    const Model model = torus_model();
     const Orbit orbit{parse_signature(model, "start"), model.parameter_values(), {{1, 0, 0}}, {2 * pi}, {}};
     const Simulation simulation(model, {}, {}, integration(1e-14));
     Shooting equations(simulation, orbit, {ParameterId(0), ParameterId(1)});
