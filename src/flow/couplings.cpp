@@ -128,7 +128,7 @@ bool raise(double* to, const double* from, double gain, std::size_t lanes) {
 Couplings::Couplings(const System& system, std::size_t mode)
     : states_(system.states()), jet_(make_jet(system.mode(mode).tape, 1, LaneKind::tangent)) {
     width_ = static_cast<std::size_t>(jet_->width());
-    units_.assign(states_, 1.0);
+    units_.resize(states_);
     seeds_.resize(states_ * width_);
     parameter_lanes_.assign(system.parameters() * width_, 0.0);
     find_entries(system.mode(mode).tape);
@@ -222,10 +222,11 @@ void Couplings::find_cycles() {
 }
 
 /// Gives each state a unit in which what acts on it, of those on which it acts again, is as large as what it does.
-/// Units change little from one place to the next, so that mostly one sweep is enough.
+/// They begin anew at each place: what has been measured elsewhere must not show in the result.
 void Couplings::balance() {
     constexpr int most_sweeps = 20;
     constexpr double close = 1.1;
+    std::fill(units_.begin(), units_.end(), 1.0);
     bool moved = true;
     for (int sweep = 0; sweep < most_sweeps && moved; ++sweep) {
         moved = false;

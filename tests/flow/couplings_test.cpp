@@ -75,6 +75,17 @@ TEST(Couplings, SeeWhatChangesFromPlaceToPlace) {
 }
 
 /// More columns of one row than there are lanes.
+TEST(Couplings, DoNotRememberOtherPlaces) {
+    // Units of three states that all act on each other are not found in one go.
+    const Model model = model_of("x = 0\ny = 0\nz = 0\nw = 0\n",
+                                 "x = \"k*exp(w)*y + z\"\ny = \"x + 3*z\"\nz = \"2*x + exp(-w)*y\"\nw = 1\n");
+    for (const double w : {-9.0, -0.3, 0.05, 0.1, 12.0}) {
+        Couplings used = measured(model, {0.3, 0.1, 0.2, w});
+        used.measure(std::vector{0.3, 0.1, 0.2, 0.0});
+        EXPECT_EQ(used.response_time(), measured(model, {0.3, 0.1, 0.2, 0.0}).response_time()) << w;
+    }
+}
+
 TEST(Couplings, FindAllEntriesOfAFullRow) {
     std::string states, rates, sum;
     constexpr std::size_t n = 20;
