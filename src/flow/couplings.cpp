@@ -225,7 +225,7 @@ void Couplings::find_cycles() {
 /// They begin anew at each place: what has been measured elsewhere must not show in the result.
 void Couplings::balance() {
     constexpr int most_sweeps = 20;
-    constexpr double close = 1.1;
+    constexpr double close = 1.5; // the bound is about as good then as it becomes
     std::fill(units_.begin(), units_.end(), 1.0);
     bool moved = true;
     for (int sweep = 0; sweep < most_sweeps && moved; ++sweep) {

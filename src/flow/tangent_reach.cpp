@@ -4,7 +4,6 @@
 #include "graze/symbolic/require.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -13,14 +12,11 @@ namespace graze {
 
 namespace {
 
-/// What is so small against anything a double can hold that nothing may be said of its relative accuracy.
-constexpr double nothing = 1e-200;
-constexpr std::size_t most_lanes = 32;
 /// Share of a step that derivatives are content with before other sizes than their own are asked for.
 constexpr double little_shorter = 0.8;
 
 void require_lanes(const Jet& jet, std::size_t states, std::size_t count) {
-    require_index(count, std::min(static_cast<std::size_t>(jet.width()), most_lanes + 1), "number of derivatives");
+    require_index(count, static_cast<std::size_t>(jet.width()), "number of derivatives");
     if (states > 0)
         static_cast<void>(jet.state(states - 1)); // which there must be
 }
@@ -31,33 +27,6 @@ double size_of_all(const double* c, std::size_t width, std::size_t order, double
     for (std::size_t k = order + 1; k-- > 0;)
         sum = sum * step + std::abs(c[k * width]);
     return sum;
-}
-
-/// The largest share that the last two terms have in the sizes of series, the latter at least as given.
-double largest_share(const Jet& jet, std::size_t states, std::size_t count, double reach,
-                     std::span<const double> floors) {
-    const auto order = static_cast<std::size_t>(jet.order()), width = static_cast<std::size_t>(jet.width());
-    const std::span<const Series> series = jet.series();
-    double power = 1, worst = 0;
-    for (std::size_t k = 1; k < order; ++k)
-        power *= reach;
-    for (std::size_t i = 0; i < states; ++i) {
-        const double* c = series[i].first + 1;
-        std::array<double, most_lanes> sizes, lasts;
-        for (std::size_t l = 0; l < count; ++l) {
-            sizes[l] = std::abs(c[l]) + reach * (std::abs(c[width + l]) + reach * std::abs(c[2 * width + l]));
-            lasts[l] = power * std::max(std::abs(c[(order - 1) * width + l]), reach * std::abs(c[order * width + l]));
-        }
-        if (!floors.empty())
-            for (std::size_t l = 0; l < count; ++l)
-                sizes[l] = std::max(sizes[l], floors[i * width + l + 1]);
-        for (std::size_t l = 0; l < count; ++l) {
-            const double size = sizes[l] > 0 || lasts[l] == 0 ? sizes[l] : size_of_all(c + l, width, order, reach);
-            if (lasts[l] > worst * size && size > nothing)
-                worst = lasts[l] / size;
-        }
-    }
-    return worst;
 }
 
 /// Differences between the slopes of derivatives' polynomials and what the variational equations say, after part of a
@@ -85,6 +54,7 @@ public:
 
 private:
     double compare(double step) const;
+    double excess(std::size_t i, std::size_t lane, double apart, double size, double length) const;
     void evaluate(double step) {
         std::fill(times_.begin(), times_.end(), step);
         jet_.evaluate_states(times_, sums_, slopes_);
@@ -104,32 +74,34 @@ private:
 };
 
 double Misfit::compare(double step) const {
-    constexpr double roundoff = 1e4 * 0x1p-53;
     const double length = std::abs(step);
+    const EndAllowance allowed{StepCheck::allowance * tolerance_, 0, StepCheck::smallest_size};
     const std::span<const Series> here = jet_.series(), there = next_.series();
-    std::array<double, most_lanes> apart, size;
     double most = 0;
-    for (std::size_t i = 0; i < states_; ++i) {
-        const double *c = here[i].first + 1, *rates = there[i].first + width_ + 1;
-        const double *ends = &sums_[i * width_ + 1], *slopes = &slopes_[i * width_ + 1];
-        int exceed = 0;
-        for (std::size_t l = 0; l < count_; ++l) {
-            apart[l] = length * std::abs(slopes[l] - rates[l]);
-            size[l] = StepCheck::size_over(c[l], c[width_ + l], ends[l], rates[l], length);
-            exceed |= apart[l] <= StepCheck::allowance * tolerance_ * size[l] ? 0 : 1;
+    std::size_t i = 0;
+    while ((i = jet_.find_tangent_misfit(next_, allowed, states_, count_, length, sums_, slopes_, i)) < states_) {
+        const double *c = here[i].first, *rates = there[i].first + width_;
+        const double *ends = &sums_[i * width_], *slopes = &slopes_[i * width_];
+        for (std::size_t l = 1; l <= count_; ++l) {
+            const double apart = length * std::abs(slopes[l] - rates[l]),
+                         size = StepCheck::size_over(c[l], c[width_ + l], ends[l], rates[l], length);
+            if (!(apart <= allowed.rates * size))
+                most = std::max(most, excess(i, l, apart, size, length));
         }
-        for (std::size_t l = 0; l < count_ && exceed != 0; ++l) {
-            if (apart[l] <= StepCheck::allowance * tolerance_ * size[l])
-                continue;
-            size[l] = std::max(size[l], size_of_all(c + l, width_, order_, length));
-            if (!floors_.empty())
-                size[l] = std::max(size[l], floors_[i * width_ + l + 1]);
-            const double noise = noise_.empty() ? 0 : length * noise_[i * count_ + l],
-                         ratio = apart[l] / ((StepCheck::allowance * tolerance_ + roundoff) * size[l] + noise);
-            most = std::isnan(ratio) ? std::numeric_limits<double>::infinity() : std::max(most, ratio);
-        }
+        ++i;
     }
     return most;
+}
+
+/// A difference in units of what is allowed, where it exceeds what the ends of the step allow. @param lane of the jet
+double Misfit::excess(std::size_t i, std::size_t lane, double apart, double size, double length) const {
+    constexpr double roundoff = 1e4 * 0x1p-53;
+    size = std::max(size, size_of_all(jet_.series()[i].first + lane, width_, order_, length));
+    if (!floors_.empty())
+        size = std::max(size, floors_[i * width_ + lane]);
+    const double noise = noise_.empty() ? 0 : length * noise_[i * count_ + lane - 1],
+                 ratio = apart / ((StepCheck::allowance * tolerance_ + roundoff) * size + noise);
+    return std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio;
 }
 
 /// Next to the start polynomials are exact, so that what is between slopes and rates there is round-off: of terms that
@@ -152,14 +124,15 @@ double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, doub
                      const TangentFloors& floors) {
     require_lanes(jet, states, count);
     const double root = 1.0 / (jet.order() - 1);
-    double reach = step, worst = largest_share(jet, states, count, reach, {});
+    double reach = step, worst = jet.tangent_tails(states, count, reach, {});
     if (!(worst > tolerance))
         return step;
-    // Sizes shrink with the step: a few rounds.
+    // Sizes shrink with the step: a few rounds, each of which aims at a little less than what is allowed.
+    constexpr double aim = 0.98;
     const auto shorten = [&](std::span<const double> least) {
         for (int round = 0; round < 6 && worst > tolerance; ++round) {
-            reach *= std::pow(tolerance / worst, root);
-            worst = largest_share(jet, states, count, reach, least);
+            reach *= std::pow(aim * tolerance / worst, root);
+            worst = jet.tangent_tails(states, count, reach, least);
         }
     };
     shorten({});
@@ -167,7 +140,7 @@ double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, doub
         const std::span<const double> least = floors();
         require_room(least.size(), states * static_cast<std::size_t>(jet.width()), "floors of derivatives");
         reach = step;
-        worst = largest_share(jet, states, count, reach, least);
+        worst = jet.tangent_tails(states, count, reach, least);
         shorten(least);
     }
     return std::isfinite(reach) && reach > 0 ? reach : step;

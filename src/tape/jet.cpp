@@ -84,6 +84,11 @@ public:
     void find_disagreement(const Jet& end, const EndAllowance& allowance, std::span<const double> lengths,
                            std::span<const double> values, std::span<const double> slopes,
                            std::span<double> worst) const override;
+    double tangent_tails(std::size_t states, std::size_t count, double step,
+                         std::span<const double> floors) const override;
+    std::size_t find_tangent_misfit(const Jet& end, const EndAllowance& allowance, std::size_t states,
+                                    std::size_t count, double length, std::span<const double> values,
+                                    std::span<const double> slopes, std::size_t from) const override;
     void guard_steps(std::span<double> steps) const override {
         require_lanes(steps);
         if (guards_.argument_count + guards_.quotient_count > 0)
@@ -141,6 +146,8 @@ private:
     void require_states(std::span<const double> values) const {
         require_room(values.size(), states_ * layout_.number, "numbers, states for each lane,");
     }
+    TangentStates tangents_of(std::size_t states, std::size_t count) const;
+    const TapeJet& of_same_tape(const Jet& other) const;
     void require_single_values(const char* what) const {
         if (tangent_)
             throw std::invalid_argument(std::string("a tangent jet has no ") + what + ": its lanes are derivatives");
@@ -375,18 +382,55 @@ void TapeJet::begin(std::span<const double> states) {
     begun_ = true;
 }
 
+/// Another jet of the same tape, kind and order.
+const TapeJet& TapeJet::of_same_tape(const Jet& other) const {
+    const auto& same = static_cast<const TapeJet&>(other); // there is no other kind
+    if (&same.table_ != &table_ || same.layout_.size != layout_.size || same.order_ != order_)
+        throw std::invalid_argument("ends of steps can be compared only with a jet of the same tape");
+    return same;
+}
+
 void TapeJet::find_disagreement(const Jet& end, const EndAllowance& allowance, std::span<const double> lengths,
                                 std::span<const double> values, std::span<const double> slopes,
                                 std::span<double> worst) const {
-    const auto& other = static_cast<const TapeJet&>(end); // there is no other kind
-    if (&other.table_ != &table_ || other.layout_.size != layout_.size || other.order_ != order_)
-        throw std::invalid_argument("ends of steps can be compared only with a jet of the same tape");
+    const TapeJet& other = of_same_tape(end);
     require_lanes(lengths);
     require_states(values);
     require_states(slopes);
     require_lanes(worst);
     table_.disagreement(comparison_, {memory_.data(), other.memory_.data(), values.data(), slopes.data(), allowance},
                         lengths.data(), worst.data());
+}
+
+TangentStates TapeJet::tangents_of(std::size_t states, std::size_t count) const {
+    if (!tangent_)
+        throw std::invalid_argument("only tangent jets have derivatives");
+    require_index(count, layout_.number, "number of derivatives");
+    require_room(states_, states, "states of a jet");
+    return {series_.data(), states, static_cast<int>(count), order_};
+}
+
+double TapeJet::tangent_tails(std::size_t states, std::size_t count, double step,
+                              std::span<const double> floors) const {
+    const TangentStates tangents = tangents_of(states, count);
+    if (!floors.empty())
+        require_room(floors.size(), states * layout_.number, "floors of derivatives");
+    return table_.tangent_tails(tangents, step, floors.empty() ? nullptr : floors.data());
+}
+
+std::size_t TapeJet::find_tangent_misfit(const Jet& end, const EndAllowance& allowance, std::size_t states,
+                                         std::size_t count, double length, std::span<const double> values,
+                                         std::span<const double> slopes, std::size_t from) const {
+    const TangentStates tangents = tangents_of(states, count);
+    require_states(values);
+    require_states(slopes);
+    const TangentEnds ends{of_same_tape(end).series_.data(),
+                           values.data(),
+                           slopes.data(),
+                           std::abs(length),
+                           allowance.rates,
+                           allowance.smallest};
+    return table_.tangent_misfit(tangents, ends, from);
 }
 
 } // namespace

@@ -82,6 +82,21 @@ struct EndValues {
     const EndAllowance& allowance;
 };
 
+/// Series of the states in a tangent jet, whose lanes 1 .. lanes hold derivatives.
+struct TangentStates {
+    const Series* series;
+    std::size_t count;
+    int lanes, order;
+};
+/// What these are compared with at the end of a step.
+struct TangentEnds {
+    const Series* there;         ///< of the jet that has been begun there
+    const double *sums, *slopes; ///< of the polynomials, [state * width + lane]
+    double length, allowed, smallest;
+};
+/// What is so small against anything a double can hold that nothing may be said of its relative accuracy.
+inline constexpr double smallest_derivative = 1e-200;
+
 /// Linear combinations of fewer terms than this have kernels of their own; row 0 is for all others.
 inline constexpr int combination_kernels = 5;
 
@@ -114,6 +129,12 @@ struct KernelTable {
                   double* steps);
     /// Shortens steps that are too long for intermediate series: see `guard_kernels.hpp`.
     void (*guard)(const Guards& guards, int order, double* steps);
+    /// The largest share that the last two terms of derivatives have in their sizes, the latter at least as given.
+    /// (These two only for tangent jets.)
+    double (*tangent_tails)(const TangentStates& states, double step, const double* floors);
+    /// The first state, from one on, of which a derivative's slope differs by more than is allowed; their number if
+    /// there is none.
+    std::size_t (*tangent_misfit)(const TangentStates& states, const TangentEnds& ends, std::size_t from);
     Kernel constant[operation_count]; ///< on numbers; row `number` and `symbol` are empty
 };
 

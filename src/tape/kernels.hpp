@@ -123,13 +123,16 @@ private:
     V b_; ///< the last one loaded
 };
 
-/// From this order on, ensembles compute the convolutions of an even and the next odd order together. What is known of
-/// the odd one waits where its coefficient will be.
+/// Derivatives gain from pairs only where one register holds them all.
+template <class V>
+inline constexpr bool has_pairs = std::is_same_v<V, Ensemble> || (std::is_same_v<V, Tangent> && Tangent::parts == 1);
+/// From this order on, the convolutions of an even and the next odd order are computed together. What is known of the
+/// odd one waits where its coefficient will be.
 inline constexpr int first_pair = 4;
 template <class V, int k>
-inline constexpr bool starts_pair = std::is_same_v<V, Ensemble> && (k >= first_pair) && (k % 2 == 0);
+inline constexpr bool starts_pair = has_pairs<V> && (k >= first_pair) && (k % 2 == 0);
 template <class V, int k>
-inline constexpr bool ends_pair = std::is_same_v<V, Ensemble> && (k > first_pair) && (k % 2 == 1);
+inline constexpr bool ends_pair = has_pairs<V> && (k > first_pair) && (k % 2 == 1);
 
 /// Sum of a[j] a[k-j], 0 < j < k, given that over j < k/2; k >= 2.
 template <class V, int k>

@@ -7,6 +7,7 @@
 #include "tape/recurrence.hpp"
 #include "tape/step_kernels.hpp"
 #include "tape/sum_kernels.hpp"
+#include "tape/tangent_kernels.hpp"
 
 namespace graze::GRAZE_INSTRUCTION_SET {
 
@@ -94,6 +95,10 @@ constexpr KernelTable make_table() {
     table.bound = &bound<V>;
     table.steps = &steps<V>;
     table.guard = &guard<V>;
+    if constexpr (std::is_same_v<V, Tangent>) {
+        table.tangent_tails = &tangent_tails<V>;
+        table.tangent_misfit = &tangent_misfit<V>;
+    }
 #define GRAZE_ROW(name, recurrence, slope) , Operation::name
     fill_constants<V, Operation::add, Operation::subtract, Operation::multiply, Operation::divide, Operation::power,
                    Operation::negate GRAZE_FUNCTIONS(GRAZE_ROW)>(table);

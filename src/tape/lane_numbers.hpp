@@ -66,9 +66,7 @@ GRAZE_INLINE Pack splat(double value) {
 
 /// Lane 0 of one and the other lanes of another.
 GRAZE_INLINE Pack with_first(Pack first, Pack others) {
-#if defined(__AVX512F__)
-    return _mm512_mask_mov_pd(first, 0xfe, others);
-#elif defined(__FMA__)
+#if defined(__FMA__) && !defined(__AVX512F__)
     return _mm256_blend_pd(others, first, 1);
 #else
     others[0] = first[0];
@@ -128,9 +126,14 @@ GRAZE_INLINE Tangent operator*(Tangent a, double b) {
 }
 /// The value of c, and its directions increased by those of a times b.
 GRAZE_INLINE Tangent add_directions(Tangent a, Pack b, Tangent c) {
+#if defined(__AVX512F__)
+    static_assert(Tangent::parts == 1);
+    return Tangent{{_mm512_mask3_fmadd_pd(a.part[0], b, c.part[0], 0xfe)}};
+#else
     Tangent result = GRAZE_FOR_PARTS(Tangent, multiply_add(a.part[i], b, c.part[i]));
     result.part[0] = with_first(c.part[0], result.part[0]);
     return result;
+#endif
 }
 GRAZE_INLINE Tangent operator*(Tangent a, Tangent b) {
     const Pack value = splat(a.part[0][0]);

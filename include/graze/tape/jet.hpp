@@ -90,6 +90,19 @@ public:
     virtual void find_disagreement(const Jet& end, const EndAllowance& allowance, std::span<const double> lengths,
                                    std::span<const double> values, std::span<const double> slopes,
                                    std::span<double> worst) const = 0;
+    /// The largest share that the last two terms of the states' derivatives in the first `count` directions have in
+    /// their first three, or in floors where these are larger. (Only for tangent jets, and so is the next:
+    /// std::invalid_argument.)
+    /// @param states the first ones, which count; @param floors [state * width() + lane], or none
+    virtual double tangent_tails(std::size_t states, std::size_t count, double step,
+                                 std::span<const double> floors) const = 0;
+    /// The first state, from one on, of which the slope of a derivative's polynomial at the end of a step is not the
+    /// rate that `end` has there: |h| |slope - rate| exceeds a share of the larger of both ends' sizes and |h| / 4
+    /// times the larger of both rates. As many as there are states if there is none.
+    /// @param end, values, slopes as in `find_disagreement`; @param allowance the shares of rates, and what is added
+    virtual std::size_t find_tangent_misfit(const Jet& end, const EndAllowance& allowance, std::size_t states,
+                                            std::size_t count, double length, std::span<const double> values,
+                                            std::span<const double> slopes, std::size_t from) const = 0;
     /// Sums the series of one output, in each lane at its own time. @param values [lane]
     virtual void evaluate_output(std::size_t index, std::span<const double> times, std::span<double> values) const = 0;
     /// Bounds the first outputs from below on [0, lengths[lane]] by their partial sums at the end, of which they are
