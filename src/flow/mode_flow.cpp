@@ -145,6 +145,8 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
         if (std::isnan(wanted))
             return Ending::undefined;
         const double step = tangents_.carry(mode, state, matrix_, wanted, next_);
+        if (step == 0 && wanted != 0)
+            return Ending::too_long;
         if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining)
             return Ending::singular;
         std::copy(tangents_.state().begin(), tangents_.state().end(), state.begin());

@@ -13,7 +13,7 @@ namespace {
 /// What derivatives are allowed of the tolerance of the states: what is cut off is far smaller than the last terms.
 constexpr double allowance = 50;
 /// Parts of a step that directions may need which are faster than the first ones.
-constexpr int most_parts = 10000;
+constexpr int most_parts = 200'000;
 
 } // namespace
 
@@ -136,6 +136,8 @@ double TangentSteps::carry(std::size_t mode, std::span<const double> state, std:
             part = follow(*jet, mode, first, remaining);
             remaining = part == remaining ? 0 : remaining - part;
         }
+        if (remaining != 0)
+            return 0;
         finish(*jet, first, after, output, row);
     }
     return length;

@@ -32,18 +32,21 @@ void Tangents::coefficient(std::size_t mode, std::span<const double> state, std:
 
 void Tangents::advance(std::size_t mode, std::span<const double> state, double s, std::size_t series,
                        std::span<double> row) {
-    constexpr int most_parts = 10000;
+    constexpr int most_parts = 200'000;
     // In parts, where derivatives are faster than the states.
     for (int part = 0; part < most_parts; ++part) {
         steps_.begin(mode, state, matrix_);
         const double length = steps_.carry(mode, state, matrix_, s, next_, series, row);
+        if (length == 0 && s != 0)
+            break;
         matrix_.swap(next_);
         if (!(length < s))
-            break;
+            return;
         s -= length;
         here_.assign(steps_.state().begin(), steps_.state().end());
         state = here_;
     }
+    invalidate();
 }
 
 void Tangents::pass_jump(std::span<const double> shift, std::span<const double> field_before,

@@ -10,6 +10,7 @@
 #include <limits>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace graze {
@@ -135,6 +136,28 @@ TEST(ModeFlow, TellsHowItEnds) {
     EXPECT_EQ(flow.run(0, state, 2.0), ModeFlow::Ending::singular); // 1/(1 - t)
     state = {1.0};
     EXPECT_EQ(flow.run(0, state, std::numeric_limits<double>::infinity()), ModeFlow::Ending::undefined);
+}
+
+/// Directions beyond those that fit into a jet with the first ones follow steps in parts where they are faster: the
+/// last two states rest and limit no step, but their derivatives turn as k t does.
+TEST(ModeFlow, FollowsFastDirectionsInPartsOrSaysThatTheyAreTooMany) {
+    std::string text = "name = \"rest\"\n[parameters]\nk = 1000\n[states]\n", rates;
+    for (const char* slow : {"a", "b", "c", "d", "e", "f", "g", "h"}) {
+        text += std::string(slow) + " = 1\n";
+        rates += std::string(slow) + " = \"-" + slow + "\", ";
+    }
+    text += "y = 0\nz = 0\n[modes.m]\nrates = { " + rates + "y = \"k*z\", z = \"-k*y\" }\n[initial]\nmode = \"m\"\n";
+    const Model model = parse_model(text, "rest.toml");
+    ModeFlow flow(model, tolerance);
+    const std::size_t n = model.states.size();
+    std::vector<double> state = model.initial_state(), derivatives(n * n);
+    flow.set_parameters(std::vector<double>{1000});
+    ASSERT_EQ(flow.run(0, state, 0.02, derivatives), ModeFlow::Ending::done);
+    EXPECT_NEAR(derivatives.back(), std::cos(20.0), accuracy);
+    EXPECT_NEAR(derivatives.front(), std::exp(-0.02), accuracy);
+    flow.set_parameters(std::vector<double>{1e7});
+    state = model.initial_state();
+    EXPECT_EQ(flow.run(0, state, 1.0, derivatives), ModeFlow::Ending::too_long);
 }
 
 TEST(ModeFlow, RefusesWhatDoesNotFit) {
