@@ -50,7 +50,8 @@ public:
         return compare(step);
     }
     /// From now on differences are allowed that there are for no other reason than round-off.
-    void measure_noise(double step);
+    /// @param known what of it is known, or none
+    void measure_noise(double step, std::span<const double> known);
 
 private:
     double compare(double step) const;
@@ -106,9 +107,11 @@ double Misfit::excess(std::size_t i, std::size_t lane, double apart, double size
 
 /// Next to the start polynomials are exact, so that what is between slopes and rates there is round-off: of terms that
 /// cancel, such as those of a coupling that a symmetry makes zero, beside which nothing shows how large they are.
-void Misfit::measure_noise(double step) {
+void Misfit::measure_noise(double step, std::span<const double> known) {
     constexpr double near = 0x1p-24, spread = 100; // what is random is small now and then
     noise_.assign(states_ * count_, 0.0);
+    for (std::size_t i = 0; i < states_ && !known.empty(); ++i)
+        std::copy_n(&known[i * width_ + 1], count_, &noise_[i * count_]);
     for (const double share : {near, 1.7 * near, 3.1 * near}) {
         evaluate(share * step);
         for (std::size_t i = 0; i < states_; ++i)
@@ -148,7 +151,7 @@ double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, doub
 
 double follow_tangents(const Jet& jet, Jet& next, std::size_t states, std::size_t count, double tolerance, double step,
                        std::span<double> times, std::span<double> sums, std::span<double> slopes,
-                       const TangentFloors& floors) {
+                       const TangentFloors& floors, const TangentFloors& noise) {
     require_lanes(jet, states, count);
     require_room(times.size(), static_cast<std::size_t>(jet.width()), "times");
     // What is left out falls with a high power of the step. What does not is the round-off of derivatives that have
@@ -165,7 +168,10 @@ double follow_tangents(const Jet& jet, Jet& next, std::size_t states, std::size_
         if (misfit.above(least, step) <= 1)
             return step;
     }
-    misfit.measure_noise(step);
+    const std::span<const double> known = noise ? noise() : std::span<const double>{};
+    if (noise)
+        require_room(known.size(), states * static_cast<std::size_t>(jet.width()), "round-off of rates");
+    misfit.measure_noise(step, known);
     double part = step, first = 0;
     for (int halving = 0; halving <= most_halvings; ++halving, part *= 0.5) {
         const double here = misfit.after(part);

@@ -28,6 +28,7 @@ TangentSteps::TangentSteps(const System& system, int order, double tolerance, st
     times_.resize(width);
     state_.resize(states_);
     floors_.resize(states_ * width);
+    noise_.resize(floors_.size());
 }
 
 void TangentSteps::set_parameters(std::span<const double> parameters, std::span<const double> seeds) {
@@ -74,10 +75,15 @@ const Jet& TangentSteps::begin(std::size_t mode, std::span<const double> state, 
     return jets_.computed(mode, seeds_);
 }
 
-/// To what each component may be brought by the others, from where all are now.
-std::span<const double> TangentSteps::floors_of(const Jet& jet, std::size_t mode, std::size_t count, double length) {
+const Couplings& TangentSteps::couplings_here(std::size_t mode) {
     if (measured_ == nullptr)
         measured_ = &couplings_.measured(mode, place_);
+    return *measured_;
+}
+
+/// To what each component may be brought by the others, from where all are now.
+std::span<const double> TangentSteps::floors_of(const Jet& jet, std::size_t mode, std::size_t count, double length) {
+    couplings_here(mode);
     const std::size_t width = lanes_ + 1;
     const double time = std::min(std::abs(length), measured_->response_time());
     const std::span<const Series> series = jet.series();
@@ -92,6 +98,26 @@ std::span<const double> TangentSteps::floors_of(const Jet& jet, std::size_t mode
     return floors_;
 }
 
+/// What round-off may make of a direction's rates: the terms of which each is the sum are as large as the strongest
+/// coupling makes them of the direction's largest component, in the units of the couplings, but may cancel.
+std::span<const double> TangentSteps::noise_of(const Jet& jet, std::size_t mode, std::size_t count) {
+    constexpr double round_off = 100 * 0x1p-53; // of a sum of some terms, and now and then more
+    const Couplings& couplings = couplings_here(mode);
+    const double rate = couplings.response_time() > 0 ? round_off / couplings.response_time() : 0;
+    const std::span<const double> units = couplings.units();
+    const std::span<const Series> series = jet.series();
+    const std::size_t width = lanes_ + 1;
+    std::fill(noise_.begin(), noise_.end(), 0.0);
+    for (std::size_t l = 1; l <= count; ++l) {
+        double largest = 0;
+        for (std::size_t i = 0; i < states_; ++i)
+            largest = std::max(largest, std::abs(series[i].first[l]) / units[i]);
+        for (std::size_t i = 0; i < states_; ++i)
+            noise_[i * width + l] = rate * largest * units[i];
+    }
+    return noise_;
+}
+
 /// Follows a jet's series for a step or a part of it. @return how far; what is there is in `sums_`
 double TangentSteps::follow(const Jet& jet, std::size_t mode, std::size_t first, double length) {
     const std::size_t count = count_from(first);
@@ -99,7 +125,7 @@ double TangentSteps::follow(const Jet& jet, std::size_t mode, std::size_t first,
     const TangentFloors floors = [&] { return known.empty() ? known = floors_of(jet, mode, count, length) : known; };
     const double reach = tangent_reach(jet, states_, count, tolerance_, std::abs(length), floors);
     return follow_tangents(jet, jets_.next(mode), states_, count, tolerance_, std::copysign(reach, length), times_,
-                           sums_, slopes_, floors);
+                           sums_, slopes_, floors, [&] { return noise_of(jet, mode, count); });
 }
 
 void TangentSteps::finish(const Jet& jet, std::size_t first, std::span<double> after, std::size_t output,

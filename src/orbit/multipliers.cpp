@@ -44,7 +44,7 @@ Eigen::MatrixXd complement(const Eigen::VectorXd& vector) {
     return q.rightCols(n - 1);
 }
 
-/// The section map as factors, restricted to active states and measured by their scales.
+/// The section map as factors, restricted to active states and measured in units in which they are balanced.
 class SectionMapFactors {
 public:
     SectionMapFactors(const OrbitEquations& equations, const OrbitEvaluation& at)
@@ -52,6 +52,10 @@ public:
           inputs_(equations.layout().states() + at.parameters.size()) {
         std::copy(at.parameters.begin(), at.parameters.end(),
                   inputs_.begin() + static_cast<std::ptrdiff_t>(equations.layout().states()));
+        units_.resize(index(active_->size()));
+        for (std::size_t i = 0; i < active_->size(); ++i)
+            units_[index(i)] = at.scales[index((*active_)[i])];
+        balance();
     }
 
     /// Adds those of a piece. @return false when its end is met without speed
@@ -80,14 +84,38 @@ public:
     std::vector<Eigen::MatrixXd> without_shifts() const;
 
 private:
+    /// Chooses units in which what acts on a state is as large as what it does (E. E. Osborne 1960): those of an orbit
+    /// say little of states that it leaves at rest, and where those of position and speed differ, every oscillation
+    /// would look like a contraction.
+    void balance() {
+        constexpr int sweeps = 4;
+        constexpr double farthest = 1e12;
+        const Eigen::Index n = units_.size();
+        Eigen::MatrixXd sizes = Eigen::MatrixXd::Zero(n, n);
+        for (const OrbitEvaluation::Piece& piece : at_->pieces)
+            sizes += restricted(piece.flow).cwiseAbs();
+        if (!sizes.allFinite())
+            return;
+        sizes.diagonal().setZero();
+        const Eigen::VectorXd before = units_;
+        for (int sweep = 0; sweep < sweeps; ++sweep)
+            for (Eigen::Index i = 0; i < n; ++i) {
+                const double ratio = std::sqrt(sizes.row(i).sum() / sizes.col(i).sum());
+                if (!(ratio > 0 && std::isfinite(ratio)))
+                    continue;
+                const double unit = std::clamp(units_[i] * ratio, before[i] / farthest, before[i] * farthest);
+                sizes.row(i) *= units_[i] / unit;
+                sizes.col(i) *= unit / units_[i];
+                units_[i] = unit;
+            }
+    }
     Eigen::MatrixXd restricted(const Eigen::MatrixXd& matrix) const {
         const auto& active = *active_;
-        const Eigen::VectorXd& scales = at_->scales;
         Eigen::MatrixXd result(index(active.size()), index(active.size()));
         for (std::size_t i = 0; i < active.size(); ++i)
             for (std::size_t j = 0; j < active.size(); ++j)
                 result(index(i), index(j)) =
-                    matrix(index(active[i]), index(active[j])) * scales[index(active[j])] / scales[index(active[i])];
+                    matrix(index(active[i]), index(active[j])) * units_[index(j)] / units_[index(i)];
         return result;
     }
     Eigen::VectorXd direction(const std::vector<double>& state) {
@@ -96,7 +124,7 @@ private:
         equations_->system().mode(mode_).rates.evaluate(inputs_, field, work_);
         Eigen::VectorXd result(index(active_->size()));
         for (std::size_t i = 0; i < active_->size(); ++i)
-            result[index(i)] = field[(*active_)[i]] / at_->scales[index((*active_)[i])];
+            result[index(i)] = field[(*active_)[i]] / units_[index(i)];
         return result;
     }
     /// Whether one direction shrinks too much against another: by the matrix and its inverse.
@@ -144,6 +172,7 @@ private:
     const OrbitEquations* equations_;
     const OrbitEvaluation* at_;
     const std::vector<std::size_t>* active_;
+    Eigen::VectorXd units_;        ///< of active states
     std::optional<ModeFlow> flow_; ///< once it is needed
     std::size_t mode_ = 0;
     std::vector<double> work_, inputs_;

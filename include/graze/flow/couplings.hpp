@@ -30,6 +30,9 @@ public:
     /// depends on itself, 0 where the Jacobian is not finite.
     double response_time() const { return response_time_; }
 
+    /// Units of the states in which rows and columns of the Jacobian are about as large.
+    std::span<const double> units() const { return units_; }
+
     /// Raises sizes of states until no coupling, over a time, makes any larger: s_i >= time |J_ij| s_j for all i, j.
     /// @param time at most the response time
     /// @param sizes [state * width + lane]; @param lanes the first ones, that matter

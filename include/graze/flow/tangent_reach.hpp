@@ -26,9 +26,10 @@ double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, doub
 /// the variational equations say at the end, as StepCheck asks of states.
 /// @param next jet of the same tape, lanes and parameters, which is begun at the end; @param times, sums, slopes room
 /// to work in, as `Jet::evaluate_states` needs it; sums are those at the end
-/// @param tolerance that derivatives are allowed; @return the step, or the part
+/// @param tolerance that derivatives are allowed; @param noise by how much round-off may change rates, asked for only
+/// where they differ from slopes, as floors are; @return the step, or the part
 double follow_tangents(const Jet& jet, Jet& next, std::size_t states, std::size_t count, double tolerance, double step,
                        std::span<double> times, std::span<double> sums, std::span<double> slopes,
-                       const TangentFloors& floors = {});
+                       const TangentFloors& floors = {}, const TangentFloors& noise = {});
 
 } // namespace graze

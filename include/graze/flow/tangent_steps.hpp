@@ -38,8 +38,8 @@ public:
     /// and others as far, in parts if need be.
     /// @param after the matrix at the end; @param output row of that output's derivatives there, `row`, unless it is
     /// empty
-    /// @return how far, at most `length`; 0 where a direction is so much faster than the first ones that it did not come
-    /// as far in 200,000 parts
+    /// @return how far, at most `length`; 0 where a direction is so much faster than the first ones that it did not
+    /// come as far in 200,000 parts
     double carry(std::size_t mode, std::span<const double> state, std::span<const double> matrix, double length,
                  std::span<double> after, std::size_t output = 0, std::span<double> row = {});
     /// Where `carry` has led to.
@@ -49,6 +49,8 @@ private:
     void load_parameters(std::size_t mode, std::size_t first);
     double follow(const Jet& jet, std::size_t mode, std::size_t first, double length);
     std::span<const double> floors_of(const Jet& jet, std::size_t mode, std::size_t count, double length);
+    std::span<const double> noise_of(const Jet& jet, std::size_t mode, std::size_t count);
+    const Couplings& couplings_here(std::size_t mode);
     void finish(const Jet& jet, std::size_t first, std::span<double> after, std::size_t output, std::span<double> row);
 
     System system_;
@@ -62,7 +64,7 @@ private:
     ModeCouplings couplings_;
     std::span<const double> place_;       ///< state at which couplings are wanted
     const Couplings* measured_ = nullptr; ///< what they are there, once it has been asked for
-    std::vector<double> floors_;          ///< [state * width + lane]
+    std::vector<double> floors_, noise_;  ///< [state * width + lane]
 };
 
 } // namespace graze
