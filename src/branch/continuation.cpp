@@ -147,7 +147,7 @@ bool Continuation::newton(std::vector<double>& u, std::span<const double> row, d
         // Newton's method squares what is wrong: a correction this small has been the last one.
         if (size < options_.accuracy ||
             (iterations > 1 && size < 0.1 * before && size * size < options_.accuracy * 1e-4)) {
-            easy_ = iterations <= good_iterations;
+            pace_ = iterations <= good_iterations ? growth : shrinkage;
             return problem_->evaluate(u);
         }
         if (iterations > 2 && size > before)
@@ -167,7 +167,7 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
     // Corrections end where the next one would be this share of the accuracy; and the last one, by the new derivatives,
     // is made where it is more.
     constexpr double enough = 1e-4;
-    constexpr std::size_t most = 12;
+    constexpr std::size_t most = 12, few = 6;
     // From the first correction to the second: what Newton's method needs three iterations for shrinks by as much.
     constexpr double fast = 0.1;
     const std::vector<double> begin = u;
@@ -185,7 +185,7 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
         if (!std::isfinite(size) || std::sqrt(product(moved, moved)) > allowed)
             return false;
         if (iterations == 2)
-            easy_ = size < fast * before || size < options_.accuracy;
+            pace_ = size < fast * before || size < options_.accuracy ? growth : shrinkage;
         const double ratio = iterations > 1 ? size / before : 1;
         if (size * std::min(ratio, 1.0) < enough * options_.accuracy)
             break;
@@ -198,7 +198,12 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
         made_.push_back(step);
     }
     if (iterations == 1)
-        easy_ = true;
+        pace_ = growth;
+    // Where derivatives cost so much, more corrections cost less than a shorter step.
+    if (problem_->derivatives_are_dear() && !renewed)
+        pace_ = iterations <= few ? growth : 1;
+    else if (problem_->derivatives_are_dear() && pace_ == growth)
+        pace_ = 1; // derivatives of the last point were no longer good enough
     if (!problem_->evaluate(u) || !problem_->solve(row, 0, false, step_, nullptr))
         return false;
     const double last = size_of(step_);
@@ -411,8 +416,7 @@ bool Continuation::step() {
         point_ = std::move(next);
         ++steps_;
         const double by_angle = angle > 0 ? 0.7 * options_.largest_angle / angle : growth;
-        const double by_work = easy_ ? growth : shrinkage;
-        next_step_ = std::clamp(length * std::clamp(std::min(by_angle, by_work), shrinkage, growth),
+        next_step_ = std::clamp(length * std::clamp(std::min(by_angle, pace_), shrinkage, growth),
                                 options_.smallest_step, options_.largest_step);
         if (closes())
             outcome_ = ContinuationOutcome::closed;

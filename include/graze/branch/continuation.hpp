@@ -149,7 +149,7 @@ private:
     std::size_t steps_ = 0;
     std::vector<double> step_;
     std::vector<std::vector<double>> made_; ///< corrections by chords, of one point
-    bool easy_ = false;                     ///< the last point has converged so fast that steps may grow
+    double pace_ = 1;                       ///< of the next step to the last one, as far as the work for it says
 };
 
 } // namespace graze
