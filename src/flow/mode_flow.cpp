@@ -126,32 +126,47 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
 }
 
 ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double duration,
-                               std::span<double> derivatives) {
+                               std::span<double> derivatives, WatchedSeries* watched) {
     require_fitting(mode, state);
     require_size(derivatives.size(), states_ * directions_, "derivatives");
+    const std::size_t events = system_.mode(mode).watched.size();
+    if (watched)
+        watched->begin(events);
+    const bool looks = watched && events > 0;
     if (directions_ == 0)
-        return run(mode, state, duration);
+        return looks ? run(mode, state, duration,
+                           [&](const Jet& jet, double time, double length) {
+                               watched->note(jet);
+                               watched->end_step(time, length);
+                           })
+                     : run(mode, state, duration);
     if (!std::isfinite(duration))
         return Ending::undefined;
     std::fill(matrix_.begin(), matrix_.end(), 0.0);
     for (std::size_t d = 0; d < starts_.size(); ++d)
         matrix_[starts_[d] * directions_ + d] = 1;
-    double remaining = duration;
+    double time = 0, remaining = duration;
     previous_ = 0;
     for (std::size_t count = 0; remaining != 0; ++count) {
         if (count >= most_steps)
             return Ending::too_long;
-        const double wanted = step_of(mode, tangents_.begin(mode, state, matrix_), remaining, false);
+        const Jet& jet = tangents_.begin(mode, state, matrix_);
+        const double wanted = step_of(mode, jet, remaining, looks);
         if (std::isnan(wanted))
             return Ending::undefined;
+        if (looks)
+            watched->note(jet);
         const double step = tangents_.carry(mode, state, matrix_, wanted, next_);
         if (step == 0 && wanted != 0)
             return Ending::too_long;
         if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining)
             return Ending::singular;
         std::copy(tangents_.state().begin(), tangents_.state().end(), state.begin());
+        if (looks)
+            watched->end_step(time, step);
         matrix_.swap(next_);
         ++steps_;
+        time += step;
         remaining = step == remaining ? 0 : remaining - step;
     }
     std::copy(matrix_.begin(), matrix_.end(), derivatives.begin());

@@ -23,21 +23,27 @@ public:
     ArcWatcher(const OrbitEquations& equations, std::size_t segment, RootFinder& roots)
         : equations_(&equations), segment_(segment),
           mode_(&equations.system().mode(equations.signature()[segment].mode)), roots_(&roots),
-          order_(static_cast<std::size_t>(equations.simulation().order())), sizes_(mode_->watched.size(), 0.0),
-          falls_(mode_->watched.size(), std::numeric_limits<double>::infinity()), starts_(mode_->watched.size(), 0.0),
-          lowest_(mode_->watched.size(), std::numeric_limits<double>::infinity()), lows_(mode_->watched.size(), 0.0) {
+          sizes_(mode_->watched.size(), 0.0), falls_(mode_->watched.size(), std::numeric_limits<double>::infinity()),
+          starts_(mode_->watched.size(), 0.0), lowest_(mode_->watched.size(), std::numeric_limits<double>::infinity()),
+          lows_(mode_->watched.size(), 0.0) {
         const System& compiled = equations.system();
         for (std::size_t w = 0; w < mode_->watched.size(); ++w)
             harmless_.push_back(is_harmless(compiled, mode_->transitions[w]));
     }
 
-    void look(const Jet& jet, double begin, double time, double length) {
-        const double sign = length < 0 ? -1 : 1;
+    /// @param begin time of the series' arc within the segment
+    void look(const WatchedSeries& series, double begin) {
+        for (std::size_t step = 0; step < series.steps().size(); ++step)
+            look(series, step, begin + series.steps()[step].time);
+    }
+
+    void look(const WatchedSeries& series, std::size_t step, double time) {
+        const double length = series.steps()[step].length, sign = length < 0 ? -1 : 1;
         for (std::size_t w = 0; w < mode_->watched.size(); ++w) {
             if (harmless_[w] && !is_own(w))
                 continue;
-            const double* c = jet.output(w);
-            coefficients_.assign(c, c + order_ + 1);
+            const std::span<const double> c = series.of(step, w);
+            coefficients_.assign(c.begin(), c.end());
             double power = 1;
             for (double& coefficient : coefficients_) {
                 coefficient *= power;
@@ -45,20 +51,20 @@ public:
             }
             const double size = RootFinder::enclosure(coefficients_, std::abs(length), RootStart::as_is).size;
             sizes_[w] = std::max(sizes_[w], size);
-            const bool first = begin + time == 0;
+            const bool first = time == 0;
             if (first)
                 starts_[w] = coefficients_[0];
             lowest_[w] = std::min(lowest_[w], evaluate_polynomial(coefficients_, std::abs(length)));
             const bool on_surface_here = first && std::abs(coefficients_[0]) <= on_surface * size;
             if (first)
                 lows_[w] = on_surface_here ? 0 : coefficients_[0];
-            look_for_extrema(w, begin + time, length, on_surface_here ? size : 0);
+            look_for_extrema(w, time, length, on_surface_here ? size : 0);
             if (std::isinf(falls_[w])) {
                 Root root;
                 const bool zero = std::abs(coefficients_[0]) <= on_surface * size;
                 if (roots_->first_falling(coefficients_, std::abs(length),
                                           first && zero ? RootStart::deflate : RootStart::as_is, root))
-                    falls_[w] = begin + time + sign * root.at;
+                    falls_[w] = time + sign * root.at;
             }
         }
     }
@@ -131,7 +137,6 @@ private:
     std::size_t segment_;
     const System::CompiledMode* mode_;
     RootFinder* roots_;
-    std::size_t order_;
     std::vector<double> sizes_, falls_, starts_, lowest_, coefficients_, derivative_;
     std::vector<double> lows_; ///< least value since the last greatest one, or at the start
     std::vector<bool> harmless_;
@@ -175,8 +180,8 @@ class Certifier {
 public:
     Certifier(OrbitEquations& equations, const OrbitEvaluation& at)
         : equations_(&equations), system_(&equations.system()), at_(&at), states_(equations.layout().states()),
-          flow_(&equations.flow_at(at)), roots_(equations.simulation().order()), work_(system_->workspace()),
-          inputs_(states_ + at.parameters.size()), field_(states_) {
+          roots_(equations.simulation().order()), work_(system_->workspace()), inputs_(states_ + at.parameters.size()),
+          field_(states_) {
         std::copy(at.parameters.begin(), at.parameters.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
     }
 
@@ -212,11 +217,11 @@ private:
         ArcWatcher watcher(*equations_, s, roots_);
         double begin = 0;
         for (std::size_t k = layout.first_piece(s); k <= layout.last_piece(s); ++k) {
-            const double* start = at_->unknowns.data() + layout.start_of(k);
-            std::vector<double> state(start, start + states_);
             const double duration = at_->unknowns[index(layout.duration_of(k))];
-            flow_->run(segment.mode, state, duration,
-                       [&](const Jet& jet, double time, double length) { watcher.look(jet, begin, time, length); });
+            if (!at_->pieces[k].watched.steps().empty())
+                watcher.look(at_->pieces[k].watched, begin);
+            else
+                watcher.look(followed(k, duration), begin);
             begin += duration;
         }
         const OrbitEvaluation::Piece& last = at_->pieces[layout.last_piece(s)];
@@ -230,6 +235,19 @@ private:
         object(watcher.verdict(begin, values_));
         for (const OrbitMinimum& minimum : watcher.minima())
             certificate_.minima.push_back(minimum);
+    }
+
+    /// Events along a piece that has not been followed step by step.
+    const WatchedSeries& followed(std::size_t k, double duration) {
+        const double* start = at_->unknowns.data() + equations_->layout().start_of(k);
+        std::vector<double> state(start, start + states_);
+        const std::size_t mode = equations_->mode_of(k);
+        series_.begin(system_->mode(mode).watched.size());
+        equations_->flow_at(*at_).run(mode, state, duration, [&](const Jet& jet, double time, double length) {
+            series_.note(jet);
+            series_.end_step(time, length);
+        });
+        return series_;
     }
 
     void look_at_end(std::size_t s) {
@@ -278,7 +296,7 @@ private:
     const System* system_;
     const OrbitEvaluation* at_;
     std::size_t states_;
-    ModeFlow* flow_;
+    WatchedSeries series_;
     RootFinder roots_;
     std::vector<double> work_, inputs_, values_, gradients_, field_;
     Certificate certificate_;

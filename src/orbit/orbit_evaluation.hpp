@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/flow/watched_series.hpp"
 #include "orbit/cyclic_system.hpp"
 
 #include <Eigen/Core>
@@ -20,6 +21,7 @@ struct OrbitEvaluation {
         std::vector<double> end;    ///< state at its end, before the jump
         std::vector<double> after;  ///< and after
         Eigen::MatrixXd flow;       ///< derivatives of `end`, states x (states + free)
+        WatchedSeries watched;      ///< events on the way, where it has been followed step by step
         Eigen::VectorXd field;      ///< rates at its end
         Eigen::VectorXd by_time;    ///< derivatives of `end` with respect to the duration: `field`, if followed exactly
         Eigen::MatrixXd inner;      ///< of inner unknowns with respect to start, duration, free parameters; last, what

@@ -19,11 +19,12 @@ inline ModeFlow flow_of(const Simulation& simulation, std::vector<ParameterId> f
 
 /// ModeFlow::run with the derivatives as a matrix.
 inline ModeFlow::Ending run(ModeFlow& flow, std::size_t mode, std::span<double> state, double duration,
-                            Eigen::MatrixXd& derivatives) {
+                            Eigen::MatrixXd& derivatives, WatchedSeries* watched = nullptr) {
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     RowMajor rows(static_cast<Eigen::Index>(state.size()),
                   static_cast<Eigen::Index>(state.size() + flow.free().size()));
-    const auto ending = flow.run(mode, state, duration, std::span(rows.data(), static_cast<std::size_t>(rows.size())));
+    const auto ending =
+        flow.run(mode, state, duration, std::span(rows.data(), static_cast<std::size_t>(rows.size())), watched);
     if (ending == ModeFlow::Ending::done)
         derivatives = rows;
     return ending;

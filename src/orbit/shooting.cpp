@@ -72,7 +72,7 @@ bool Shooting::follow(std::size_t k, const Eigen::VectorXd& unknowns, OrbitEvalu
     const double* start = unknowns.data() + layout().start_of(k);
     piece.end.assign(start, start + layout().states());
     const std::size_t segment = layout().segment_of(k) + 1;
-    switch (run(flow(), mode_of(k), piece.end, unknowns[index(layout().duration_of(k))], piece.flow)) {
+    switch (run(flow(), mode_of(k), piece.end, unknowns[index(layout().duration_of(k))], piece.flow, &piece.watched)) {
     case ModeFlow::Ending::done:
         ends().field(segment - 1, piece.end, piece.field);
         piece.by_time = piece.field;

@@ -4,6 +4,7 @@
 #include "graze/flow/step_check.hpp"
 #include "graze/flow/step_size.hpp"
 #include "graze/flow/tangent_steps.hpp"
+#include "graze/flow/watched_series.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -41,7 +42,9 @@ public:
     Ending run(std::size_t mode, std::span<double> state, double duration, const StepVisitor& visit = {});
     /// The same with derivatives. @param derivatives of the end at fixed time with respect to the states of the start
     /// and the free parameters, states x (starts + free) row by row
-    Ending run(std::size_t mode, std::span<double> state, double duration, std::span<double> derivatives);
+    /// @param watched what the mode's events do on the way, unless null
+    Ending run(std::size_t mode, std::span<double> state, double duration, std::span<double> derivatives,
+               WatchedSeries* watched = nullptr);
 
     std::size_t steps() const { return steps_; } ///< since it was made
 
