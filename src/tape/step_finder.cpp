@@ -185,7 +185,7 @@ KernelOperands StepFinder::combination_operands(const Instruction& instruction) 
     KernelOperands operands{register_at(instruction.result),  {},
                             constant_at(instruction.third),   {},
                             terms_.data() + instruction.left, terms_.data() + instruction.right};
-    if (combination_row(instruction) == 1) {
+    if (combination_row(instruction) == 1) { // a single term needs no list
         operands.left = register_at(tape_.terms[instruction.left].series);
         operands.third = constant_at(tape_.terms[instruction.left].coefficient);
     }
