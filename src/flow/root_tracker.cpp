@@ -16,6 +16,7 @@ constexpr int refinement_steps = 200;
 
 PointValue evaluate(std::span<const double> c, double s) {
     double value = 0, slope = 0, size = 0, size_slope = 0;
+#pragma GCC unroll 4
     for (std::size_t k = c.size(); k-- > 0;) {
         slope = slope * s + value;
         value = value * s + c[k];

@@ -32,6 +32,85 @@ void restore_start(std::span<const double> c, double length, Root& root) {
         root = {root.kind, at, value};
 }
 
+/// What is known of a sum throughout an interval: its sign (0 where that is not certain), and its least size.
+struct Kept {
+    int sign = 0;
+    double least = 0;
+};
+
+/// Sum of factor(k) |c_k| s^(k - first), k >= first. Odd and even terms are summed side by side.
+template <class Factor>
+double sum_of_sizes(std::span<const double> c, std::size_t first, double s, Factor factor) {
+    const double square = s * s;
+    double sums[2] = {0, 0};
+    std::size_t k = c.size();
+    if ((k - first) % 2 == 1) {
+        --k;
+        sums[0] = factor(static_cast<double>(k)) * std::abs(c[k]);
+    }
+    double orders[2] = {static_cast<double>(k), static_cast<double>(k) + 1};
+    for (const double* pair = c.data() + k; k > first; k -= 2) {
+        pair -= 2;
+        for (std::size_t j = 0; j < 2; ++j) {
+            orders[j] -= 2;
+            sums[j] = sums[j] * square + factor(orders[j]) * std::abs(pair[j]);
+        }
+    }
+    return sums[0] + sums[1] * s;
+}
+
+/// Whether the sum of the terms factor(k) c_k s^(k - first), k >= first, keeps its sign for 0 <= s <= length: it is
+/// between its partial sums at `length`, as in `enclosure`. Of the small terms behind the first ones only sizes count.
+/// @param factor exact
+template <class Factor>
+Kept kept_sign(std::span<const double> c, std::size_t first, double length, Factor factor) {
+    if (c.size() <= first || !(length > 0))
+        return {};
+    constexpr std::size_t signed_terms = 8;
+    const double sign = c[first] > 0 ? 1 : -1;
+    double sum = 0, size = 0, power = sign, least = infinity, order = static_cast<double>(first);
+    const std::size_t behind = std::min(c.size(), first + signed_terms);
+    for (std::size_t k = first; k < behind; ++k) {
+        const double term = factor(order) * c[k] * power;
+        sum += term;
+        size += std::abs(term);
+        least = std::min(least, sum);
+        power *= length;
+        order += 1;
+    }
+    const double rest = sum_of_sizes(c, behind, length, factor) * std::abs(power);
+    // The factor has a round-off of its own.
+    const double share = unit_roundoff * static_cast<double>(2 * c.size() + 9);
+    least = std::min(least, sum - rest) - share * (size + rest);
+    return least > 0 && least < infinity ? Kept{sign > 0 ? 1 : -1, least} : Kept{};
+}
+
+/// Of its second derivative.
+Kept kept_bend(std::span<const double> c, double length) {
+    return kept_sign(c, 2, length, [](double k) { return k * (k - 1); });
+}
+
+/// How far a polynomial may fall below its value at a place where its slope is some 0, over a distance in which its
+/// second derivative is at least `bend`.
+double fall_beyond(double slope, double bend, double distance) {
+    return slope > 0 ? std::min(slope * distance, slope * slope / (2 * bend)) : 0;
+}
+
+/// Of a polynomial whose second derivative is at least `bend` > 0, what it does not fall below in [at - left, at +
+/// right].
+double least_around(const PointValue& point, double bend, double left, double right) {
+    const double fall = std::max(fall_beyond(point.slope_error + point.slope, bend, left),
+                                 fall_beyond(point.slope_error - point.slope, bend, right));
+    return point.value - point.value_error - fall;
+}
+
+/// Of a polynomial that rises or falls from start to end, where it passes zero if its inverse is the cubic that has its
+/// slopes.
+double guess_of_monotone(std::span<const double> c, double length, const PointValue& end) {
+    const double change = end.value - c[0], t = -c[0] / change, rest = 1 - t;
+    return t * t * (3 - 2 * t) * length + change * t * rest * (rest / c[1] - t / end.slope);
+}
+
 } // namespace
 
 RootFinder::RootFinder(int highest_degree) : highest_degree_(std::max(highest_degree, 0)) {
@@ -78,42 +157,53 @@ bool RootFinder::surely_positive(std::span<const double> c, double length, RootS
 }
 
 int RootFinder::trend(std::span<const double> c, double length) {
-    // As in `enclosure`, of the derivative; the factor k has a round-off of its own.
-    const double share = unit_roundoff * static_cast<double>(2 * c.size() + 9);
-    double low = 0, high = 0, power = 1, least = infinity, greatest = -infinity;
-    for (std::size_t k = 1; k < c.size(); ++k) {
-        const double term = static_cast<double>(k) * c[k] * power, uncertainty = share * std::abs(term);
-        low += term - uncertainty;
-        high += term + uncertainty;
-        least = std::min(least, low);
-        greatest = std::max(greatest, high);
-        power *= length;
+    return kept_sign(c, 1, length, [](double k) { return k; }).sign;
+}
+
+/// Where a polynomial that bends upwards throughout is least. @param slope at the end
+double RootFinder::lowest_place(std::span<const double> c, double length, double slope) {
+    if (c[1] >= 0 || slope <= 0)
+        return c[1] >= 0 ? 0 : length;
+    for (std::size_t k = 1; k < c.size(); ++k)
+        slope_[k - 1] = static_cast<double>(k) * c[k];
+    return roots::refine(std::span(slope_).first(c.size() - 1), 0, length, -1, length * c[1] / (c[1] - slope));
+}
+
+/// The falling root of a polynomial that is positive at first and falls or bends upwards throughout.
+/// @param way its trend
+/// @return whether it has one; nothing where that is not so simple, or where there may be a touch
+std::optional<bool> RootFinder::falls_once_or_never(std::span<const double> c, double length, int way, double touch,
+                                                    Root& root) {
+    const Kept bend = way == 0 ? kept_bend(c, length) : Kept{};
+    if (way == 0 && bend.sign <= 0)
+        return std::nullopt;
+    const PointValue end = evaluate(c, length);
+    double at = length;
+    if (end.sign() >= 0) {
+        if (way == 0)
+            at = lowest_place(c, length, end.slope);
+        const PointValue lowest = way == 0 ? evaluate(c, at) : end;
+        if ((way == 0 ? least_around(lowest, bend.least, at, length - at) : end.value - end.value_error) > touch)
+            return false;
+        if (lowest.sign() >= 0)
+            return std::nullopt;
     }
-    if (!(high - low < infinity) || !(length > 0) || c.size() < 2)
-        return 0;
-    return least > 0 ? 1 : greatest < 0 ? -1 : 0;
+    const double guess = way < 0 ? guess_of_monotone(c, length, end) : -c[0] / c[1];
+    at = roots::refine(c, 0, at, 1, guess);
+    root = {RootKind::falling, at, evaluate_polynomial(c, at)};
+    return true;
 }
 
 bool RootFinder::first_falling(std::span<const double> c, double length, RootStart start, Root& root, double touch,
                                std::vector<Root>* touches) {
     if (!touches && surely_positive(c, length, start))
         return false;
-    switch (trend(c, length)) {
-    case 1:
-        if (start == RootStart::deflate || evaluate(c, 0).sign() > 0)
-            return false;
-        break;
-    case -1:
-        if (start == RootStart::as_is && evaluate(c, 0).sign() > 0 && evaluate(c, length).sign() < 0) {
-            const double end = evaluate_polynomial(c, length);
-            const double at = roots::refine(c, 0, length, 1, length * c[0] / (c[0] - end));
-            root = {RootKind::falling, at, evaluate_polynomial(c, at)};
-            return true;
-        }
-        break;
-    default:
-        break;
-    }
+    const int way = trend(c, length);
+    if (way > 0 && (start == RootStart::deflate || (!c.empty() && c[0] > 0)))
+        return false;
+    if (start == RootStart::as_is && has_room(c) && !c.empty() && c[0] > 0)
+        if (const auto found = falls_once_or_never(c, length, way, touch, root))
+            return *found;
     Isolation isolation(*this, c, length, start);
     if (!isolation.usable())
         return false;
@@ -131,6 +221,8 @@ bool RootFinder::first_falling(std::span<const double> c, double length, RootSta
 
 void RootFinder::crossings(std::span<const double> c, double length, RootStart start, std::vector<Root>& roots) {
     roots.clear();
+    if (start == RootStart::as_is && has_room(c) && crosses_once_or_never(c, length, roots))
+        return;
     Isolation isolation(*this, c, length, start);
     if (!isolation.usable())
         return;
@@ -142,7 +234,56 @@ void RootFinder::crossings(std::span<const double> c, double length, RootStart s
             restore_start(c, length, root);
 }
 
+/// Most polynomials rise or fall throughout, or keep their sign, as one pass shows.
+/// @return whether it has, and `roots` has the crossing if there is one
+bool RootFinder::crosses_once_or_never(std::span<const double> c, double length, std::vector<Root>& roots) {
+    if (c.empty() || c[0] == 0 || !(length > 0) || !(length < infinity))
+        return false;
+    const int at_start = c[0] > 0 ? 1 : -1;
+    const PointValue end = evaluate(c, length);
+    const int at_end = end.sign();
+    if (at_end == at_start && kept_sign(c, 0, length, [](double) { return 1; }).sign == at_start)
+        return true;
+    if (at_end == 0 || trend(c, length) == 0)
+        return false;
+    if (at_end == at_start)
+        return true;
+    const double at = roots::refine(c, 0, length, at_start, guess_of_monotone(c, length, end));
+    roots.push_back({at_start > 0 ? RootKind::falling : RootKind::rising, at, evaluate_polynomial(c, at)});
+    return true;
+}
+
+/// The least value of polynomials that rise or fall throughout, or bend to one side. @return whether this one does
+bool RootFinder::simple_minimum(std::span<const double> c, double length, Minimum& minimum) {
+    if (c.empty() || !std::isfinite(c[0]))
+        return false;
+    const int way = trend(c, length);
+    const Kept bend = way == 0 ? kept_bend(c, length) : Kept{};
+    if (way == 0 && bend.sign == 0)
+        return false;
+    const double bound_at_start = c[0] - 4 * unit_roundoff * std::abs(c[0]);
+    if (way > 0) {
+        minimum = {0, c[0], bound_at_start};
+        return true;
+    }
+    const PointValue end = evaluate(c, length);
+    const double bound_at_end = end.value - end.value_error;
+    if (bend.sign <= 0) { // it lies at an end
+        minimum =
+            way == 0 && c[0] <= end.value ? Minimum{0, c[0], bound_at_start} : Minimum{length, end.value, bound_at_end};
+        if (way == 0)
+            minimum.lower_bound = std::min(bound_at_start, bound_at_end);
+        return true;
+    }
+    const double at = lowest_place(c, length, end.slope);
+    const PointValue point = evaluate(c, at);
+    minimum = {at, point.value, least_around(point, bend.least, at, length - at)};
+    return true;
+}
+
 Minimum RootFinder::minimum(std::span<const double> c, double length) {
+    if (Minimum minimum; has_room(c) && length < infinity && simple_minimum(c, length, minimum))
+        return minimum;
     Isolation isolation(*this, c, length, RootStart::as_is);
     if (isolation.usable())
         return isolation.minimum();
@@ -177,6 +318,8 @@ double evaluate_polynomial(std::span<const double> c, double s) {
 }
 
 double evaluate_polynomial(const Series& c, std::size_t size, double s) {
+    if (c.stride == 1)
+        return evaluate_polynomial({c.first, size}, s);
     return sum_in_parts(size, s, [c](std::size_t k) { return c[k]; });
 }
 

@@ -30,7 +30,7 @@ constexpr std::size_t longest_chain = 64;
 /// Logarithm of what is lost beside one.
 constexpr double nothing = 40;
 
-void end_of_chain(const KernelOperands*, const KernelLink*, int) {}
+void end_of_chain(const KernelOperands*, const KernelLink*, Order) {}
 
 /// Numbers aligned to cache lines, all 0 at first.
 class AlignedNumbers {
@@ -123,17 +123,23 @@ public:
     }
 
 private:
-    /// Steps at one order; operands are shared by orders that take the same steps. The kernels are in chains of at
-    /// most `longest_chain`, each with a last one that only returns.
-    struct Segment {
-        std::size_t kernels, operands, count;
-    };
-    /// The first of a chain.
+    /// The first of a chain of at most `longest_chain` kernels, behind which is one that only returns. It may go on
+    /// from one order to the next.
     struct Chain {
         const KernelLink* link;
         const KernelOperands* operands;
-        int order;
-        void run() const { link->kernel(operands, link + 1, order); }
+        Order order;
+    };
+    static void run(std::span<const Chain> chains) {
+        for (const Chain& chain : chains)
+            chain.link->kernel(chain.operands, chain.link + 1, chain.order);
+    }
+    /// Steps at one order, and where the operands are that they share with those of the order before.
+    struct Segment {
+        std::vector<KernelStep> steps;
+        Order order;
+        bool begins; ///< a chain of its own
+        std::size_t operands = 0;
     };
     struct Copy {
         const double* from;
@@ -152,7 +158,7 @@ private:
         if (tangent_)
             throw std::invalid_argument(std::string("a tangent jet has no ") + what + ": its lanes are derivatives");
     }
-    void add_segment(const std::vector<KernelStep>& steps, std::vector<Segment>& segments);
+    void find_operands(std::vector<Segment>& segments);
     void find_chains(const std::vector<Segment>& segments);
     void find_constants(const Tape& tape, const KernelTable& table);
     void compute_constants();
@@ -200,8 +206,14 @@ TapeJet::TapeJet(const Tape& tape, int order, LaneKind kind, const KernelTable& 
 
     const StepFinder finder(tape, table, layout_, memory_.data(), terms_);
     std::vector<Segment> segments;
-    for (int k = 0; k <= order; ++k)
-        add_segment(finder.steps(k), segments);
+    for (int k = 0; k <= order; ++k) {
+        if (k == 2)
+            segments.push_back({finder.before_all(), order, true});
+        segments.push_back({finder.steps(k), k, k % 2 == 0 && k <= 2});
+    }
+    if (order > 1)
+        segments.push_back({finder.after_all(), order, true});
+    find_operands(segments);
     find_chains(segments);
 
     std::size_t constant_outputs = 0;
@@ -255,7 +267,8 @@ void TapeJet::sort_series(const Tape& tape) {
         const Tape::Location& at = tape.outputs[j];
         const Series& series = series_[states_ + j];
         const std::uint32_t degree = at.constant ? 0 : tape.degrees[at.index];
-        (degree <= 1 && order > 2 ? lines_ : followed_).push_back(series);
+        if (at.constant || at.index >= tape.states) // states are there already
+            (degree <= 1 && order > 2 ? lines_ : followed_).push_back(series);
         if (degree > order && !affine[at.index])
             compared_outputs_.push_back(series);
     }
@@ -264,40 +277,50 @@ void TapeJet::sort_series(const Tape& tape) {
                    compared_outputs_.data(), compared_outputs_.size(), order_};
 }
 
-void TapeJet::add_segment(const std::vector<KernelStep>& steps, std::vector<Segment>& segments) {
-    if (!segments.empty()) {
-        const Segment& last = segments.back();
-        bool same = last.count == steps.size();
-        for (std::size_t i = 0; same && i < steps.size(); ++i)
-            same = same_operands({nullptr, operands_[last.operands + i]}, steps[i]);
-        segments.push_back({kernels_.size(), same ? last.operands : operands_.size(), steps.size()});
-    } else {
-        segments.push_back({0, 0, steps.size()});
+void TapeJet::find_operands(std::vector<Segment>& segments) {
+    const Segment* last = nullptr;
+    for (Segment& segment : segments) {
+        if (last && std::ranges::equal(segment.steps, last->steps, same_operands)) {
+            segment.operands = last->operands;
+        } else {
+            segment.operands = operands_.size();
+            for (const KernelStep& step : segment.steps)
+                operands_.push_back(step.operands);
+        }
+        last = &segment;
     }
-    const bool new_operands = segments.back().operands == operands_.size();
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-        if (i > 0 && i % longest_chain == 0)
-            kernels_.push_back({end_of_chain});
-        kernels_.push_back({steps[i].kernel});
-        if (new_operands)
-            operands_.push_back(steps[i].operands);
-    }
-    kernels_.push_back({end_of_chain});
 }
 
 void TapeJet::find_chains(const std::vector<Segment>& segments) {
-    for (int k = 0; k <= order_; ++k) {
-        const Segment& segment = segments[static_cast<std::size_t>(k)];
-        const KernelLink* link = kernels_.data() + segment.kernels;
+    std::size_t most = 0;
+    for (const Segment& segment : segments)
+        most += 2 * segment.steps.size() + 3;
+    kernels_.reserve(most); // chains point to them
+    std::size_t length = 0; // of the present chain
+    for (const Segment& segment : segments) {
         const KernelOperands* operands = operands_.data() + segment.operands;
-        for (std::size_t done = 0; done < segment.count; done += longest_chain) {
-            chains_.push_back({link, operands, k});
-            link += longest_chain + 1;
-            operands += longest_chain;
+        if (!segment.begins && length > 0 && length + segment.steps.size() < longest_chain) {
+            kernels_.push_back({.kernel = table_.next_order});
+            kernels_.push_back({.operands = operands});
+        } else {
+            length = longest_chain;
         }
-        if (k == 1)
+        for (const KernelStep& step : segment.steps) {
+            if (step.kernel && length == longest_chain) {
+                kernels_.push_back({.kernel = end_of_chain});
+                chains_.push_back({kernels_.data() + kernels_.size(), operands, segment.order});
+                length = 0;
+            }
+            if (step.kernel) {
+                kernels_.push_back({.kernel = step.kernel});
+                ++length;
+            }
+            ++operands;
+        }
+        if (segment.order <= 1)
             beginning_ = chains_.size();
     }
+    kernels_.push_back({.kernel = end_of_chain});
 }
 
 void TapeJet::find_constants(const Tape& tape, const KernelTable& table) {
@@ -319,7 +342,7 @@ void TapeJet::find_constants(const Tape& tape, const KernelTable& table) {
 }
 
 void TapeJet::compute_constants() {
-    const KernelLink end{end_of_chain};
+    const KernelLink end{.kernel = end_of_chain};
     for (const KernelStep& step : constant_code_)
         step.kernel(&step.operands, &end, 0);
     for (const Copy& copy : constant_copies_)
@@ -371,14 +394,12 @@ void TapeJet::compute(std::span<const double> states) {
     if (!begun_ || states.size() != states_ * layout_.number || !has_states(states))
         begin(states);
     begun_ = false;
-    for (std::size_t i = beginning_; i < chains_.size(); ++i)
-        chains_[i].run();
+    run(std::span(chains_).subspan(beginning_));
 }
 
 void TapeJet::begin(std::span<const double> states) {
     set_states(states);
-    for (std::size_t i = 0; i < beginning_; ++i)
-        chains_[i].run();
+    run(std::span(chains_).first(beginning_));
     begun_ = true;
 }
 

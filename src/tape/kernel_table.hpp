@@ -31,12 +31,17 @@ struct KernelOperands {
     const TermOperands* terms_end;
 };
 
-struct KernelLink;
-/// Computes the coefficient of one order of one series, and then calls the next kernel, `next->kernel`, with the next
-/// operands, as its last act: a jump, where compilers optimise. It costs half of a loop that calls one after another.
-using Kernel = void (*)(const KernelOperands* operands, const KernelLink* next, int order);
-struct KernelLink {
+/// Of a coefficient; as wide as an address, to which it is added.
+using Order = std::ptrdiff_t;
+
+union KernelLink;
+/// Computes the coefficient of one order of one series (or of two, with the operands of both), and then calls the next
+/// kernel, `next->kernel`, with the next operands, as its last act: a jump, where compilers optimise. It costs half of
+/// a loop that calls one after another.
+using Kernel = void (*)(const KernelOperands* operands, const KernelLink* next, Order order);
+union KernelLink {
     Kernel kernel;
+    const KernelOperands* operands; ///< behind `KernelTable::next_order`
 };
 
 enum class GuardKind : unsigned char { other, exponential, hyperbolic_tangent, power };
@@ -108,17 +113,29 @@ struct KernelTable {
     Kernel closing[series_operation_count][highest_order + 1];
     /// By number of terms; for orders above 0.
     Kernel combination[combination_kernels];
-    Kernel combination_value; ///< at order 0, where the constant is added
+    Kernel combination_value[combination_kernels]; ///< at order 0, where the constant is added
+    /// All coefficients from 2 to the order that it is called with.
+    Kernel whole_combination[combination_kernels];
     /// Coefficients of a state from those of its rate, which is a series ...
     Kernel state;
     /// ... or a linear combination that nothing else needs.
     Kernel state_combination[combination_kernels];
-    Kernel state_combination_value;  ///< for coefficient 1 of the state
-    Kernel multiply_linear;          ///< left operand of degree 1; orders above 0
-    Kernel function_of_linear;       ///< y' = a' w, a of degree 1; orders above 0
-    Kernel minus_function_of_linear; ///< y' = -a' w
+    Kernel state_combination_value[combination_kernels]; ///< for coefficient 1 of the state
+    Kernel multiply_linear;                              ///< left operand of degree 1; orders above 0
+    Kernel function_of_linear;                           ///< y' = a' w, a of degree 1; orders above 0
+    Kernel minus_function_of_linear;                     ///< y' = -a' w
     /// Both at order 0; the cosine goes to `third` (the argument is in `left`).
     Kernel sine_and_cosine;
+    /// All coefficients from 2 to the order that they are called with, of an argument of degree 1, found likewise.
+    Kernel whole_sine_and_cosine, whole_hyperbolic_pair, whole_exponential;
+    /// Goes on with the next order and the operands found in the link that follows.
+    Kernel next_order;
+    // Of two steps, one after the other; null where there is no such kernel.
+    Kernel two_states;
+    /// An operation, and a multiple of its result.
+    Kernel with_multiple[series_operation_count][highest_order + 1];
+    /// A linear combination of two terms, and its quotient by something.
+    Kernel divide_combination[highest_order + 1];
     void (*literal)(double* result, double value);
     void (*sum)(const double* series, int order, const double* times, double* values);
     void (*sums_and_slopes)(const Series* series, const int* degrees, std::size_t count, const double* times,

@@ -159,18 +159,18 @@ GRAZE_INLINE V self_convolution(const double* a) {
 template <class V>
 struct Multiply {
     template <int k, bool closing = false>
-    GRAZE_INLINE static void run(const KernelOperands& o, int) {
+    GRAZE_INLINE static V run(const KernelOperands& o, Order) {
         const V a0 = at<V>(o.left, 0);
         const V b = at<V>(o.right, k);
         if constexpr (k == 0) {
-            put(o.result, 0, a0 * b);
+            return put(o.result, 0, a0 * b);
         } else {
             const V a = at<V>(o.left, k);
             const V b0 = at<V>(o.right, 0);
             if constexpr (k == 1)
-                put(o.result, k, multiply_add(a0, b, a * b0));
+                return put(o.result, k, multiply_add(a0, b, a * b0));
             else
-                put(o.result, k, multiply_add(a0, b, multiply_add(a, b0, inner<k, closing>(o, a))));
+                return put(o.result, k, multiply_add(a0, b, multiply_add(a, b0, inner<k, closing>(o, a))));
         }
     }
     template <int k, bool closing>
@@ -190,17 +190,17 @@ struct Multiply {
 template <class V>
 struct Square {
     template <int k, bool closing = false>
-    GRAZE_INLINE static void run(const KernelOperands& o, int) {
+    GRAZE_INLINE static V run(const KernelOperands& o, Order) {
         const V a = at<V>(o.left, k);
         if constexpr (k == 0) {
-            put(o.result, 0, a * a);
+            return put(o.result, 0, a * a);
         } else {
             const V a0 = at<V>(o.left, 0);
             const V twice = a0 + a0;
             if constexpr (k == 1)
-                put(o.result, k, twice * a);
+                return put(o.result, k, twice * a);
             else
-                put(o.result, k, multiply_add(twice, a, inner<k, closing>(o)));
+                return put(o.result, k, multiply_add(twice, a, inner<k, closing>(o)));
         }
     }
     template <int k, bool closing>
@@ -220,16 +220,17 @@ struct Square {
 /// Coefficients of a quotient depend on one another: `convolution` of the quotient and its divisor, and what is known
 /// of that of the next order once `finish` has computed the coefficient of this one.
 template <class V, int k, bool closing, class Finish>
-GRAZE_INLINE void divide_by(const double* divisor, double* quotient, Finish finish) {
+GRAZE_INLINE V divide_by(const double* divisor, double* quotient, Finish finish) {
     if constexpr (ends_pair<V, k>) {
-        put(quotient, k, finish(at<V>(quotient, k)));
+        return put(quotient, k, finish(at<V>(quotient, k)));
     } else if constexpr (starts_pair<V, k> && !closing) {
         TwoConvolutions<V, k> sums(quotient, divisor);
         const V result = finish(sums.first());
         put(quotient, k, result);
         put(quotient, k + 1, sums.second(result));
+        return result;
     } else {
-        put(quotient, k, finish(convolution<V, k>(quotient, divisor)));
+        return put(quotient, k, finish(convolution<V, k>(quotient, divisor)));
     }
 }
 
@@ -237,19 +238,23 @@ GRAZE_INLINE void divide_by(const double* divisor, double* quotient, Finish fini
 template <class V>
 struct Divide {
     template <int k, bool closing = false>
-    GRAZE_INLINE static void run(const KernelOperands& o, int) {
-        const V a = at<V>(o.left, k);
+    GRAZE_INLINE static V run(const KernelOperands& o, Order) {
+        return run_of<k, closing>(o, at<V>(o.left, k));
+    }
+    /// Given the coefficient of a.
+    template <int k, bool closing = false>
+    GRAZE_INLINE static V run_of(const KernelOperands& o, V a) {
         if constexpr (k == 0) {
             const V b0 = at<V>(o.right, 0);
             put(o.third, 0, Numbers<V>::of(1) / b0);
-            put(o.result, 0, a / b0);
+            return put(o.result, 0, a / b0);
         } else {
             const V reciprocal = at<V>(o.third, 0);
             const V slope = -(at<V>(o.result, 0) * reciprocal);
             if constexpr (k == 1)
-                put(o.result, k, multiply_add(a, reciprocal, slope * at<V>(o.right, k)));
+                return put(o.result, k, multiply_add(a, reciprocal, slope * at<V>(o.right, k)));
             else
-                divide_by<V, k, closing>(
+                return divide_by<V, k, closing>(
                     o.right, o.result, [&](V sum) __attribute__((always_inline)) {
                         return multiply_add(a, reciprocal, multiply_add(slope, at<V>(o.right, k), -(sum * reciprocal)));
                     });
@@ -260,17 +265,17 @@ struct Divide {
 template <class V>
 struct Reciprocal {
     template <int k, bool closing = false>
-    GRAZE_INLINE static void run(const KernelOperands& o, int) {
+    GRAZE_INLINE static V run(const KernelOperands& o, Order) {
         const V a = at<V>(o.left, k);
         if constexpr (k == 0) {
-            put(o.result, 0, Numbers<V>::of(1) / a);
+            return put(o.result, 0, Numbers<V>::of(1) / a);
         } else {
             const V reciprocal = at<V>(o.result, 0);
             const V slope = -(reciprocal * reciprocal);
             if constexpr (k == 1)
-                put(o.result, k, slope * a);
+                return put(o.result, k, slope * a);
             else
-                divide_by<V, k, closing>(
+                return divide_by<V, k, closing>(
                     o.left, o.result, [&](V sum) __attribute__((always_inline)) {
                         return multiply_add(slope, a, -(sum * reciprocal));
                     });
@@ -282,7 +287,7 @@ struct Reciprocal {
 template <class V>
 struct SquareRoot {
     template <int k>
-    GRAZE_INLINE static void run(const KernelOperands& o, int) {
+    GRAZE_INLINE static void run(const KernelOperands& o, Order) {
         const V a = at<V>(o.left, k);
         if constexpr (k == 0) {
             const V root = evaluate<Operation::sqrt>(a);
@@ -302,7 +307,7 @@ struct SquareRoot {
 template <class V>
 struct Power {
     template <int k>
-    GRAZE_INLINE static void run(const KernelOperands& o, int) {
+    GRAZE_INLINE static void run(const KernelOperands& o, Order) {
         const V a = at<V>(o.left, k);
         const V exponent = at<V>(o.right, 0);
         if constexpr (k == 0) {
@@ -333,7 +338,7 @@ struct Power {
 template <class V, bool negative>
 struct FunctionByProduct {
     template <int k>
-    GRAZE_INLINE static void run(const KernelOperands& o, int) {
+    GRAZE_INLINE static void run(const KernelOperands& o, Order) {
         const V a = at<V>(o.third, k);
         const V w0 = negative ? -at<V>(o.right, 0) : at<V>(o.right, 0);
         if constexpr (k == 1)
@@ -346,15 +351,37 @@ struct FunctionByProduct {
 
 /// The same where a_j = 0 for j > 1.
 template <class V, bool negative>
-GRAZE_INLINE void function_of_linear(const KernelOperands& o, int k) {
+GRAZE_INLINE void function_of_linear(const KernelOperands& o, Order k) {
     put(o.result, k, at<V>(o.right, k - 1) * (at<V>(o.third, 1) * (negative ? -inverse.of[k] : inverse.of[k])));
+}
+
+/// All coefficients of two such functions that are each other's w.
+template <class V, bool negative>
+GRAZE_INLINE void whole_pair(const KernelOperands& o, Order highest) {
+    const V slope = at<V>(o.left, 1);
+    V one = at<V>(o.result, 1), other = at<V>(o.third, 1);
+    for (Order k = 2; k <= highest; ++k) {
+        const V next = other * (slope * inverse.of[k]);
+        other = one * (slope * (negative ? -inverse.of[k] : inverse.of[k]));
+        one = next;
+        put(o.result, k, one);
+        put(o.third, k, other);
+    }
+}
+/// And of one that is its own.
+template <class V>
+GRAZE_INLINE void whole_exponential(const KernelOperands& o, Order highest) {
+    const V slope = at<V>(o.left, 1);
+    V value = at<V>(o.result, 1);
+    for (Order k = 2; k <= highest; ++k)
+        value = put(o.result, k, value * (slope * inverse.of[k]));
 }
 
 /// k y_k = (k y_k), found in `left`, with a sign.
 template <class V, bool negative>
 struct FunctionByQuotient {
     template <int k>
-    GRAZE_INLINE static void run(const KernelOperands& o, int) {
+    GRAZE_INLINE static void run(const KernelOperands& o, Order) {
         put(o.result, k, at<V>(o.left, k) * (negative ? -inverse.of[k] : inverse.of[k]));
     }
 };
@@ -362,19 +389,19 @@ struct FunctionByQuotient {
 template <class V>
 struct Derivative {
     template <int k>
-    GRAZE_INLINE static void run(const KernelOperands& o, int) {
+    GRAZE_INLINE static void run(const KernelOperands& o, Order) {
         put(o.result, k, k == 0 ? Numbers<V>::of(0) : at<V>(o.left, k) * double(k));
     }
 };
 
 template <class V, Operation function>
-GRAZE_INLINE void function_value(const KernelOperands& o, int) {
+GRAZE_INLINE void function_value(const KernelOperands& o, Order) {
     put(o.result, 0, evaluate<function>(at<V>(o.third, 0)));
 }
 
 /// Compilers make one call of the library of the two.
 template <class V>
-GRAZE_INLINE void sine_and_cosine(const KernelOperands& o, int) {
+GRAZE_INLINE void sine_and_cosine(const KernelOperands& o, Order) {
     const V a = at<V>(o.left, 0);
     V sine, cosine;
     evaluate_sine_and_cosine(a, sine, cosine);
@@ -383,63 +410,123 @@ GRAZE_INLINE void sine_and_cosine(const KernelOperands& o, int) {
 }
 
 template <class V>
-GRAZE_INLINE void multiply_linear(const KernelOperands& o, int k) {
+GRAZE_INLINE void multiply_linear(const KernelOperands& o, Order k) {
     put(o.result, k, multiply_add(at<V>(o.left, 0), at<V>(o.right, k), at<V>(o.left, 1) * at<V>(o.right, k - 1)));
 }
 
-/// Sum of coefficient times series at one order; the terms that are ready last come last.
-template <class V, int count>
-GRAZE_INLINE V combination(const TermOperands* terms, int k) {
-    V sum = at<V>(terms[0].coefficient, 0) * at<V>(terms[0].series, k);
-    for (int i = 1; i < count; ++i)
-        sum = multiply_add(at<V>(terms[i].coefficient, 0), at<V>(terms[i].series, k), sum);
-    return sum;
-}
+/// Numbers at one order ...
 template <class V>
-GRAZE_INLINE V combination(const TermOperands* terms, const TermOperands* end, int k) {
-    V sums[4] = {Numbers<V>::of(0), Numbers<V>::of(0), Numbers<V>::of(0), Numbers<V>::of(0)};
-    for (; end - terms >= 4; terms += 4)
-        for (int i = 0; i < 4; ++i)
-            sums[i] = multiply_add(at<V>(terms[i].coefficient, 0), at<V>(terms[i].series, k), sums[i]);
-    V sum = total<4>(sums);
-    for (; terms != end; ++terms)
-        sum = multiply_add(at<V>(terms->coefficient, 0), at<V>(terms->series, k), sum);
-    return sum;
-}
-template <class V, int count>
-GRAZE_INLINE V combination(const KernelOperands& o, int k) {
-    if constexpr (count == 0)
-        return combination<V>(o.terms, o.terms_end, k);
-    else
-        return combination<V, count>(o.terms, k);
+struct OneOrder {
+    GRAZE_INLINE static V zero() { return Numbers<V>::of(0); }
+    GRAZE_INLINE static V coefficient(const double* from) { return at<V>(from, 0); }
+    GRAZE_INLINE static V term(const double* series, Order k) { return at<V>(series, k); }
+};
+/// ... and those of one lane at as many orders as a register has room for.
+struct ManyOrders {
+    GRAZE_INLINE static Pack zero() { return splat(0); }
+    GRAZE_INLINE static Pack coefficient(const double* from) { return splat(*from); }
+    GRAZE_INLINE static Pack term(const double* series, Order k) {
+        Pack terms;
+        __builtin_memcpy(&terms, series + k, sizeof(Pack));
+        return terms;
+    }
+};
+
+/// Sum of coefficient times series; the terms that are ready last come last.
+/// @tparam count of terms; 0: any
+template <class At, int count>
+GRAZE_INLINE auto combination(const KernelOperands& o, Order k) {
+    const auto add = [k](const TermOperands& term, auto sum) __attribute__((always_inline)) {
+        return multiply_add(At::coefficient(term.coefficient), At::term(term.series, k), sum);
+    };
+    if constexpr (count == 1) {
+        return At::coefficient(o.third) * At::term(o.left, k);
+    } else if constexpr (count > 1) {
+        const TermOperands* terms = o.terms;
+        auto sum = At::coefficient(terms[0].coefficient) * At::term(terms[0].series, k);
+        for (int i = 1; i < count; ++i)
+            sum = add(terms[i], sum);
+        return sum;
+    } else {
+        const TermOperands* terms = o.terms;
+        decltype(At::zero()) sums[4] = {At::zero(), At::zero(), At::zero(), At::zero()};
+        for (; o.terms_end - terms >= 4; terms += 4)
+            for (int i = 0; i < 4; ++i)
+                sums[i] = add(terms[i], sums[i]);
+        auto sum = total<4>(sums);
+        for (; terms != o.terms_end; ++terms)
+            sum = add(*terms, sum);
+        return sum;
+    }
 }
 
 template <class V>
 struct Combination {
     template <int count>
-    GRAZE_INLINE static void run(const KernelOperands& o, int k) {
-        put(o.result, k, combination<V, count>(o, k));
+    GRAZE_INLINE static void run(const KernelOperands& o, Order k) {
+        put(o.result, k, combination<OneOrder<V>, count>(o, k));
     }
-    GRAZE_INLINE static void run_value(const KernelOperands& o, int) {
-        put(o.result, 0, combination<V, 0>(o, 0) + at<V>(o.right, 0));
+    template <int count>
+    GRAZE_INLINE static void run_value(const KernelOperands& o, Order) {
+        put(o.result, 0, combination<OneOrder<V>, count>(o, 0) + at<V>(o.right, 0));
+    }
+    template <int count>
+    GRAZE_INLINE static void run_whole(const KernelOperands& o, Order highest) {
+        Order k = 2;
+        if constexpr (Numbers<V>::width == 1)
+            for (; k + lanes <= highest + 1; k += lanes) {
+                const Pack sums = combination<ManyOrders, count>(o, k);
+                __builtin_memcpy(o.result + k, &sums, sizeof(Pack));
+            }
+        for (; k <= highest; ++k)
+            run<count>(o, k);
     }
 };
 
 template <class V>
 struct StateCombination {
     template <int count>
-    GRAZE_INLINE static void run(const KernelOperands& o, int k) {
-        put(o.result, k, combination<V, count>(o, k - 1) * inverse.of[k]);
+    GRAZE_INLINE static void run(const KernelOperands& o, Order k) {
+        put(o.result, k, combination<OneOrder<V>, count>(o, k - 1) * inverse.of[k]);
     }
-    GRAZE_INLINE static void run_value(const KernelOperands& o, int) {
-        put(o.result, 1, combination<V, 0>(o, 0) + at<V>(o.right, 0));
+    template <int count>
+    GRAZE_INLINE static void run_value(const KernelOperands& o, Order) {
+        put(o.result, 1, combination<OneOrder<V>, count>(o, 0) + at<V>(o.right, 0));
     }
 };
 
 template <class V>
-GRAZE_INLINE void state(const KernelOperands& o, int k) {
+GRAZE_INLINE void state(const KernelOperands& o, Order k) {
     put(o.result, k, at<V>(o.left, k - 1) * inverse.of[k]);
 }
+
+// Two steps that are often taken one after the other. Their operands stand side by side.
+
+template <class V>
+GRAZE_INLINE void two_states(const KernelOperands* operands, Order k) {
+    const V one = at<V>(operands[0].left, k - 1), other = at<V>(operands[1].left, k - 1);
+    put(operands[0].result, k, one * inverse.of[k]);
+    put(operands[1].result, k, other * inverse.of[k]);
+}
+
+/// An operation, and a linear combination of its result alone.
+template <class V, class Family>
+struct WithMultiple {
+    template <int k>
+    GRAZE_INLINE static void run(const KernelOperands* operands, Order order) {
+        const V result = Family::template run<k>(operands[0], order);
+        put(operands[1].result, k, at<V>(operands[1].third, 0) * result);
+    }
+};
+
+template <class V>
+struct DivideCombination {
+    template <int k>
+    GRAZE_INLINE static void run(const KernelOperands* operands, Order) {
+        const V sum = put(operands[0].result, k, combination<OneOrder<V>, 2>(operands[0], k));
+        Divide<V>::template run_of<k>(operands[1], sum);
+    }
+};
 
 template <class V>
 void literal(double* result, double value) {
@@ -448,7 +535,7 @@ void literal(double* result, double value) {
 
 /// Arithmetic on numbers.
 template <class V, Operation operation>
-GRAZE_INLINE void constant(const KernelOperands& o, int) {
+GRAZE_INLINE void constant(const KernelOperands& o, Order) {
     const V a = at<V>(o.left, 0);
     if constexpr (operation == Operation::add)
         put(o.result, 0, a + at<V>(o.right, 0));

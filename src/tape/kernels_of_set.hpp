@@ -11,10 +11,25 @@
 
 namespace graze::GRAZE_INSTRUCTION_SET {
 
+/// Goes on with what comes next.
+GRAZE_INLINE void go_on(const KernelOperands* operands, const KernelLink* next, Order order) {
+    ++next;
+    asm("" : "+r"(next)); // otherwise compilers keep two pointers, to save nothing
+    return next[-1].kernel(operands, next, order);
+}
+
 template <auto step>
-void chained(const KernelOperands* operands, const KernelLink* next, int order) {
+void chained(const KernelOperands* operands, const KernelLink* next, Order order) {
     step(*operands, order);
-    return next->kernel(operands + 1, next + 1, order);
+    return go_on(operands + 1, next, order);
+}
+template <auto steps>
+void chained_two(const KernelOperands* operands, const KernelLink* next, Order order) {
+    steps(operands, order);
+    return go_on(operands + 2, next, order);
+}
+inline void next_order(const KernelOperands*, const KernelLink* next, Order order) {
+    return go_on(next->operands, next + 1, order + 1);
 }
 
 template <class Family, int... k>
@@ -47,9 +62,32 @@ constexpr void fill_constants(KernelTable& table) {
     ((table.constant[static_cast<int>(operation)] = &chained<&constant<V, operation>>), ...);
 }
 
-template <class Family, int... count>
-constexpr void fill_combinations(Kernel (&row)[combination_kernels], Indices<count...>) {
-    ((row[count] = &chained<&Family::template run<count>>), ...);
+template <class V, int... count>
+constexpr void fill_combinations(KernelTable& table, Indices<count...>) {
+    ((table.combination[count] = &chained<&Combination<V>::template run<count>>), ...);
+    ((table.combination_value[count] = &chained<&Combination<V>::template run_value<count>>), ...);
+    ((table.whole_combination[count] = &chained<&Combination<V>::template run_whole<count>>), ...);
+    ((table.state_combination[count] = &chained<&StateCombination<V>::template run<count>>), ...);
+    ((table.state_combination_value[count] = &chained<&StateCombination<V>::template run_value<count>>), ...);
+}
+
+template <class Family, int... k>
+constexpr void fill_twos(Kernel (&row)[highest_order + 1], Indices<k...>) {
+    ((row[k + 1] = &chained_two<&Family::template run<k + 1>>), ...);
+}
+template <class Family>
+constexpr void fill_with_multiple(KernelTable& table, SeriesOperation operation) {
+    fill_twos<WithMultiple<double, Family>>(table.with_multiple[static_cast<int>(operation)],
+                                            std::make_integer_sequence<int, highest_order>{});
+}
+/// Only for a single lane: where there are more, each step has work enough for itself.
+constexpr void fill_twos(KernelTable& table) {
+    table.two_states = &chained_two<&two_states<double>>;
+    fill_with_multiple<Multiply<double>>(table, SeriesOperation::multiply);
+    fill_with_multiple<Divide<double>>(table, SeriesOperation::divide);
+    fill_with_multiple<Square<double>>(table, SeriesOperation::square);
+    fill_with_multiple<Reciprocal<double>>(table, SeriesOperation::reciprocal);
+    fill_twos<DivideCombination<double>>(table.divide_combination, std::make_integer_sequence<int, highest_order>{});
 }
 
 template <class V, class Family, int... k>
@@ -78,16 +116,18 @@ constexpr KernelTable make_table() {
     fill_function<V, Operation::name, Recurrence::recurrence>(table, SeriesOperation::name);
     GRAZE_FUNCTIONS(GRAZE_ROW)
 #undef GRAZE_ROW
-    fill_combinations<Combination<V>>(table.combination, std::make_integer_sequence<int, combination_kernels>{});
-    table.combination_value = &chained<&Combination<V>::run_value>;
+    fill_combinations<V>(table, std::make_integer_sequence<int, combination_kernels>{});
     table.state = &chained<&state<V>>;
-    fill_combinations<StateCombination<V>>(table.state_combination,
-                                           std::make_integer_sequence<int, combination_kernels>{});
-    table.state_combination_value = &chained<&StateCombination<V>::run_value>;
     table.multiply_linear = &chained<&multiply_linear<V>>;
     table.function_of_linear = &chained<&function_of_linear<V, false>>;
     table.minus_function_of_linear = &chained<&function_of_linear<V, true>>;
     table.sine_and_cosine = &chained<&sine_and_cosine<V>>;
+    table.whole_sine_and_cosine = &chained<&whole_pair<V, true>>;
+    table.whole_hyperbolic_pair = &chained<&whole_pair<V, false>>;
+    table.whole_exponential = &chained<&whole_exponential<V>>;
+    table.next_order = &next_order;
+    if constexpr (std::is_same_v<V, double>)
+        fill_twos(table);
     table.literal = &literal<V>;
     table.sum = &sum<V>;
     table.sums_and_slopes = &sums_and_slopes<V>;

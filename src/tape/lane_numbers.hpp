@@ -6,6 +6,7 @@
 
 #include "symbolic/function_table.hpp"
 
+#include <cstddef>
 #include <math.h>
 #if defined(__AVX512F__) || defined(__FMA__)
 #include <immintrin.h>
@@ -196,12 +197,13 @@ struct Numbers<Tangent> {
 
 /// Coefficient of a series.
 template <class V>
-GRAZE_INLINE V at(const double* series, int order) {
+GRAZE_INLINE V at(const double* series, std::ptrdiff_t order) {
     return Numbers<V>::load(series + order * Numbers<V>::width);
 }
 template <class V>
-GRAZE_INLINE void put(double* series, int order, V number) {
+GRAZE_INLINE V put(double* series, std::ptrdiff_t order, V number) {
     Numbers<V>::store(series + order * Numbers<V>::width, number);
+    return number;
 }
 
 template <Operation function>

@@ -24,7 +24,19 @@ Layout::Layout(const Tape& tape, int highest, int width)
 StepFinder::StepFinder(const Tape& tape, const KernelTable& table, const Layout& layout, double* memory,
                        const std::vector<TermOperands>& terms)
     : tape_(tape), table_(table), layout_(layout), memory_(memory), terms_(terms) {
-    find_private_rates();
+    // By instructions, rates and outputs.
+    std::vector<std::uint32_t> uses(tape.registers, 0);
+    const auto use = [&](std::uint32_t reg) { ++uses[reg]; };
+    for (const Instruction& instruction : tape.code)
+        visit_operands(tape, instruction, use);
+    for (const Tape::Location& rate : tape.rates)
+        if (!rate.constant)
+            use(rate.index);
+    find_times(uses);
+    for (const Tape::Location& output : tape.outputs)
+        if (!output.constant)
+            use(output.index);
+    find_private_rates(uses);
 }
 
 std::vector<KernelStep> StepFinder::steps(int order) const {
@@ -35,15 +47,23 @@ std::vector<KernelStep> StepFinder::steps(int order) const {
     return steps;
 }
 
-void StepFinder::find_private_rates() {
-    std::vector<std::uint32_t> uses(tape_.registers, 0);
-    const auto use = [&](std::uint32_t reg) { ++uses[reg]; };
-    for (const auto* locations : {&tape_.rates, &tape_.outputs})
-        for (const Tape::Location& location : *locations)
-            if (!location.constant)
-                use(location.index);
-    for (const Instruction& instruction : tape_.code)
-        visit_operands(tape_, instruction, use);
+void StepFinder::find_times(const std::vector<std::uint32_t>& uses) {
+    times_.assign(tape_.code.size(), Time::at_each_order);
+    for (std::size_t i = 0; i < tape_.code.size(); ++i) {
+        const Instruction& instruction = tape_.code[i];
+        if (tape_.degrees[instruction.result] != Tape::unbounded)
+            continue;
+        if (whole_kernel(i)) {
+            times_[i] = Time::before_all;
+            if (instruction.right != instruction.result)
+                times_[++i] = Time::before_all;
+        } else if (instruction.operation == SeriesOperation::linear_combination && uses[instruction.result] == 0) {
+            times_[i] = Time::after_all;
+        }
+    }
+}
+
+void StepFinder::find_private_rates(const std::vector<std::uint32_t>& uses) {
     std::vector<bool> is_rate(tape_.registers, false);
     for (const Tape::Location& rate : tape_.rates)
         if (!rate.constant)
@@ -57,21 +77,27 @@ void StepFinder::find_private_rates() {
 }
 
 void StepFinder::add_states(int order, std::vector<KernelStep>& steps) const {
+    std::vector<KernelStep> combinations; // after the others, which so stand side by side
     for (std::uint32_t i = 0; i < tape_.states; ++i) {
         const Tape::Location& rate = tape_.rates[i];
         if (rate.constant || static_cast<std::uint32_t>(order) > tape_.degrees[i])
             continue;
         const std::uint32_t combination = combination_of_[rate.index];
         if (combination == none) {
-            steps.push_back({table_.state, {register_at(i), register_at(rate.index), {}, {}, {}, {}}});
+            Kernel kernel = table_.state;
+            if (table_.two_states && !steps.empty() && steps.back().kernel == table_.state) {
+                steps.back().kernel = table_.two_states;
+                kernel = nullptr;
+            }
+            steps.push_back({kernel, {register_at(i), register_at(rate.index), {}, {}, {}, {}}});
             continue;
         }
         KernelOperands operands = combination_operands(tape_.code[combination]);
         operands.result = register_at(i);
-        const Kernel kernel = order == 1 ? table_.state_combination_value
-                                         : table_.state_combination[combination_row(tape_.code[combination])];
-        steps.push_back({kernel, operands});
+        const auto& row = order == 1 ? table_.state_combination_value : table_.state_combination;
+        combinations.push_back({row[combination_row(tape_.code[combination])], operands});
     }
+    steps.insert(steps.end(), combinations.begin(), combinations.end());
 }
 
 void StepFinder::add_instructions(int order, std::vector<KernelStep>& steps) const {
@@ -80,7 +106,8 @@ void StepFinder::add_instructions(int order, std::vector<KernelStep>& steps) con
         const Instruction& instruction = tape_.code[i];
         KernelStep step{nullptr, operands_of(instruction, reciprocals)};
         if (combination_of_[instruction.result] != none ||
-            static_cast<std::uint32_t>(order) > tape_.degrees[instruction.result])
+            static_cast<std::uint32_t>(order) > tape_.degrees[instruction.result] ||
+            (order > 1 && times_[i] != Time::at_each_order))
             continue;
         if (order == 0 && starts_pair(i)) {
             steps.push_back(
@@ -89,9 +116,64 @@ void StepFinder::add_instructions(int order, std::vector<KernelStep>& steps) con
             ++i;
             continue;
         }
-        step.kernel = kernel_of(instruction, order, step.operands);
+        const Kernel joint = order > 0 && i > 0 && !steps.empty() ? joint_kernel(i, order, steps.back()) : nullptr;
+        if (joint)
+            steps.back().kernel = joint;
+        else
+            step.kernel = kernel_of(instruction, order, step.operands);
         steps.push_back(step);
     }
+}
+
+std::vector<KernelStep> StepFinder::before_all() const {
+    std::vector<KernelStep> steps;
+    for (std::size_t i = 0; i < tape_.code.size(); ++i) {
+        if (times_[i] != Time::before_all)
+            continue;
+        const Instruction& one = tape_.code[i];
+        steps.push_back(
+            {whole_kernel(i), {register_at(one.result), register_at(one.third), {}, register_at(one.right), {}, {}}});
+        if (one.right != one.result)
+            ++i;
+    }
+    return steps;
+}
+
+std::vector<KernelStep> StepFinder::after_all() const {
+    std::vector<KernelStep> steps;
+    for (std::size_t i = 0; i < tape_.code.size(); ++i)
+        if (times_[i] == Time::after_all)
+            steps.push_back(
+                {table_.whole_combination[combination_row(tape_.code[i])], combination_operands(tape_.code[i])});
+    return steps;
+}
+
+Kernel StepFinder::whole_kernel(std::size_t i) const {
+    const Instruction& one = tape_.code[i];
+    const auto is_pair = [&](SeriesOperation first, SeriesOperation second) {
+        return one.operation == first && i + 1 < tape_.code.size() && tape_.code[i + 1].operation == second &&
+               one.right == tape_.code[i + 1].result && tape_.code[i + 1].right == one.result;
+    };
+    if (tape_.degrees[one.third] > 1)
+        return nullptr;
+    if (is_pair(SeriesOperation::sin, SeriesOperation::cos))
+        return table_.whole_sine_and_cosine;
+    if (is_pair(SeriesOperation::sinh, SeriesOperation::cosh))
+        return table_.whole_hyperbolic_pair;
+    return one.operation == SeriesOperation::exp ? table_.whole_exponential : nullptr;
+}
+
+Kernel StepFinder::joint_kernel(std::size_t i, int order, const KernelStep& before) const {
+    const Instruction &one = tape_.code[i - 1], &other = tape_.code[i];
+    if (before.operands.result != register_at(one.result))
+        return nullptr;
+    if (other.operation == SeriesOperation::linear_combination) {
+        const auto row = static_cast<int>(one.operation);
+        const bool multiple = combination_row(other) == 1 && tape_.terms[other.left].series == one.result;
+        return multiple && before.kernel == table_.series[row][order] ? table_.with_multiple[row][order] : nullptr;
+    }
+    const bool quotient = other.operation == SeriesOperation::divide && other.left == one.result;
+    return quotient && before.kernel == table_.combination[2] ? table_.divide_combination[order] : nullptr;
 }
 
 bool StepFinder::starts_pair(std::size_t i) const {
@@ -100,8 +182,14 @@ bool StepFinder::starts_pair(std::size_t i) const {
 }
 
 KernelOperands StepFinder::combination_operands(const Instruction& instruction) const {
-    return {register_at(instruction.result),  {}, constant_at(instruction.third), {}, terms_.data() + instruction.left,
-            terms_.data() + instruction.right};
+    KernelOperands operands{register_at(instruction.result),  {},
+                            constant_at(instruction.third),   {},
+                            terms_.data() + instruction.left, terms_.data() + instruction.right};
+    if (combination_row(instruction) == 1) { // a single term needs no list
+        operands.left = register_at(tape_.terms[instruction.left].series);
+        operands.third = constant_at(tape_.terms[instruction.left].coefficient);
+    }
+    return operands;
 }
 
 KernelOperands StepFinder::operands_of(const Instruction& instruction, std::uint32_t& reciprocals) const {
@@ -136,7 +224,7 @@ std::size_t StepFinder::combination_row(const Instruction& instruction) {
 Kernel StepFinder::kernel_of(const Instruction& instruction, int order, KernelOperands& operands) const {
     switch (instruction.operation) {
     case SeriesOperation::linear_combination:
-        return order == 0 ? table_.combination_value : table_.combination[combination_row(instruction)];
+        return (order == 0 ? table_.combination_value : table_.combination)[combination_row(instruction)];
     case SeriesOperation::multiply:
         if (order > 0 && std::min(tape_.degrees[instruction.left], tape_.degrees[instruction.right]) <= 1) {
             if (tape_.degrees[instruction.left] > 1)

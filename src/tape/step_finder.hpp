@@ -17,19 +17,23 @@ struct Layout {
     std::size_t size;
 };
 
-/// A kernel and what it is called with.
+/// A kernel and what it is called with. Without a kernel, the second operands of the step before.
 struct KernelStep {
     Kernel kernel;
     KernelOperands operands;
 };
 
-/// Finds the kernels and operands of the steps to be taken at each order.
+/// Finds the kernels and operands of the steps to be taken at each order, from orders 0 and 1 on; and of what can be
+/// computed at all orders above at once: before the others, for it depends only on an argument of degree 1, or after
+/// them, for nothing depends on it.
 class StepFinder {
 public:
     StepFinder(const Tape& tape, const KernelTable& table, const Layout& layout, double* memory,
                const std::vector<TermOperands>& terms);
 
     std::vector<KernelStep> steps(int order) const;
+    std::vector<KernelStep> before_all() const;
+    std::vector<KernelStep> after_all() const;
 
 private:
     static constexpr std::uint32_t none = 0xffffffff;
@@ -37,13 +41,21 @@ private:
     double* register_at(std::uint32_t index) const { return memory_ + layout_.registers + index * layout_.series; }
     double* constant_at(std::uint32_t index) const { return memory_ + index * layout_.number; }
 
+    /// When the coefficients above the first are computed.
+    enum class Time : unsigned char { at_each_order, before_all, after_all };
+
     /// Linear combinations that are needed for the rate of one state only are computed with that state.
-    void find_private_rates();
+    void find_private_rates(const std::vector<std::uint32_t>& uses);
+    void find_times(const std::vector<std::uint32_t>& uses);
     void add_states(int order, std::vector<KernelStep>& steps) const;
     void add_instructions(int order, std::vector<KernelStep>& steps) const;
 
     /// Whether an instruction is a sine and the next the cosine of the same argument.
     bool starts_pair(std::size_t i) const;
+    /// Of a function and, if it is one of a pair, the other; null where it needs more than its argument.
+    Kernel whole_kernel(std::size_t i) const;
+    /// Of an instruction and the one before, whose step is given; null where there is none.
+    Kernel joint_kernel(std::size_t i, int order, const KernelStep& before) const;
 
     KernelOperands combination_operands(const Instruction& instruction) const;
     KernelOperands operands_of(const Instruction& instruction, std::uint32_t& reciprocals) const;
@@ -58,6 +70,7 @@ private:
     const std::vector<TermOperands>& terms_;
     /// For registers that are computed with a state, the instruction.
     std::vector<std::uint32_t> combination_of_;
+    std::vector<Time> times_; ///< of instructions
 };
 
 } // namespace graze

@@ -55,6 +55,15 @@ GRAZE_INLINE L number(double value) {
     return Numbers<L>::of(value);
 }
 
+/// constant + slope x
+template <class L>
+GRAZE_INLINE L line(double constant, double slope, L x) {
+    return multiply_add(number<L>(slope), x, number<L>(constant));
+}
+
+// A step waits for the next two functions. Their terms are summed in pairs of pairs, each of which does not wait for
+// the others as in Horner's rule.
+
 /// Base 2, of positive normal numbers, to 12 digits: with t = (a - r) / (a + r), ln(a / r) = 2 (t + t^3/3 + ...).
 template <class L>
 GRAZE_INLINE L logarithm(L a) {
@@ -62,10 +71,10 @@ GRAZE_INLINE L logarithm(L a) {
     L exponent, factor;
     split_exponent(a, exponent, factor);
     const L t = (factor - number<L>(root)) / (factor + number<L>(root));
-    const L square = t * t;
-    L sum = number<L>(1.0 / 13);
-    for (int k = 11; k > 0; k -= 2)
-        sum = multiply_add(sum, square, number<L>(1.0 / k));
+    const L x = t * t, square = x * x;
+    const L low = multiply_add(line(1.0 / 5, 1.0 / 7, x), square, line(1, 1.0 / 3, x));
+    const L high = multiply_add(number<L>(1.0 / 13), square, line(1.0 / 9, 1.0 / 11, x));
+    const L sum = multiply_add(high, square * square, low);
     return exponent + multiply_add(sum * t, number<L>(per_unit), number<L>(0.5));
 }
 
@@ -75,11 +84,11 @@ GRAZE_INLINE L power_of_two(L a) {
     constexpr double unit = 0.69314718055994531; // ln 2
     L power, rest;
     raise_integer(a, power, rest);
-    const L x = rest * unit;
-    L sum = number<L>(1);
-    for (int k = 10; k > 0; --k)
-        sum = multiply_add(sum, x * (1.0 / k), number<L>(1));
-    return sum * power;
+    const L x = rest * unit, square = x * x, fourth = square * square;
+    const L low = multiply_add(line(1.0 / 2, 1.0 / 6, x), square, line(1, 1, x));
+    const L middle = multiply_add(line(1.0 / 720, 1.0 / 5040, x), square, line(1.0 / 24, 1.0 / 120, x));
+    const L high = multiply_add(number<L>(1.0 / 3628800), square, line(1.0 / 40320, 1.0 / 362880, x));
+    return multiply_add(multiply_add(high, fourth, middle), fourth, low) * power;
 }
 
 template <class L>

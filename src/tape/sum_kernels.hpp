@@ -67,12 +67,13 @@ void sums_and_slopes(const Series* series, const int* degrees, std::size_t count
     constexpr std::size_t width = Numbers<V>::width;
     const L time = Numbers<L>::load(times);
     for (std::size_t i = 0; i < count; ++i) {
-        const double* first = series[i].first;
-        L value = at<L>(first, degrees[i]);
+        const double* const first = series[i].first;
+        const double* coefficient = first + degrees[i] * static_cast<std::ptrdiff_t>(width);
+        L value = Numbers<L>::load(coefficient);
         L slope = value;
 #pragma GCC unroll 4
-        for (int k = degrees[i] - 1; k > 0; --k) {
-            value = multiply_add(value, time, at<L>(first, k));
+        for (coefficient -= width; coefficient != first; coefficient -= width) {
+            value = multiply_add(value, time, Numbers<L>::load(coefficient));
             slope = multiply_add(slope, time, value);
         }
         Numbers<L>::store(slopes + i * width, slope);
@@ -127,24 +128,26 @@ void disagreement(const EndComparison& comparison, const EndValues& ends, const 
 
 /// With S_m = c_0 + ... + c_m h^m and x = s / h, summation by parts gives
 ///   p(s) = sum_{m<n} S_m (x^m - x^{m+1}) + S_n x^n,
-/// a convex combination: p is at least the least partial sum at h. Each term is reduced by its share of the round-off:
-/// k u for the power, n u for the sums, 4 u for the coefficient itself.
+/// a convex combination: p is at least the least partial sum at h. Each term is uncertain by its share of the
+/// round-off: k u for the power, n u for the sums, 4 u for the coefficient itself; together at most by that share of
+/// them all.
 template <class V>
 void bound(const double* series, int order, const double* lengths, double* least, double* sizes) {
     using L = Plain<V>;
     constexpr int width = Numbers<V>::width;
     const double share = -0x1p-53 * (2 * order + 10);
     const L length = Numbers<L>::load(lengths);
-    L size = absolute(at<L>(series, 0)), bound = at<L>(series, 0) + size * share, partial = bound, power = length;
+    L partial = at<L>(series, 0), bound = partial, size = absolute(partial), power = length;
+    const double* const end = series + (order + std::ptrdiff_t{1}) * width;
 #pragma GCC unroll 4
-    for (int k = 1; k <= order; ++k) {
-        const L term = at<L>(series, k) * power;
-        const L magnitude = absolute(term);
-        partial = partial + (term + magnitude * share);
-        size = size + magnitude;
+    for (const double* coefficient = series + width; coefficient != end; coefficient += width) {
+        const L term = Numbers<L>::load(coefficient) * power;
+        partial = partial + term;
+        size = size + absolute(term);
         bound = lesser(bound, partial);
         power = power * length;
     }
+    bound = bound + size * share;
     Numbers<L>::store(sizes, size);
     Numbers<L>::store(least, bound);
     for (int lane = 0; lane < width; ++lane)

@@ -13,8 +13,6 @@ namespace graze {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Share of a step behind a contact in which others are sought that may come before it, or at the same time, once the
 /// errors of polynomials have been removed.
 constexpr double behind = 1e-4;
@@ -126,9 +124,15 @@ bool Trajectory::find_fall(std::size_t w, double length, Root& root) {
     // A deflated polynomial is a rate: its size is none of the function's.
     const double size = start == RootStart::as_is ? enclosure.size : series_size(event_series(w), length);
     const double touch = std::max({touch_distance(event, size), roundoff * size, least_touch(event)});
-    // The deflated polynomial is positive where the polynomial itself may be as small as a touch.
-    if (watch.side > 0 && enclosure.least > (start == RootStart::as_is ? touch : infinity))
-        return false;
+    if (watch.side > 0 && enclosure.least > (start == RootStart::as_is ? touch : 0)) {
+        if (start == RootStart::as_is)
+            return false;
+        // The function itself, as much larger as time goes on, may be as small as a touch for a short time; but while
+        // it rises it touches nothing.
+        const double small = std::min(touch / enclosure.least, length);
+        if (RootFinder::trend(c, small) > 0)
+            return false;
+    }
     found_touches_.clear();
     const bool found = roots_.first_falling(c, length, start, root, touch, &found_touches_);
     if (watch.strip <= 1)

@@ -13,6 +13,9 @@ namespace graze {
 
 namespace {
 
+/// Of so few events the tighter bounds are found as quickly as any.
+constexpr std::size_t few_events = 2;
+
 /// Terms that are summed side by side.
 constexpr std::size_t block = 4;
 
@@ -56,9 +59,9 @@ void Outlook::find_steps(const Jet& jet) {
 void Outlook::look(const Jet& jet, Jet& next, std::size_t mode) {
     jet.evaluate_states(lengths_, states_, slopes_);
     const std::size_t watched = simulation_.system().mode(mode).watched.size(), bounds = watched * width_;
-    if (width_ == 1)
+    if (width_ == 1 && watched > few_events)
         bound_events(jet, watched);
-    else
+    else if (watched > 0)
         jet.bound_outputs(lengths_, std::span(least_).first(bounds), std::span(sizes_).first(bounds));
     next.begin(states_);
     jet.find_disagreement(next, allowance_, lengths_, states_, slopes_, disagreement_);

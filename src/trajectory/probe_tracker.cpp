@@ -12,6 +12,11 @@ ProbeTracker::ProbeTracker(const Simulation& simulation, std::span<const double>
     : simulation_(simulation), phase_values_(phase_values.begin(), phase_values.end()),
       periods_(periods.begin(), periods.end()), roots_(simulation.order()), tracked_(simulation.probes().size()),
       work_(static_cast<std::size_t>(simulation.order()) + 1) {
+    for (std::size_t p = 0; p < tracked_.size(); ++p) {
+        const Probe& probe = simulation.probes()[p];
+        const bool phase = probe.kind == Probe::Kind::phase;
+        followed_.push_back({probe.kind, phase ? probe.state : simulation.series_of_probe(p)});
+    }
     found_.reserve(16);
     changes_.reserve(16);
     found_roots_.reserve(static_cast<std::size_t>(simulation.order()) + 1);
@@ -83,7 +88,15 @@ void ProbeTracker::relocate(std::size_t state, double before, double after) {
             locate(p, after);
 }
 
+void ProbeTracker::remember_start() {
+    if (!remembered_)
+        tracked_at_start_ = tracked_;
+    remembered_ = true;
+}
+
 void ProbeTracker::cut(double s) {
+    if (!remembered_)
+        return;
     tracked_ = tracked_at_start_;
     for (const Change& one : changes_)
         if (one.at <= s)
@@ -93,25 +106,35 @@ void ProbeTracker::cut(double s) {
 std::span<const ProbeTracker::Found> ProbeTracker::search(const Step& step) {
     found_.clear();
     changes_.clear();
-    tracked_at_start_ = tracked_;
-    const auto& probes = simulation_.probes();
+    remembered_ = false;
+    constexpr std::size_t none = static_cast<std::size_t>(-1);
+    std::size_t phase = none; // whose reach is known
+    double reach = 0;
     const auto size = static_cast<std::size_t>(step.order) + 1;
-    for (std::size_t p = 0; p < probes.size(); ++p) {
-        if (probes[p].kind == Probe::Kind::phase) {
-            search_phase(p, step);
+    for (std::size_t p = 0; p < followed_.size(); ++p) {
+        const std::size_t index = followed_[p].index;
+        const Tracked& tracked = tracked_[p];
+        if (followed_[p].kind == Probe::Kind::phase) {
+            if (index != phase)
+                reach = reach_of_phase(index, step);
+            phase = index;
+            if (tracked.on_section || tracked.is_near(step.states[index][0], reach))
+                search_phase(p, step, reach);
             continue;
         }
-        const double* c = step.observed[simulation_.series_of_probe(p)].first;
-        if (probes[p].kind == Probe::Kind::crossing) {
+        const double* c = step.observed[index].first;
+        if (followed_[p].kind == Probe::Kind::crossing) {
             search_series(p, {c, size}, step.length, false);
-        } else {
+        } else if (tracked.side == 0 || RootFinder::trend({c, size}, step.length) != tracked.side) {
             for (std::size_t k = 0; k + 1 < size; ++k)
                 work_[k] = static_cast<double>(k + 1) * c[k + 1];
             search_series(p, {work_.data(), size - 1}, step.length, true);
         }
     }
     arc_start_ = false;
-    std::stable_sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) { return a.at < b.at; });
+    const auto is_before = [](const Found& a, const Found& b) { return a.at < b.at; };
+    if (!std::is_sorted(found_.begin(), found_.end(), is_before)) // sorting asks for memory
+        std::stable_sort(found_.begin(), found_.end(), is_before);
     return found_;
 }
 
@@ -141,9 +164,11 @@ void ProbeTracker::note(std::size_t probe, double at, int direction, bool at_con
 void ProbeTracker::search_series(std::size_t probe, std::span<const double> c, double length, bool extremum) {
     Tracked& tracked = tracked_[probe];
     int now = c[0] > 0 ? 1 : -1;
-    if (now == tracked.side && keeps_sign(c, length))
+    const double first = std::abs(c[0]), rest = size_beyond_start(c, length);
+    if (now == tracked.side && first > rest * (1 + roundoff)) // it keeps its sign
         return;
-    const double noise = roundoff * series_size(c, length);
+    remember_start();
+    const double noise = roundoff * (first + rest);
     RootStart start = RootStart::as_is;
     if (std::abs(c[0]) <= noise) {
         const std::size_t leading = leading_index(c, length, noise);
@@ -167,37 +192,41 @@ void ProbeTracker::search_series(std::size_t probe, std::span<const double> c, d
     }
 }
 
-void ProbeTracker::search_phase(std::size_t index, const Step& step) {
-    const Probe& probe = simulation_.probes()[index];
-    if (tracked_[index].on_section) {
+/// How far a phase may go within the step.
+double ProbeTracker::reach_of_phase(std::size_t state, const Step& step) const {
+    return size_beyond_start(series_of_phase(state, step), step.length) * (1 + roundoff);
+}
+
+/// Without the coefficients that are zero: the rate of a phase may be constant.
+std::span<const double> ProbeTracker::series_of_phase(std::size_t state, const Step& step) const {
+    const std::size_t degree = simulation_.system().mode(step.mode).tape.degrees[state];
+    return {step.states[state].first, std::min(static_cast<std::size_t>(step.order), degree) + 1};
+}
+
+void ProbeTracker::search_phase(std::size_t index, const Step& step, double reach) {
+    remember_start();
+    Tracked& tracked = tracked_[index];
+    if (tracked.on_section) {
         leave_section(index, step);
-        tracked_at_start_[index] = tracked_[index];
-        if (tracked_[index].on_section)
+        tracked_at_start_[index] = tracked;
+        if (tracked.on_section)
             return;
     }
-    const Tracked& tracked = tracked_[index];
-    const double* c = step.states[probe.state].first;
-    const std::size_t degree = simulation_.system().mode(step.mode).tape.degrees[probe.state];
-    const std::size_t size = std::min(static_cast<std::size_t>(step.order), degree) + 1;
-    double reach = 0;
-    for (std::size_t k = size; k-- > 1;)
-        reach = (reach + std::abs(c[k])) * step.length;
-    reach *= 1 + roundoff;
-    for (double from = 0;;) {
+    const std::span<const double> c = series_of_phase(followed_[index].index, step);
+    for (double from = 0; tracked.is_near(c[0], reach);) {
         int direction = 0;
         double at = 0;
-        const auto try_target = [&](double target, int towards, double slack) {
-            const double offset = c[0] - target + (towards < 0 ? slack : -slack);
+        const auto try_target = [&](double offset, int towards) {
             if (std::abs(offset) > reach)
                 return;
-            std::copy_n(c, size, work_.begin());
+            std::copy(c.begin(), c.end(), work_.begin());
             work_[0] = offset;
             if (from == 0 && offset * towards >= 0) { // passed between two steps
                 direction = towards;
                 at = 0;
                 return;
             }
-            roots_.crossings(std::span(work_).first(size), step.length, RootStart::as_is, found_roots_);
+            roots_.crossings(std::span(work_).first(c.size()), step.length, RootStart::as_is, found_roots_);
             for (const Root& root : found_roots_)
                 if ((root.kind == RootKind::rising) == (towards > 0) && root.at >= from &&
                     (direction == 0 || root.at < at)) {
@@ -206,9 +235,9 @@ void ProbeTracker::search_phase(std::size_t index, const Step& step) {
                     return;
                 }
         };
-        try_target(tracked.upper, 1, tracked.upper_slack);
+        try_target(tracked.beyond_upper(c[0]), 1);
         if (direction == 0 || at > 0)
-            try_target(tracked.lower, -1, tracked.lower_slack);
+            try_target(tracked.beyond_lower(c[0]), -1);
         if (direction == 0)
             break;
         note(index, at, direction, false);

@@ -4,6 +4,7 @@
 #include "graze/trajectory/observer.hpp"
 #include "graze/trajectory/simulation.hpp"
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -42,6 +43,11 @@ private:
         double lower = 0, upper = 0;             ///< next values of a phase, below and above
         double lower_slack = 0, upper_slack = 0; ///< of a value just passed, until it is left behind
         bool on_section = false;                 ///< begins at `lower`: the motion tells which way it leaves
+        double beyond_upper(double phase) const { return phase - upper - upper_slack; }
+        double beyond_lower(double phase) const { return phase - lower + lower_slack; }
+        bool is_near(double phase, double reach) const {
+            return std::abs(beyond_upper(phase)) <= reach || std::abs(beyond_lower(phase)) <= reach;
+        }
     };
     /// Something that a search has changed in what is known about a probe.
     struct Change {
@@ -49,8 +55,16 @@ private:
         double at;
         int direction;
     };
+    /// What is asked of the simulation at every step.
+    struct Followed {
+        Probe::Kind kind;
+        std::size_t index; ///< of a phase's state, or of what is observed
+    };
     void search_series(std::size_t probe, std::span<const double> c, double length, bool extremum);
-    void search_phase(std::size_t probe, const Step& step);
+    void search_phase(std::size_t probe, const Step& step, double reach);
+    double reach_of_phase(std::size_t state, const Step& step) const;
+    std::span<const double> series_of_phase(std::size_t state, const Step& step) const;
+    void remember_start();
     void note(std::size_t probe, double at, int direction, bool at_contact);
     void change(std::size_t probe, int direction);
     void leave_section(std::size_t probe, const Step& step);
@@ -59,7 +73,9 @@ private:
     Simulation simulation_;
     std::vector<double> phase_values_, periods_;
     RootFinder roots_;
-    std::vector<Tracked> tracked_, tracked_at_start_; ///< now, and at the start of the step just searched
+    std::vector<Followed> followed_;
+    std::vector<Tracked> tracked_, tracked_at_start_; ///< now, and at the start of the step just searched ...
+    bool remembered_ = false;                         ///< ... unless nothing has changed
     std::vector<Change> changes_;
     std::vector<double> work_;
     std::vector<Root> found_roots_;

@@ -29,12 +29,12 @@ inline std::size_t leading_index(std::span<const double> c, double h, double noi
     return 0;
 }
 
-/// Whether the polynomial keeps the sign of its value at 0 throughout [0, h].
-inline bool keeps_sign(std::span<const double> c, double h) {
+/// Sum of |c_k| h^k, k > 0: how far the polynomial may go from its value at 0.
+inline double size_beyond_start(std::span<const double> c, double h) {
     double rest = 0;
     for (std::size_t k = c.size(); k-- > 1;)
         rest = (rest + std::abs(c[k])) * h;
-    return std::abs(c[0]) > rest * (1 + roundoff);
+    return rest;
 }
 
 } // namespace graze

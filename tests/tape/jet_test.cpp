@@ -189,6 +189,14 @@ TEST(Jet, IdentitiesOfCompositions) {
     near_zero("power of a series", [](auto& g) { return pow(1 + g, g) - exp(g * log(1 + g)); });
     near_zero("division", [](auto& g) { return g / (1 + g) * (1 + g) - g; });
     near_zero("reciprocal", [](auto& g) { return 1 / (1 + g) + g / (1 + g) - 1; });
+    // What is often computed together with its only use.
+    near_zero("multiple of a product",
+              [](auto& g) { return (0.5 - 2 * (g * sin(g))) * g - 0.5 * g + 2 * g * g * sin(g); });
+    near_zero("multiple of a square", [](auto& g) { return (0.5 - 2 * (g * g)) * g - 0.5 * g + 2 * pow(g, 3); });
+    near_zero("multiple of a quotient", [](auto& g) { return (0.5 - 2 * (g / (1 + g))) * (1 + g) - 0.5 + 1.5 * g; });
+    near_zero("multiple of a reciprocal", [](auto& g) { return (0.5 - 2 / (1 + g)) * (1 + g) + 1.5 - 0.5 * g; });
+    near_zero("quotient of a sum",
+              [](auto& g) { return (g * g - 3 * pow(g, 3)) / (1 + g) * (1 + g) - g * g + 3 * pow(g, 3); });
 }
 
 /// Where it is 1 to the last digit, up to where the square of its argument is no number.

@@ -115,7 +115,13 @@ inline Problem everything() {
                  exp(a) * asin(a / 2) + atan(b) * pow(a, exponent) * erf(a),
                  sin(frozen) / frozen,
                  x,
-                 x * (x + y) * 2 - (a * x - b * y) * z + exp(frozen * a)};
+                 x * (x + y) * 2 - (a * x - b * y) * z + exp(frozen * a),
+                 (b - a * x * y) * z,
+                 (b - 2 * pow(x, 2)) * z,
+                 (b - a * x / (2 + y)) * z,
+                 (b - a / (2 + y)) * z,
+                 (x * y - a * y * z) / (2 + x),
+                 sinh(phase / 3) * exp(a * phase)};
     return p;
 }
 

@@ -3,6 +3,7 @@
 #include "graze/tape/series.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,7 +38,8 @@ struct BernsteinCoefficient {
 };
 
 /// Finds roots of polynomials c[0] + c[1] s + ... on (0, length] by isolation: an enclosure that excludes roots
-/// at the cost of one pass, then subdivision of the Bernstein form with Descartes' rule of signs for the
+/// at the cost of one pass; the same of the first and second derivative, of which one that keeps its sign leaves no
+/// more than one root that counts; then subdivision of the Bernstein form with Descartes' rule of signs for the
 /// polynomial and for its derivative, then bracketed Newton iteration to round-off on the polynomial as given.
 /// (B. Mourrain, F. Rouillier, M.-F. Roy, "The Bernstein basis and real root isolation", 2005; F. Rouillier,
 /// P. Zimmermann, "Efficient isolation of polynomial's real roots", J. Comput. Appl. Math. 162, 2004.)
@@ -75,6 +77,9 @@ public:
     /// True if the enclosure shows at once that c > 0 throughout [0, length] (or (0, length] when deflated).
     static bool surely_positive(std::span<const double> c, double length, RootStart start);
 
+    /// 1 if one pass over the coefficients shows that c rises throughout [0, length], -1 if that it falls, else 0.
+    static int trend(std::span<const double> c, double length);
+
     /// The first falling root, or none.
     /// @param touch local minima with 0 < value <= touch before the falling root are passed to `touches`
     ///        (when not null), as are minima that are zero within round-off
@@ -96,8 +101,12 @@ public:
 
 private:
     class Isolation;
-    /// 1 if one pass over the coefficients shows that c rises throughout [0, length], -1 if that it falls, else 0.
-    static int trend(std::span<const double> c, double length);
+    bool has_room(std::span<const double> c) const { return c.size() <= power_.size(); }
+    double lowest_place(std::span<const double> c, double length, double slope);
+    std::optional<bool> falls_once_or_never(std::span<const double> c, double length, int way, double touch,
+                                            Root& root);
+    static bool crosses_once_or_never(std::span<const double> c, double length, std::vector<Root>& roots);
+    bool simple_minimum(std::span<const double> c, double length, Minimum& minimum);
     /// A part [left, left + width] of the unit interval whose coefficients are uncertain by scale * bound.
     struct Node {
         double left, width, scale;
