@@ -60,6 +60,8 @@ private:
     void start_exponent();
 
     std::shared_ptr<const AttractorSetting> setting_;
+    std::optional<StepMaps> maps_; ///< for those that follow, where the model suits
+    std::optional<MotionDerivatives> of_orbit_, of_motion_;
     ReturnWatcher watcher_;
     SampleRecorder recorder_;
     OrbitFinder finder_;
