@@ -67,6 +67,7 @@ void AttractorSearch::begin(std::span<const double> parameters, std::span<const 
     exponent_.clear();
     equilibria_.begin(parameters, periods_);
     growth_.begin(parameters, periods_);
+    unstable_.clear();
     visited_ = {};
     for (std::size_t i = 0; i < periods_.size(); ++i)
         if (setting_->map.takes_part(i))
@@ -181,7 +182,16 @@ bool AttractorSearch::examine_return() {
         return go_on();
     if (const auto next = consider_rest(last.state, last.mode))
         return *next;
+    if (unstable_.explain(watcher_, n, setting_->options.disturbance)) {
+        ask_for_closer(n);
+        return go_on();
+    }
     return find_orbit(last.state, n, watcher_.scale());
+}
+
+/// An orbit of this period is worth another try when the motion has come clearly closer.
+void AttractorSearch::ask_for_closer(std::size_t period) {
+    thresholds_[period] = watcher_.distance(watcher_.recent(0).state, watcher_.recent(period).state) / 3;
 }
 
 bool AttractorSearch::find_orbit(std::span<const double> point, std::size_t period, std::span<const double> scale) {
@@ -231,13 +241,14 @@ bool AttractorSearch::consider_orbit() {
             return *next;
         near_stable_ = near_stable_ || (guessed_ && is_near(finder_, watcher_, periods_));
     }
+    unstable_.add(finder_, watcher_);
     if (const auto next = try_next_guess())
         return *next;
     guessed_ = false;
-    // Worth another try when the motion has come clearly closer.
     if (n > 0)
-        thresholds_[n] =
-            ++tries_ > most_tries ? -1 : watcher_.distance(watcher_.recent(0).state, watcher_.recent(n).state) / 3;
+        ask_for_closer(n);
+    if (n > 0 && ++tries_ > most_tries)
+        thresholds_[n] = -1;
     return go_on();
 }
 

@@ -11,6 +11,7 @@
 #include "sweep/return_watcher.hpp"
 #include "sweep/sample_recorder.hpp"
 #include "sweep/section_map.hpp"
+#include "sweep/unstable_orbits.hpp"
 
 #include <optional>
 #include <span>
@@ -37,6 +38,7 @@ private:
     bool examine_return();
     bool go_on();
     void extend();
+    void ask_for_closer(std::size_t period);
     bool find_orbit(std::span<const double> point, std::size_t period, std::span<const double> scale);
     std::optional<bool> try_next_guess();
     bool fills_a_torus();
@@ -68,6 +70,7 @@ private:
     Exponent exponent_;
     EquilibriumFinder equilibria_;
     GrowthWatch growth_;
+    UnstableOrbits unstable_;
     std::optional<Trajectory> main_;
     bool confirming_ = false;   ///< that the motion remains chaotic
     bool finding_ = false;      ///< an orbit: the finder's trajectory is to be run

@@ -141,13 +141,13 @@ void MotionDerivatives::take(const Item& item) {
 void MotionDerivatives::pass_step(std::size_t number) {
     const std::span<const double> map = maps_->map(number);
     const std::vector<std::size_t>& directions = modes_->directions();
+    const std::size_t count = directions.size();
     next_.setZero(derivatives_.rows(), derivatives_.cols());
     for (Eigen::Index c = 0; c < derivatives_.cols(); ++c)
-        for (std::size_t i = 0; i < states_; ++i) {
-            double sum = 0;
-            for (std::size_t d = 0; d < directions.size(); ++d)
-                sum += map[i * directions.size() + d] * derivatives_(static_cast<Eigen::Index>(directions[d]), c);
-            next_(static_cast<Eigen::Index>(i), c) = sum;
+        for (std::size_t d = 0; d < count; ++d) {
+            const double before = derivatives_(static_cast<Eigen::Index>(directions[d]), c);
+            for (std::size_t r = 0; r < count; ++r)
+                next_(static_cast<Eigen::Index>(directions[r]), c) += map[d * count + r] * before;
         }
     derivatives_.swap(next_);
 }

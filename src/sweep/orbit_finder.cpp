@@ -16,7 +16,7 @@ constexpr double small_correction = 1e-9;
 constexpr double large_correction = 0.5;
 /// Multiplier of an orbit that motions leave before it matters whether they are on it, unless they are as close to it
 /// as this.
-constexpr double clearly_unstable = 2;
+constexpr double most_unstable = 2;
 constexpr double sits = 1e-6;
 /// How well a recorded orbit must close, and how different its returns are to be if they are different.
 constexpr double closed = 1e-8;
@@ -43,6 +43,7 @@ void OrbitFinder::begin(std::span<const double> parameters, std::span<const doub
     period_ = period;
     duration_ = duration;
     sticks_ = sticks;
+    clearly_unstable_ = false;
     iterations_ = 0;
     returns_ = 0;
     symmetric_.reset();
@@ -143,10 +144,11 @@ bool OrbitFinder::iterate() {
     if (!spectrum)
         return fail();
     spectrum_ = std::move(*spectrum);
-    if (!multipliers().empty() && std::abs(multipliers().front()) > clearly_unstable && size > sits)
-        return fail();
     for (std::size_t i = 0; i < point_.size(); ++i)
         point_[i] += correction[static_cast<Eigen::Index>(i)];
+    clearly_unstable_ = !multipliers().empty() && std::abs(multipliers().front()) > most_unstable && size > sits;
+    if (clearly_unstable_)
+        return fail();
     if (size > small_correction && !stalls) {
         start_iteration();
         return true;

@@ -37,6 +37,8 @@ public:
     bool proceed();
 
     bool found() const { return stage_ == Stage::found; }
+    /// Whether it gave up because the orbit, about at `point`, is so unstable that motions soon leave it.
+    bool clearly_unstable() const { return stage_ == Stage::failed && clearly_unstable_; }
     std::span<const double> point() const { return point_; }
     std::size_t mode() const { return mode_; }
     std::size_t period() const { return period_; }
@@ -85,6 +87,7 @@ private:
     std::size_t mode_ = 0, period_ = 0, iterations_ = 0, returns_ = 0;
     double duration_ = 0, residual_ = 0, guard_ = 0, correction_ = 0, longest_step_ = 0;
     Stage stage_ = Stage::failed;
+    bool clearly_unstable_ = false;
     bool sticks_ = false; ///< contacts accumulate: trajectories have to carry their derivatives
 };
 

@@ -11,7 +11,7 @@
 
 namespace graze {
 
-/// The first variational equations of a simulation's modes, along the directions that anything depends on. Immutable;
+/// The first variational equations of a simulation's modes, along all directions that anything depends on. Immutable;
 /// threads may share it.
 class VariationalModes {
 public:
@@ -22,7 +22,8 @@ public:
     /// are few directions.
     bool suit() const { return suit_; }
     const Simulation& simulation() const { return simulation_; }
-    /// States, then as many of the tangent; without events. Only where they suit.
+    /// x' = f(x), W' = f_x W, without events: the states, then W column by column, whose rows and columns are the
+    /// directions. Only where they suit.
     const System& system() const { return system_; }
     /// States, rising: all but the clocks by which returns are told, which nothing disturbs.
     const std::vector<std::size_t>& directions() const { return directions_; }
@@ -35,7 +36,7 @@ private:
 };
 
 /// Derivatives over steps that have been made already. They do not depend on one another, so that those of many steps
-/// of one motion fill SIMD lanes: one for each step and direction.
+/// of one motion fill SIMD lanes: one for each step.
 ///
 /// Steps are followed in parts where derivatives change faster than the motion. The error of a direction is measured
 /// against its size, states in units of given scales; at the end of each part, derivatives have to be what the
@@ -52,7 +53,7 @@ public:
     void compute();
     void clear();
     std::size_t steps() const { return maps_.size() / map_size_; }
-    /// Derivatives of the states at a step's end by those at its start: states x directions, row by row.
+    /// Derivatives of the states at a step's end by those at its start: directions x directions, column by column.
     std::span<const double> map(std::size_t step) const { return {&maps_[step * map_size_], map_size_}; }
 
 private:
@@ -67,11 +68,11 @@ private:
     };
     void load(std::span<const Part> parts);
     void find_reaches(const Jet& jet, std::span<Part> parts);
-    double last_terms(const Jet& jet, std::size_t lane, double length) const;
-    void compute(std::size_t mode, std::span<const Part> parts);
-    double misfit(const Jet& jet, const Jet& next, std::size_t first_lane, double length) const;
+    double last_terms(const Jet& jet, std::size_t column, std::size_t lane, double length) const;
+    void compute(std::size_t mode, std::span<Part> parts);
+    double misfit(const Jet& jet, const Jet& next, std::size_t lane, double length) const;
     bool believe(Part& part, double misfit) const;
-    void apply(const Part& part, std::size_t first_lane);
+    void apply(const Part& part, std::size_t lane);
 
     const VariationalModes* modes_;
     std::size_t states_, directions_, map_size_;
@@ -81,6 +82,7 @@ private:
     std::vector<double> scale_, numbers_; ///< of steps' first states
     std::vector<double> maps_, product_;
     std::vector<std::vector<Part>> queues_; ///< of each mode
+    std::vector<Part> batch_;               ///< what is in lanes now
     std::vector<double> seeds_, sums_, slopes_, times_, parameters_;
 };
 
