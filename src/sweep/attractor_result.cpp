@@ -94,6 +94,8 @@ bool AttractorSearch::finish(Label label) {
         result_.outcome.detail.clear(); // that numbers end somewhere is no fault of the model
     if (watcher_.stuck())
         result_.outcome.detail = "no return to the section came; choose another section";
+    if (label != Label::periodic && label != Label::equilibrium)
+        exponent_.catch_up();
     if (exponent_.known()) {
         result_.lyapunov = exponent_.value();
         result_.lyapunov_error = exponent_.error();

@@ -27,13 +27,24 @@ constexpr std::size_t extension = 4;   ///< of the largest period, in the last p
 constexpr std::size_t most_tries = 50; ///< of Newton's method
 constexpr double longest_step = 8;     ///< in periods of the section's clock: a passage ends a step anyway
 
+std::optional<StepMaps> maps_of(const VariationalModes& modes) {
+    return modes.suit() ? std::optional<StepMaps>(std::in_place, modes) : std::nullopt;
+}
+
+std::optional<MotionDerivatives> derivatives_of(const VariationalModes& modes, std::optional<StepMaps>& maps) {
+    return maps ? std::optional<MotionDerivatives>(std::in_place, modes, *maps) : std::nullopt;
+}
+
 } // namespace
 
 AttractorSearch::AttractorSearch(std::shared_ptr<const AttractorSetting> setting)
-    : setting_(std::move(setting)),
+    : setting_(std::move(setting)), maps_(maps_of(setting_->variational)),
+      of_orbit_(derivatives_of(setting_->variational, maps_)), of_motion_(derivatives_of(setting_->variational, maps_)),
       watcher_(setting_->map, 2 * extension * setting_->options.largest_period + 1, setting_->options.bounds),
-      recorder_(setting_->layout, 0), finder_(setting_->map, setting_->layout, setting_->image, setting_->image_modes),
-      exponent_(setting_->map), equilibria_(setting_->field), growth_(setting_->field, setting_->map) {}
+      recorder_(setting_->layout, 0), finder_(setting_->map, setting_->layout, setting_->image, setting_->image_modes,
+                                              of_orbit_ ? &*of_orbit_ : nullptr),
+      exponent_(setting_->map, of_motion_ ? &*of_motion_ : nullptr), equilibria_(setting_->field),
+      growth_(setting_->field, setting_->map) {}
 
 void AttractorSearch::begin(std::span<const double> parameters, std::span<const double> state, std::size_t mode) {
     const System& compiled = setting_->simulation.system();
@@ -56,6 +67,7 @@ void AttractorSearch::begin(std::span<const double> parameters, std::span<const 
     exponent_.clear();
     equilibria_.begin(parameters, periods_);
     growth_.begin(parameters, periods_);
+    unstable_.clear();
     visited_ = {};
     for (std::size_t i = 0; i < periods_.size(); ++i)
         if (setting_->map.takes_part(i))
@@ -151,8 +163,10 @@ void AttractorSearch::extend() {
 }
 
 bool AttractorSearch::examine_return() {
-    if (exponent_.begun() && !confirming_)
+    if (exponent_.begun() && !confirming_) {
         exponent_.add_return(*main_);
+        watcher_.follow(exponent_.follower());
+    }
     const Return& last = watcher_.recent(0);
     if (watcher_.returns() > setting_->options.cycles)
         for (std::size_t i = 0; i < last.state.size(); ++i)
@@ -168,19 +182,29 @@ bool AttractorSearch::examine_return() {
         return go_on();
     if (const auto next = consider_rest(last.state, last.mode))
         return *next;
+    if (unstable_.explain(watcher_, n, setting_->options.disturbance)) {
+        ask_for_closer(n);
+        return go_on();
+    }
     return find_orbit(last.state, n, watcher_.scale());
+}
+
+/// An orbit of this period is worth another try when the motion has come clearly closer.
+void AttractorSearch::ask_for_closer(std::size_t period) {
+    thresholds_[period] = watcher_.distance(watcher_.recent(0).state, watcher_.recent(period).state) / 3;
 }
 
 bool AttractorSearch::find_orbit(std::span<const double> point, std::size_t period, std::span<const double> scale) {
     finding_ = true;
     finder_.begin(parameters_, periods_, point, watcher_.recent(0).mode, period, scale,
-                  watcher_.recent(0).time - watcher_.recent(period).time);
+                  watcher_.recent(0).time - watcher_.recent(period).time, watcher_.has_stuck(period));
     return true;
 }
 
 void AttractorSearch::start_exponent() {
-    exponent_.begin(parameters_, watcher_.scale(), main_->time());
+    exponent_.begin(parameters_, watcher_.scale(), main_->time(), watcher_.has_stuck(watcher_.remembered()));
     exponent_.seed(*main_);
+    watcher_.follow(exponent_.follower());
     growth_.mark(watcher_);
     std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
 }
@@ -199,7 +223,9 @@ bool AttractorSearch::go_on() {
     }
     if (before > 0 && !exponent_.begun() && returns + before >= setting_->options.cycles)
         start_exponent();
-    watcher_.stop_after(exponent_.begun() ? returns + 1 : setting_->options.cycles - before);
+    const std::size_t next =
+        exponent_.follower() && returns < setting_->options.cycles ? setting_->options.cycles : returns + 1;
+    watcher_.stop_after(exponent_.begun() ? next : setting_->options.cycles - before);
     extend();
     return true;
 }
@@ -215,19 +241,21 @@ bool AttractorSearch::consider_orbit() {
             return *next;
         near_stable_ = near_stable_ || (guessed_ && is_near(finder_, watcher_, periods_));
     }
+    unstable_.add(finder_, watcher_);
     if (const auto next = try_next_guess())
         return *next;
     guessed_ = false;
-    // Worth another try when the motion has come clearly closer.
     if (n > 0)
-        thresholds_[n] =
-            ++tries_ > most_tries ? -1 : watcher_.distance(watcher_.recent(0).state, watcher_.recent(n).state) / 3;
+        ask_for_closer(n);
+    if (n > 0 && ++tries_ > most_tries)
+        thresholds_[n] = -1;
     return go_on();
 }
 
 /// Many transients look chaotic until they suddenly settle: what does is followed as long again.
 void AttractorSearch::confirm_chaos() {
     confirming_ = true;
+    watcher_.follow(nullptr);
     limit_ = watcher_.returns() + setting_->options.cycles;
     std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
     restart(watcher_.recent(0).state, watcher_.recent(0).mode, watcher_.recent(0).time - watcher_.recent(1).time);
@@ -249,6 +277,7 @@ std::optional<bool> AttractorSearch::conclude() {
         return next;
     if (!exponent_.begun())
         return finish(Label::unsettled);
+    exponent_.catch_up();
     if (exponent_.known()) {
         const double growth = exponent_.value() * exponent_.time_per_return();
         const double all = growth * static_cast<double>(exponent_.returns());

@@ -11,6 +11,7 @@
 #include "sweep/return_watcher.hpp"
 #include "sweep/sample_recorder.hpp"
 #include "sweep/section_map.hpp"
+#include "sweep/unstable_orbits.hpp"
 
 #include <optional>
 #include <span>
@@ -37,6 +38,7 @@ private:
     bool examine_return();
     bool go_on();
     void extend();
+    void ask_for_closer(std::size_t period);
     bool find_orbit(std::span<const double> point, std::size_t period, std::span<const double> scale);
     std::optional<bool> try_next_guess();
     bool fills_a_torus();
@@ -60,12 +62,15 @@ private:
     void start_exponent();
 
     std::shared_ptr<const AttractorSetting> setting_;
+    std::optional<StepMaps> maps_; ///< for those that follow, where the model suits
+    std::optional<MotionDerivatives> of_orbit_, of_motion_;
     ReturnWatcher watcher_;
     SampleRecorder recorder_;
     OrbitFinder finder_;
     Exponent exponent_;
     EquilibriumFinder equilibria_;
     GrowthWatch growth_;
+    UnstableOrbits unstable_;
     std::optional<Trajectory> main_;
     bool confirming_ = false;   ///< that the motion remains chaotic
     bool finding_ = false;      ///< an orbit: the finder's trajectory is to be run

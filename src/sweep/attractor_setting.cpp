@@ -48,7 +48,7 @@ AttractorSetting::AttractorSetting(const System& system, const AttractorOptions&
                                    const SimulationOptions& simulation_options)
     : options((given.validate(system.model()), given)), layout(system, samplings, values),
       simulation(system, probes_of(system.model(), options, layout), {}, simulation_options),
-      map(simulation, simulation.probes().size() - 1), field(system) {
+      map(simulation, simulation.probes().size() - 1), field(system), variational(map) {
     const Model& model = system.model();
     if (model.symmetries.empty())
         return;

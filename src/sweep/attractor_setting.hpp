@@ -4,6 +4,7 @@
 #include "sweep/field_map.hpp"
 #include "sweep/sample_recorder.hpp"
 #include "sweep/section_map.hpp"
+#include "sweep/step_maps.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -20,6 +21,7 @@ struct AttractorSetting {
     Simulation simulation;
     SectionMap map;
     FieldMap field;
+    VariationalModes variational;
     Function image; ///< of the first symmetry, in states and parameters
     std::vector<std::size_t> image_modes;
 };

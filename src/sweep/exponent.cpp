@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace graze {
 
@@ -19,8 +20,10 @@ constexpr double shortest_tangent = 1e-100, longest_tangent = 1e100;
 
 } // namespace
 
-void Exponent::begin(std::span<const double> parameters, std::span<const double> scale, double time) {
+void Exponent::begin(std::span<const double> parameters, std::span<const double> scale, double time, bool sticks) {
+    carried_ = !derivatives_ || sticks;
     workspace_ = map_->workspace(parameters);
+    parameters_.assign(parameters.begin(), parameters.end());
     scale_.assign(scale.begin(), scale.end());
     growth_.clear();
     times_.clear();
@@ -34,28 +37,67 @@ void Exponent::begin(std::span<const double> parameters, std::span<const double>
 }
 
 void Exponent::seed(Trajectory& trajectory) {
-    trajectory.carry_tangents(seeds_, 1);
+    if (!carried_)
+        derivatives_->begin(parameters_, scale_, seed_column(), [this](const MotionDerivatives::Mark& mark) {
+            if (!add(mark, derivatives_->derivatives(), derivatives_->valid()))
+                derivatives_->set(seed_column());
+        });
+    else
+        trajectory.carry_tangents(seeds_, 1);
+    seed_here();
+    last_time_ = trajectory.time();
+}
+
+/// The vector is that of the seeds.
+void Exponent::seed_here() {
     length_ = 0;
     for (std::size_t i = 0; i < map_->states(); ++i)
         length_ += std::pow(seeds_[i] / scale_[i], 2);
     length_ = 0.5 * std::log(length_);
-    last_time_ = trajectory.time();
+}
+
+Eigen::MatrixXd Exponent::seed_column() const {
+    return Eigen::Map<const Eigen::VectorXd>(seeds_.data(), static_cast<Eigen::Index>(map_->states()));
 }
 
 void Exponent::add_return(Trajectory& trajectory) {
-    const double time = trajectory.time() - last_time_;
-    last_time_ = trajectory.time();
+    if (!carried_) {
+        if (derivatives_->broken()) {
+            catch_up();
+            carried_ = true;
+            const Eigen::MatrixXd direction = derivatives_->derivatives();
+            const double length = length_of(direction);
+            if (length > 0 && std::isfinite(length))
+                aim(direction / length);
+            seed(trajectory); // this return does not count
+        }
+        return;
+    }
     Eigen::MatrixXd tangent(static_cast<Eigen::Index>(map_->states()), 1);
     std::copy(trajectory.tangents().begin(), trajectory.tangents().end(), tangent.data());
-    if (!trajectory.tangents_valid() || !map_->project(workspace_, trajectory.mode(), trajectory.state(), tangent))
-        return seed(trajectory); // no derivatives here: this return does not count
-    double square = 0;
-    for (std::size_t i = 0; i < map_->states(); ++i)
-        if (map_->takes_part(i))
-            square += std::pow(tangent(static_cast<Eigen::Index>(i), 0) / scale_[i], 2);
-    const double length = std::sqrt(square);
+    if (!add({trajectory.time(), trajectory.mode(), trajectory.state()}, std::move(tangent),
+             trajectory.tangents_valid()))
+        trajectory.carry_tangents(seeds_, 1);
+}
+
+void Exponent::catch_up() {
+    if (begun_ && !carried_)
+        derivatives_->carry();
+}
+
+/// @return false where the vector has to be that of the seeds from now on
+bool Exponent::add(const MotionDerivatives::Mark& here, Eigen::MatrixXd tangent, bool valid) {
+    const double time = here.time - last_time_;
+    last_time_ = here.time;
+    const auto anew = [this] {
+        seed_here();
+        return false;
+    };
+    if (!valid || !map_->project(workspace_, here.mode, here.state, tangent))
+        return anew(); // no derivatives here: this return does not count
+    const double length = length_of(tangent);
     if (!std::isfinite(length))
-        return seed(trajectory);
+        return anew();
     if (to_settle_ > 0) {
         --to_settle_; // the vector still turns towards the direction that grows most
     } else {
@@ -64,11 +106,25 @@ void Exponent::add_return(Trajectory& trajectory) {
     }
     length_ = std::log(length);
     if (length > shortest_tangent && length < longest_tangent)
-        return;
+        return true;
     // Anew in the same direction or, if there is none left, in the first.
-    for (std::size_t i = 0; i < map_->states() && length > 0; ++i)
-        seeds_[i] = map_->takes_part(i) ? tangent(static_cast<Eigen::Index>(i), 0) / length : 0;
-    seed(trajectory);
+    if (length > 0)
+        aim(tangent / length);
+    return anew();
+}
+
+double Exponent::length_of(const Eigen::MatrixXd& tangent) const {
+    double square = 0;
+    for (std::size_t i = 0; i < map_->states(); ++i)
+        if (map_->takes_part(i))
+            square += std::pow(tangent(static_cast<Eigen::Index>(i), 0) / scale_[i], 2);
+    return std::sqrt(square);
+}
+
+/// Makes this direction that of the seeds.
+void Exponent::aim(const Eigen::MatrixXd& direction) {
+    for (std::size_t i = 0; i < map_->states(); ++i)
+        seeds_[i] = map_->takes_part(i) ? direction(static_cast<Eigen::Index>(i), 0) : 0;
 }
 
 bool Exponent::known() const {

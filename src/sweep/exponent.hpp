@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/trajectory/trajectory.hpp"
+#include "sweep/motion_derivatives.hpp"
 #include "sweep/section_map.hpp"
 
 #include <cstddef>
@@ -13,15 +14,23 @@ namespace graze {
 /// et al. 1980), saltation included.
 class Exponent {
 public:
-    explicit Exponent(const SectionMap& map) : map_(&map) {}
+    /// @param derivatives to follow the motion with; null: its trajectory is to carry the vector
+    Exponent(const SectionMap& map, MotionDerivatives* derivatives) : map_(&map), derivatives_(derivatives) {}
 
     /// @param scale of each state, in which lengths are measured from now on
-    void begin(std::span<const double> parameters, std::span<const double> scale, double time);
+    /// @param sticks whether contacts are likely to accumulate
+    void begin(std::span<const double> parameters, std::span<const double> scale, double time, bool sticks);
     bool begun() const { return begun_; }
-    /// Makes a trajectory carry the vector: after `begin`, and after the trajectory has been started anew.
+    /// Makes a trajectory carry the vector: after `begin`, and after the trajectory has been started anew. Or what
+    /// follows it begins here.
     void seed(Trajectory& trajectory);
-    /// Takes the growth since the last return from a trajectory that stopped at one.
+    /// What is to be told of all that happens to the motion; null if its trajectory carries the vector.
+    MotionDerivatives* follower() { return carried_ ? nullptr : derivatives_; }
+    /// Takes the growth since the last return from a trajectory that carries the vector and stopped at one. One that
+    /// has been followed carries it from here on if contacts have accumulated.
     void add_return(Trajectory& trajectory);
+    /// Takes the growth over all returns that have been seen of a motion that is followed.
+    void catch_up();
 
     std::size_t returns() const { return growth_.size(); }
     bool known() const;
@@ -39,15 +48,22 @@ public:
     void clear() { begun_ = false; }
 
 private:
+    bool add(const MotionDerivatives::Mark& here, Eigen::MatrixXd tangent, bool valid);
+    void seed_here();
+    void aim(const Eigen::MatrixXd& direction);
+    double length_of(const Eigen::MatrixXd& tangent) const;
+    Eigen::MatrixXd seed_column() const;
     double growth(std::size_t first, std::size_t last) const;
     double variation(std::size_t first, std::size_t last) const;
 
     const SectionMap* map_;
+    MotionDerivatives* derivatives_;
     SectionMap::Workspace workspace_;
-    std::vector<double> scale_, growth_, times_, seeds_;
+    std::vector<double> parameters_, scale_, growth_, times_, seeds_;
     double length_ = 0, last_time_ = 0;
     std::size_t to_settle_ = 0;
     bool begun_ = false;
+    bool carried_ = false; ///< by the trajectory
 };
 
 } // namespace graze

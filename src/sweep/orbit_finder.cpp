@@ -16,7 +16,7 @@ constexpr double small_correction = 1e-9;
 constexpr double large_correction = 0.5;
 /// Multiplier of an orbit that motions leave before it matters whether they are on it, unless they are as close to it
 /// as this.
-constexpr double clearly_unstable = 2;
+constexpr double most_unstable = 2;
 constexpr double sits = 1e-6;
 /// How well a recorded orbit must close, and how different its returns are to be if they are different.
 constexpr double closed = 1e-8;
@@ -28,12 +28,13 @@ constexpr double soonest = 1e-3;
 } // namespace
 
 OrbitFinder::OrbitFinder(const SectionMap& map, const SampleRecorder::Layout& layout, const Function& image,
-                         const std::vector<std::size_t>& image_modes)
-    : map_(&map), image_(&image), image_modes_(&image_modes), watcher_(map, 2, {}), recorder_(layout, 0) {}
+                         const std::vector<std::size_t>& image_modes, MotionDerivatives* derivatives)
+    : map_(&map), image_(&image), image_modes_(&image_modes), derivatives_(derivatives), watcher_(map, 2, {}),
+      recorder_(layout, 0) {}
 
 void OrbitFinder::begin(std::span<const double> parameters, std::span<const double> periods,
                         std::span<const double> point, std::size_t mode, std::size_t period,
-                        std::span<const double> scale, double duration) {
+                        std::span<const double> scale, double duration, bool sticks) {
     parameters_.assign(parameters.begin(), parameters.end());
     periods_.assign(periods.begin(), periods.end());
     point_.assign(point.begin(), point.end());
@@ -41,6 +42,8 @@ void OrbitFinder::begin(std::span<const double> parameters, std::span<const doub
     mode_ = mode;
     period_ = period;
     duration_ = duration;
+    sticks_ = sticks;
+    clearly_unstable_ = false;
     iterations_ = 0;
     returns_ = 0;
     symmetric_.reset();
@@ -65,7 +68,24 @@ void OrbitFinder::start_iteration() {
     watcher_.stop_after(period_);
     watcher_.start_leg(0, soonest * duration_ / static_cast<double>(period_));
     trajectory_->start(point_, mode_, 0, guard_);
-    trajectory_->carry_tangents(seeds_, map_->states());
+    if (carries())
+        return trajectory_->carry_tangents(seeds_, map_->states());
+    const auto states = static_cast<Eigen::Index>(map_->states());
+    derivatives_->begin(parameters_, {scale_.data(), map_->states()}, Eigen::MatrixXd::Identity(states, states));
+    watcher_.follow(derivatives_);
+}
+
+/// Derivatives of the motion that has arrived. @return false where there are none
+bool OrbitFinder::find_tangents(Eigen::MatrixXd& tangents) {
+    if (!carries()) {
+        derivatives_->carry();
+        tangents = derivatives_->derivatives();
+        return derivatives_->valid();
+    }
+    const auto states = static_cast<Eigen::Index>(map_->states());
+    tangents = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+        trajectory_->tangents().data(), states, states);
+    return trajectory_->tangents_valid();
 }
 
 bool OrbitFinder::fail() {
@@ -85,6 +105,11 @@ bool OrbitFinder::is_active(std::size_t state) const {
 bool OrbitFinder::proceed() {
     if (stage_ == Stage::iterating) {
         returns_ += watcher_.returns();
+        if (!carries() && derivatives_->broken()) {
+            sticks_ = true;
+            start_iteration();
+            return true;
+        }
         return arrived() ? iterate() : fail();
     }
     if (stage_ == Stage::recording) {
@@ -95,11 +120,10 @@ bool OrbitFinder::proceed() {
 }
 
 bool OrbitFinder::iterate() {
-    if (!trajectory_->tangents_valid())
+    Eigen::MatrixXd tangents;
+    if (!find_tangents(tangents))
         return fail();
     const auto states = static_cast<Eigen::Index>(map_->states());
-    Eigen::MatrixXd tangents = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-        trajectory_->tangents().data(), states, states);
     const std::span<const double> image = watcher_.recent(0).state;
     if (!map_->project(workspace_, mode_, image, tangents))
         return fail();
@@ -120,10 +144,11 @@ bool OrbitFinder::iterate() {
     if (!spectrum)
         return fail();
     spectrum_ = std::move(*spectrum);
-    if (!multipliers().empty() && std::abs(multipliers().front()) > clearly_unstable && size > sits)
-        return fail();
     for (std::size_t i = 0; i < point_.size(); ++i)
         point_[i] += correction[static_cast<Eigen::Index>(i)];
+    clearly_unstable_ = !multipliers().empty() && std::abs(multipliers().front()) > most_unstable && size > sits;
+    if (clearly_unstable_)
+        return fail();
     if (size > small_correction && !stalls) {
         start_iteration();
         return true;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/sweep/attractor.hpp"
+#include "sweep/motion_derivatives.hpp"
 #include "sweep/return_watcher.hpp"
 #include "sweep/sample_recorder.hpp"
 #include "sweep/section_map.hpp"
@@ -21,13 +22,14 @@ namespace graze {
 /// its own image under the symmetry.
 class OrbitFinder {
 public:
+    /// @param derivatives to follow motions with; null: trajectories are to carry theirs
     OrbitFinder(const SectionMap& map, const SampleRecorder::Layout& layout, const Function& image,
-                const std::vector<std::size_t>& image_modes);
+                const std::vector<std::size_t>& image_modes, MotionDerivatives* derivatives);
 
     /// @param point where all begins; @param period in returns; @param scale of each state; @param duration about that
-    ///        of the period
+    ///        of the period; @param sticks whether contacts are likely to accumulate
     void begin(std::span<const double> parameters, std::span<const double> periods, std::span<const double> point,
-               std::size_t mode, std::size_t period, std::span<const double> scale, double duration);
+               std::size_t mode, std::size_t period, std::span<const double> scale, double duration, bool sticks);
     /// Longest step of its trajectories from the next `begin` on; 0: any.
     void limit_step(double longest) { longest_step_ = longest; }
     Trajectory& trajectory() { return *trajectory_; }
@@ -35,6 +37,8 @@ public:
     bool proceed();
 
     bool found() const { return stage_ == Stage::found; }
+    /// Whether it gave up because the orbit, about at `point`, is so unstable that motions soon leave it.
+    bool clearly_unstable() const { return stage_ == Stage::failed && clearly_unstable_; }
     std::span<const double> point() const { return point_; }
     std::size_t mode() const { return mode_; }
     std::size_t period() const { return period_; }
@@ -55,6 +59,8 @@ public:
 private:
     enum class Stage { iterating, recording, comparing, found, failed };
     void start_iteration();
+    bool find_tangents(Eigen::MatrixXd& tangents);
+    bool carries() const { return !derivatives_ || sticks_; }
     bool iterate();
     bool record();
     void keep_orbit();
@@ -66,6 +72,7 @@ private:
     const SectionMap* map_;
     const Function* image_;
     const std::vector<std::size_t>* image_modes_;
+    MotionDerivatives* derivatives_;
     ReturnWatcher watcher_;
     SampleRecorder recorder_;
     SectionMap::Workspace workspace_;
@@ -80,6 +87,8 @@ private:
     std::size_t mode_ = 0, period_ = 0, iterations_ = 0, returns_ = 0;
     double duration_ = 0, residual_ = 0, guard_ = 0, correction_ = 0, longest_step_ = 0;
     Stage stage_ = Stage::failed;
+    bool clearly_unstable_ = false;
+    bool sticks_ = false; ///< contacts accumulate: trajectories have to carry their derivatives
 };
 
 } // namespace graze

@@ -33,6 +33,7 @@ void ReturnWatcher::begin(std::span<const double> parameters, std::span<const do
     workspace_ = map_->workspace(parameters);
     periods_.assign(periods.begin(), periods.end());
     recorder_ = recorder;
+    derivatives_ = nullptr;
     next_ = returns_ = 0;
     escaped_ = stuck_ = looking_ = false;
     std::fill(widest_.begin(), widest_.end(), 0.0);
@@ -61,6 +62,8 @@ void ReturnWatcher::check_bounds(std::span<const double> state) {
 }
 
 void ReturnWatcher::step(const Step& step) {
+    if (derivatives_)
+        derivatives_->step(step);
     for (std::size_t i = 0; i < least_.size(); ++i) {
         const double value = step.states[i][0];
         least_[i] = std::min(least_[i], value);
@@ -80,6 +83,8 @@ void ReturnWatcher::step(const Step& step) {
 void ReturnWatcher::contact(const Contact& contact) {
     if (recorder_)
         recorder_->contact(contact);
+    if (derivatives_)
+        derivatives_->contact(contact);
     if (contact.kind == ContactKind::touch)
         return;
     current_.contacts.push_back(
@@ -87,6 +92,8 @@ void ReturnWatcher::contact(const Contact& contact) {
     // Where the section is the surface of an event, a return is over when its jump is made.
     if (pending_) {
         pending_ = false;
+        if (derivatives_)
+            derivatives_->mark(pending_time_, contact.mode_after, contact.after);
         arrive(pending_time_, contact.mode_after, contact.after);
     }
 }
@@ -102,7 +109,13 @@ void ReturnWatcher::passage(const Passage& passage) {
         pending_time_ = passage.time;
         return;
     }
+    if (derivatives_)
+        derivatives_->mark_ahead(passage.time, passage.mode, passage.state);
     arrive(passage.time, passage.mode, passage.state);
+}
+
+void ReturnWatcher::grazing() {
+    derivatives_->grazing();
 }
 
 void ReturnWatcher::arrive(double time, std::size_t mode, std::span<const double> state) {
@@ -133,7 +146,7 @@ void ReturnWatcher::arrive(double time, std::size_t mode, std::span<const double
         recurrent_ = find_recurrence();
         stop_ = recurrent_ != 0;
     }
-    stop_ = stop_ || (stop_after_ > 0 && returns_ >= stop_after_);
+    stop_ = stop_ || (stop_after_ > 0 && returns_ >= stop_after_) || (derivatives_ && derivatives_->broken());
 }
 
 void ReturnWatcher::widen() {
@@ -195,6 +208,14 @@ std::size_t ReturnWatcher::find_recurrence() {
             return n;
     }
     return 0;
+}
+
+bool ReturnWatcher::has_stuck(std::size_t count) const {
+    for (std::size_t k = 0; k < std::min(count, remembered()); ++k)
+        for (const std::uint32_t code : recent(k).contacts)
+            if (code % 2 == 1)
+                return true;
+    return false;
 }
 
 std::vector<std::uint32_t> ReturnWatcher::contacts(std::size_t count) const {

@@ -2,6 +2,7 @@
 
 #include "graze/sweep/attractor.hpp"
 #include "graze/trajectory/observer.hpp"
+#include "sweep/motion_derivatives.hpp"
 #include "sweep/sample_recorder.hpp"
 #include "sweep/section_map.hpp"
 
@@ -32,6 +33,8 @@ public:
     /// A trajectory starts at this time: returns that come sooner than `shortest` are the start itself.
     void start_leg(double time, double shortest);
     void stop_after(std::size_t returns) { stop_after_ = returns; }
+    /// From now on these see what happens too, with marks at returns; null: none.
+    void follow(MotionDerivatives* derivatives) { derivatives_ = derivatives; }
     /// Whether to stop at returns that come this close to one of the last `largest` (in the measure of `scale`).
     void watch_recurrence(std::vector<double>* thresholds, std::size_t largest) {
         thresholds_ = thresholds;
@@ -63,12 +66,16 @@ public:
     std::span<const double> scale() const { return scale_; }
     /// Distance of two states in that measure.
     double distance(std::span<const double> a, std::span<const double> b);
+    /// Whether contacts have accumulated within the last `count` returns.
+    bool has_stuck(std::size_t count) const;
     /// All contacts of the last `count` returns.
     std::vector<std::uint32_t> contacts(std::size_t count) const;
 
     void step(const Step& step) override;
     void contact(const Contact& contact) override;
     void passage(const Passage& passage) override;
+    void grazing() override;
+    bool follows_derivatives() const override { return derivatives_ != nullptr; }
     bool stop() override;
 
 private:
@@ -82,6 +89,7 @@ private:
     std::vector<StateBounds> bounds_;
     SectionMap::Workspace workspace_;
     SampleRecorder* recorder_ = nullptr;
+    MotionDerivatives* derivatives_ = nullptr;
     std::vector<double> periods_, scale_, difference_, least_, greatest_, widest_, early_, lowest_, highest_;
     std::vector<Return> ring_;
     Return current_;

@@ -33,6 +33,8 @@ void Trajectory::make_contact(std::size_t w, double s) {
             for (double& shift : row_)
                 shift /= -rate;
     }
+    if (observer_->follows_derivatives() && is_grazing(w, s, rate))
+        observer_->grazing();
     hold_surfaces(w, s);
     add_time(s);
     remember_contact(event, rate);

@@ -9,6 +9,10 @@ namespace {
 
 constexpr auto nobody = static_cast<std::size_t>(-1);
 
+/// Trajectories, and share of the lanes, below which one after another is faster: empty lanes cost as much as others.
+constexpr std::size_t fewest = 3;
+constexpr std::size_t least_share = 4;
+
 } // namespace
 
 Ensemble::Ensemble(const Simulation& simulation, InstructionSet set)
@@ -57,7 +61,7 @@ void Ensemble::run(std::span<Trajectory* const> slots, const Again& again) {
     };
     fill_up();
     while (!waiting_.empty()) {
-        if (waiting_.size() == 1) {
+        if (waiting_.size() < std::max(fewest, lanes_ / least_share)) {
             graze::run(*slots_[waiting_.front()], single_);
         } else {
             const std::size_t mode = fullest_mode();

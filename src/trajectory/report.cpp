@@ -70,6 +70,8 @@ void Trajectory::report_touches(double length) {
             continue;
         if (touch.grazing && tangents_)
             tangents_->invalidate();
+        if (touch.grazing && observer_->follows_derivatives())
+            observer_->grazing();
         if (simulation_.model().events[mode.watched[touch.watched]].kind == EventKind::section)
             continue;
         Contact contact;

@@ -69,6 +69,11 @@ public:
     virtual void contact(const Contact&) {}
     virtual void passage(const Passage&) {}
     virtual void minimum(const StepMinimum&) {}
+    /// Before the step or contact is told of: the motion meets a surface without speed, to within round-off, and
+    /// derivatives do not exist from there on. Only for those who ask.
+    virtual void grazing() {}
+    /// Whether `grazing` is wanted, which takes time at every contact.
+    virtual bool follows_derivatives() const { return false; }
     /// Asked after every step: true ends the trajectory with Ending::stopped.
     virtual bool stop() { return false; }
 };

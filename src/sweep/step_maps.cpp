@@ -1,0 +1,290 @@
+#include "sweep/step_maps.hpp"
+
+#include "graze/flow/step_check.hpp"
+#include "graze/symbolic/transform.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace graze {
+
+namespace {
+
+/// Directions up to which all of them in lanes are cheaper than one or more that a trajectory carries.
+constexpr std::size_t most_directions = 6;
+/// What derivatives are allowed of the tolerance of the states, as in TangentSteps.
+constexpr double allowance = 50;
+/// Round-off of rates that is allowed in any case.
+constexpr double roundoff = 1e4 * std::numeric_limits<double>::epsilon() / 2;
+constexpr int most_halvings = 8;
+constexpr double least_gain = 0.1; ///< of all halvings, below which what differs is round-off
+
+/// Whether the rate of a state is the same whatever the states and the mode, and no jump changes it.
+bool is_clock(const System& system, Model& model, std::size_t state) {
+    Expression rate;
+    for (const Mode& mode : model.modes) {
+        const Expression here = model.expand(mode.rates)[state];
+        if (!rate.empty() && !(here == rate))
+            return false;
+        rate = here;
+    }
+    for (const Expression& symbol : model.state_symbols())
+        if (!(differentiate(rate, symbol) == model.number(0)))
+            return false;
+    for (std::size_t j = 0; j < model.jumps.size(); ++j) {
+        const std::vector<std::size_t>& changed = system.jump(j).changed;
+        if (std::find(changed.begin(), changed.end(), state) != changed.end())
+            return false;
+    }
+    return true;
+}
+
+std::vector<std::size_t> directions_of(const SectionMap& map) {
+    const System& system = map.simulation().system();
+    Model model = system.model();
+    std::vector<std::size_t> directions;
+    for (std::size_t i = 0; i < system.states(); ++i)
+        if (map.takes_part(i) || !is_clock(system, model, i))
+            directions.push_back(i);
+    return directions;
+}
+
+/// A symbol whose name the model does not have.
+Expression new_symbol(Model& model, std::string name) {
+    const auto is_definition = [&](const Definition& definition) { return definition.name == name; };
+    while (model.find_state(name) || model.find_parameter(name) ||
+           std::any_of(model.definitions.begin(), model.definitions.end(), is_definition))
+        name += '_';
+    return model.symbol(name);
+}
+
+/// The modes alone, with the matrix of derivatives as states like others.
+System with_derivatives(const System& system, const std::vector<std::size_t>& directions) {
+    Model model = system.model(), grown;
+    grown.graph = model.graph;
+    grown.name = model.name;
+    const std::vector<Expression> states = model.state_symbols();
+    for (const Expression& state : states)
+        grown.states.push_back({.name = state.name(), .initial = model.number(0)});
+    const std::vector<double> values = model.parameter_values();
+    for (const Expression& parameter : model.parameter_symbols())
+        grown.parameters.push_back({.name = parameter.name(), .value = values[grown.parameters.size()]});
+    std::vector<std::vector<Component>> columns(directions.size());
+    for (std::size_t d = 0; d < directions.size(); ++d)
+        for (const std::size_t i : directions) {
+            const Expression entry = new_symbol(model, fmt::format("along_{}_{}", i, d));
+            grown.states.push_back({.name = entry.name(), .initial = model.number(0)});
+            columns[d].emplace_back(states[i], entry);
+        }
+    for (const Mode& mode : model.modes) {
+        std::vector<Expression> rates = model.expand(mode.rates), moving;
+        for (const std::size_t i : directions)
+            moving.push_back(rates[i]);
+        for (const std::vector<Component>& column : columns) {
+            const std::vector<Expression> along = differentiate_along(moving, column);
+            rates.insert(rates.end(), along.begin(), along.end());
+        }
+        grown.modes.push_back({.name = mode.name, .rates = std::move(rates)});
+    }
+    return grown;
+}
+
+} // namespace
+
+VariationalModes::VariationalModes(const SectionMap& map)
+    : simulation_(map.simulation()), system_(simulation_.system()) {
+    // Models with many states are not to be differentiated for nothing.
+    if (system_.states() > 2 * most_directions)
+        return;
+    directions_ = directions_of(map);
+    suit_ = !directions_.empty() && directions_.size() <= most_directions;
+    if (suit_)
+        system_ = with_derivatives(simulation_.system(), directions_);
+}
+
+StepMaps::StepMaps(const VariationalModes& modes)
+    : modes_(&modes), states_(modes.simulation().system().states()), directions_(modes.directions().size()),
+      map_size_(std::max<std::size_t>(directions_ * directions_, 1)),
+      tolerance_(allowance * modes.simulation().options().tolerance),
+      jets_(modes.system(), modes.simulation().order(), LaneKind::ensemble),
+      lanes_(static_cast<std::size_t>(jets_.width())), product_(map_size_),
+      queues_(modes.system().model().modes.size()), seeds_((states_ + map_size_) * lanes_), sums_(seeds_.size()),
+      slopes_(seeds_.size()), times_(lanes_) {}
+
+void StepMaps::begin(std::span<const double> parameters, std::span<const double> scale) {
+    parameters_.resize(parameters.size() * lanes_);
+    for (std::size_t j = 0; j < parameters.size(); ++j)
+        std::fill_n(&parameters_[j * lanes_], lanes_, parameters[j]);
+    jets_.set_parameters(parameters_);
+    scale_.clear();
+    for (const std::size_t i : modes_->directions())
+        scale_.push_back(scale[i]);
+    clear();
+}
+
+void StepMaps::clear() {
+    numbers_.clear();
+    maps_.clear();
+}
+
+std::size_t StepMaps::add(std::size_t mode, std::span<const double> state, double length) {
+    const std::size_t step = steps();
+    queues_[mode].push_back({.step = step, .state = numbers_.size(), .length = length, .attempt = length});
+    numbers_.insert(numbers_.end(), state.begin(), state.end());
+    maps_.resize(maps_.size() + map_size_, 0.0);
+    for (std::size_t d = 0; d < directions_; ++d)
+        maps_[step * map_size_ + d * directions_ + d] = 1;
+    return step;
+}
+
+void StepMaps::compute() {
+    for (std::size_t mode = 0; mode < queues_.size(); ++mode) {
+        std::vector<Part>& queue = queues_[mode];
+        // What is left of a step after a part of it comes last.
+        for (std::size_t done = 0; done < queue.size();) {
+            const std::size_t count = std::min(lanes_, queue.size() - done);
+            batch_.assign(queue.begin() + static_cast<std::ptrdiff_t>(done),
+                          queue.begin() + static_cast<std::ptrdiff_t>(done + count));
+            compute(mode, batch_);
+            done += count;
+        }
+        queue.clear();
+    }
+}
+
+/// States and unit matrices into lanes; those that are empty repeat the first.
+void StepMaps::load(std::span<const Part> parts) {
+    std::fill(seeds_.begin(), seeds_.end(), 0.0);
+    for (std::size_t lane = 0; lane < lanes_; ++lane) {
+        const Part& part = parts[lane < parts.size() ? lane : 0];
+        for (std::size_t i = 0; i < states_; ++i)
+            seeds_[i * lanes_ + lane] = numbers_[part.state + i];
+        for (std::size_t d = 0; d < directions_; ++d)
+            seeds_[(states_ + d * directions_ + d) * lanes_ + lane] = 1;
+    }
+}
+
+void StepMaps::compute(std::size_t mode, std::span<Part> parts) {
+    load(parts);
+    const Jet& jet = jets_.computed(mode, seeds_);
+    find_reaches(jet, parts);
+    for (std::size_t lane = 0; lane < lanes_; ++lane)
+        times_[lane] = parts[lane < parts.size() ? lane : 0].attempt;
+    jet.evaluate_states(times_, sums_, slopes_);
+    Jet& next = jets_.next(mode);
+    next.begin(sums_);
+    for (std::size_t lane = 0; lane < parts.size(); ++lane) {
+        Part& part = parts[lane];
+        if (!believe(part, misfit(jet, next, lane, part.attempt))) {
+            queues_[mode].push_back(part);
+            continue;
+        }
+        apply(part, lane);
+        const double left = part.length - part.attempt;
+        if (!(left > 0))
+            continue;
+        const std::size_t state = numbers_.size();
+        for (std::size_t i = 0; i < states_; ++i)
+            numbers_.push_back(sums_[i * lanes_ + lane]);
+        queues_[mode].push_back({.step = part.step, .state = state, .length = left, .attempt = left});
+    }
+}
+
+/// The larger of a direction's last two terms, relative to its size.
+double StepMaps::last_terms(const Jet& jet, std::size_t column, std::size_t lane, double length) const {
+    const auto order = static_cast<std::size_t>(jet.order());
+    double power = 1, size = 0, last = 0;
+    for (std::size_t k = 1; k < order; ++k)
+        power *= length;
+    const std::span<const Series> series = jet.series().subspan(states_ + column * directions_, directions_);
+    for (std::size_t r = 0; r < directions_; ++r) {
+        const double *c = series[r].first + lane, scale = 1 / scale_[r];
+        size = std::max(size,
+                        scale * (std::abs(c[0]) + length * (std::abs(c[lanes_]) + length * std::abs(c[2 * lanes_]))));
+        last =
+            std::max(last, scale * std::max(std::abs(c[(order - 1) * lanes_]), length * std::abs(c[order * lanes_])));
+    }
+    return power * last / size;
+}
+
+/// How far each part can be followed at once.
+void StepMaps::find_reaches(const Jet& jet, std::span<Part> parts) {
+    if (jet.order() < 3)
+        return;
+    const double root = 1.0 / (jet.order() - 1);
+    for (std::size_t lane = 0; lane < parts.size(); ++lane) {
+        double reach = parts[lane].attempt;
+        for (std::size_t d = 0; d < directions_ && !parts[lane].accepted; ++d) {
+            double worst = last_terms(jet, d, lane, reach);
+            // Sizes shrink with the step: a few rounds.
+            for (int round = 0; round < 6 && worst > tolerance_; ++round) {
+                reach *= std::pow(tolerance_ / worst, root);
+                worst = last_terms(jet, d, lane, reach);
+            }
+        }
+        if (std::isfinite(reach) && reach > 0)
+            parts[lane].attempt = reach;
+    }
+}
+
+/// By how much slopes of the directions' polynomials differ from what the variational equations say, in units of what
+/// is allowed.
+double StepMaps::misfit(const Jet& jet, const Jet& next, std::size_t lane, double length) const {
+    double most = 0;
+    const std::span<const Series> here = jet.series(), there = next.series();
+    for (std::size_t d = 0; d < directions_; ++d) {
+        double apart = 0, size = 0;
+        bool finite = true;
+        for (std::size_t r = 0; r < directions_; ++r) {
+            const std::size_t entry = states_ + d * directions_ + r, at = entry * lanes_ + lane;
+            const double *c = here[entry].first + lane, scale = 1 / scale_[r];
+            const double rate = there[entry].first[lanes_ + lane];
+            const double difference = length * std::abs(slopes_[at] - rate) * scale;
+            finite = finite && std::isfinite(difference);
+            apart = std::max(apart, difference);
+            size = std::max(size, StepCheck::size_over(c[0], c[lanes_], sums_[at], rate, length) * scale);
+        }
+        most = finite ? std::max(most, apart / ((StepCheck::allowance * tolerance_ + roundoff) * size))
+                      : std::numeric_limits<double>::infinity();
+        if (!finite)
+            break;
+    }
+    return most;
+}
+
+/// Whether a part is good enough; one that is not is to be halved.
+bool StepMaps::believe(Part& part, double misfit) const {
+    if (misfit <= 1 || part.accepted)
+        return true;
+    if (part.halvings == 0)
+        part.first_misfit = misfit;
+    if (part.halvings < most_halvings) {
+        ++part.halvings;
+        part.attempt *= 0.5;
+        return false;
+    }
+    if (std::isfinite(misfit) && misfit <= least_gain * part.first_misfit)
+        return true;
+    part.accepted = true;
+    part.attempt = part.length;
+    return false;
+}
+
+/// What the step has been followed for so far, and this part of it behind.
+void StepMaps::apply(const Part& part, std::size_t lane) {
+    double* map = &maps_[part.step * map_size_];
+    std::fill(product_.begin(), product_.end(), 0.0);
+    for (std::size_t d = 0; d < directions_; ++d)
+        for (std::size_t j = 0; j < directions_; ++j)
+            for (std::size_t r = 0; r < directions_; ++r)
+                product_[d * directions_ + r] +=
+                    sums_[(states_ + j * directions_ + r) * lanes_ + lane] * map[d * directions_ + j];
+    std::copy(product_.begin(), product_.end(), map);
+}
+
+} // namespace graze

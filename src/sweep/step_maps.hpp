@@ -1,0 +1,89 @@
+#pragma once
+
+#include "graze/flow/mode_jets.hpp"
+#include "graze/trajectory/simulation.hpp"
+#include "sweep/section_map.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace graze {
+
+/// The first variational equations of a simulation's modes, along all directions that anything depends on. Immutable;
+/// threads may share it.
+class VariationalModes {
+public:
+    /// @param map of the section by which motions are followed
+    explicit VariationalModes(const SectionMap& map);
+
+    /// Whether derivatives of motions are had for less from StepMaps than from trajectories that carry them, for there
+    /// are few directions.
+    bool suit() const { return suit_; }
+    const Simulation& simulation() const { return simulation_; }
+    /// x' = f(x), W' = f_x W, without events: the states, then W column by column, whose rows and columns are the
+    /// directions. Only where they suit.
+    const System& system() const { return system_; }
+    /// States, rising: all but the clocks by which returns are told, which nothing disturbs.
+    const std::vector<std::size_t>& directions() const { return directions_; }
+
+private:
+    Simulation simulation_;
+    System system_;
+    std::vector<std::size_t> directions_;
+    bool suit_ = false;
+};
+
+/// Derivatives over steps that have been made already. They do not depend on one another, so that those of many steps
+/// of one motion fill SIMD lanes: one for each step.
+///
+/// Steps are followed in parts where derivatives change faster than the motion. The error of a direction is measured
+/// against its size, states in units of given scales; at the end of each part, derivatives have to be what the
+/// variational equations say.
+class StepMaps {
+public:
+    explicit StepMaps(const VariationalModes& modes);
+
+    /// @param scale of each state
+    void begin(std::span<const double> parameters, std::span<const double> scale);
+    /// Notes a step of this length from a state in a mode. @return its number, from 0 after `clear`
+    std::size_t add(std::size_t mode, std::span<const double> state, double length);
+    /// Computes the maps of all that have been noted.
+    void compute();
+    void clear();
+    std::size_t steps() const { return maps_.size() / map_size_; }
+    /// Derivatives of the states at a step's end by those at its start: directions x directions, column by column.
+    std::span<const double> map(std::size_t step) const { return {&maps_[step * map_size_], map_size_}; }
+
+private:
+    /// What is left to do of a step.
+    struct Part {
+        std::size_t step = 0, state = 0; ///< its number; where its first state is
+        double length = 0;
+        double attempt = 0; ///< length to be followed now
+        double first_misfit = 0;
+        int halvings = 0;
+        bool accepted = false; ///< whatever comes out: what differs is round-off
+    };
+    void load(std::span<const Part> parts);
+    void find_reaches(const Jet& jet, std::span<Part> parts);
+    double last_terms(const Jet& jet, std::size_t column, std::size_t lane, double length) const;
+    void compute(std::size_t mode, std::span<Part> parts);
+    double misfit(const Jet& jet, const Jet& next, std::size_t lane, double length) const;
+    bool believe(Part& part, double misfit) const;
+    void apply(const Part& part, std::size_t lane);
+
+    const VariationalModes* modes_;
+    std::size_t states_, directions_, map_size_;
+    double tolerance_;
+    ModeJets jets_;
+    std::size_t lanes_;
+    std::vector<double> scale_, numbers_; ///< of steps' first states
+    std::vector<double> maps_, product_;
+    std::vector<std::vector<Part>> queues_; ///< of each mode
+    std::vector<Part> batch_;               ///< what is in lanes now
+    std::vector<double> seeds_, sums_, slopes_, times_, parameters_;
+};
+
+} // namespace graze

@@ -1,0 +1,37 @@
+#include "sweep/unstable_orbits.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+/// Of the distance by which a motion comes back: closer to an unstable orbit, it comes back for the sake of that. A
+/// stable one that is not the same lies farther away, when the motion has come close enough to it.
+constexpr double near = 3;
+
+} // namespace
+
+void UnstableOrbits::add(const OrbitFinder& orbit, const ReturnWatcher& motion) {
+    const bool unstable = !orbit.multipliers().empty() && std::abs(orbit.multipliers().front()) > 1;
+    if (orbit.found() && unstable) {
+        states_.insert(states_.end(), orbit.returns().begin(), orbit.returns().end());
+    } else if (orbit.clearly_unstable()) {
+        states_.emplace_back(orbit.point().begin(), orbit.point().end());
+        // The motion was about as close to it at its other returns.
+        for (std::size_t k = 1; k < std::min(orbit.period(), motion.remembered()); ++k)
+            states_.push_back(motion.recent(k).state);
+    }
+}
+
+bool UnstableOrbits::explain(ReturnWatcher& motion, std::size_t period, double least) const {
+    const std::vector<double>& here = motion.recent(0).state;
+    const double most = near * motion.distance(here, motion.recent(period).state);
+    return std::any_of(states_.begin(), states_.end(), [&](const std::vector<double>& state) {
+        const double distance = motion.distance(here, state);
+        return distance > least && distance <= most;
+    });
+}
+
+} // namespace graze

@@ -1,0 +1,208 @@
+#include "sweep/motion_derivatives.hpp"
+
+#include "settle.hpp"
+
+#include "graze/model/catalogue.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace graze {
+namespace {
+
+/// One motion, followed from outside, and carrying derivatives by all states itself.
+class Followed : public Observer {
+public:
+    Followed(const Model& model, const std::string& section, const SimulationOptions& options = {})
+        : simulation_(model, {section_probe(model, section)}, {}, options), map_(simulation_, 0), modes_(map_),
+          maps_(modes_), derivatives(modes_, maps_), trajectory(simulation_, model.parameter_values(), *this) {}
+
+    /// @param scale of each state
+    void run(const std::vector<double>& state, std::size_t mode, double time, const std::vector<double>& scale) {
+        const std::size_t states = state.size(), stride = states + trajectory.parameters().size();
+        std::vector<double> seeds(states * stride, 0.0);
+        for (std::size_t i = 0; i < states; ++i)
+            seeds[i * stride + i] = map_.takes_part(i) ? 1 : 0;
+        Eigen::MatrixXd unit =
+            Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(states), static_cast<Eigen::Index>(states));
+        for (std::size_t i = 0; i < states; ++i)
+            unit(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) = seeds[i * stride + i];
+        marks.clear();
+        derivatives.begin(trajectory.parameters(), scale, unit, [this](const MotionDerivatives::Mark& mark) {
+            marks.emplace_back(mark.time, derivatives.derivatives());
+        });
+        trajectory.start(state, mode, 0, time);
+        trajectory.carry_tangents(seeds, states);
+        JetSet jets(simulation_, LaneKind::single);
+        graze::run(trajectory, jets);
+        derivatives.carry();
+    }
+    /// By how much the two differ, of each direction relative to its size; both with states in units of their scales.
+    double difference(const std::vector<double>& scale) const {
+        double worst = 0;
+        const std::size_t states = scale.size();
+        for (std::size_t j = 0; j < states; ++j) {
+            double apart = 0, size = 0;
+            for (std::size_t i = 0; i < states; ++i) {
+                const double carried = trajectory.derivative(i, j);
+                const double followed =
+                    derivatives.derivatives()(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+                apart = std::max(apart, std::abs(carried - followed) / scale[i]);
+                size = std::max(size, std::abs(carried) / scale[i]);
+            }
+            worst = std::max(worst, size > 0 ? apart / size : apart);
+        }
+        return worst;
+    }
+
+    void step(const Step& step) override { derivatives.step(step); }
+    void contact(const Contact& contact) override {
+        contacts += contact.kind == ContactKind::crossing ? 1 : 0;
+        derivatives.contact(contact);
+    }
+    void passage(const Passage& passage) override { derivatives.mark_ahead(passage.time, passage.mode, passage.state); }
+    void grazing() override { derivatives.grazing(); }
+    bool follows_derivatives() const override { return true; }
+
+private:
+    Simulation simulation_;
+    SectionMap map_;
+    VariationalModes modes_;
+    StepMaps maps_;
+
+public:
+    MotionDerivatives derivatives;
+    Trajectory trajectory;
+    std::vector<std::pair<double, Eigen::MatrixXd>> marks;
+    int contacts = 0;
+};
+
+TEST(MotionDerivatives, are_those_that_the_trajectory_carries) {
+    struct Case {
+        std::string model, section;
+        std::vector<std::pair<std::string, double>> parameters;
+        double time;
+        std::vector<double> scale;
+        int contacts;
+    };
+    const std::vector<Case> cases{
+        {"electromagnetic-testbed", "phase0", {{"V0", 5.2}}, 1.6, {1e-3, 0.1, 1, 1}, 10},
+        {"impact-oscillator", "phase0", {}, 60, {1, 1, 1}, 5},
+        {"impact-oscillator-two-stops", "phase0", {}, 60, {1, 1, 1}, 5},
+        {"dry-friction-oscillator", "phase0", {}, 60, {1, 1, 1}, 5},
+        {"microbeam", "phase0", {}, 3, {1e-6, 1, 1}, 0},
+    };
+    for (const Case& one : cases) {
+        Model model = load_model(one.model);
+        for (const auto& [name, value] : one.parameters)
+            model.set_parameter(name, value);
+        for (const double tolerance : {1e-8, 1e-12}) {
+            Followed motion(model, one.section, {.tolerance = tolerance});
+            motion.run(model.initial_state(), model.initial_mode, one.time, one.scale);
+            EXPECT_GE(motion.contacts, one.contacts) << one.model;
+            EXPECT_TRUE(motion.derivatives.valid() && !motion.derivatives.broken()) << one.model;
+            // Steps and contacts by the dozen, each with errors of some tolerances.
+            EXPECT_LT(motion.difference(one.scale), 100 * tolerance) << one.model << " " << tolerance;
+        }
+    }
+}
+
+TEST(MotionDerivatives, at_marks_are_those_of_closed_forms) {
+    // A linear oscillator turns, whatever its motion; marks lie within steps.
+    const Model turning = oscillator("-X", SectionOf::clock, 0.3, 0.1, 7.3);
+    Followed motion(turning, "s");
+    motion.run(turning.initial_state(), 0, 20, {1, 1, 1});
+    ASSERT_GT(motion.marks.size(), 20u);
+    for (const auto& [time, matrix] : motion.marks) {
+        EXPECT_NEAR(matrix(0, 0), std::cos(time), 1e-11) << time;
+        EXPECT_NEAR(matrix(0, 1), std::sin(time), 1e-11) << time;
+        EXPECT_NEAR(matrix(1, 0), -std::sin(time), 1e-11) << time;
+        EXPECT_NEAR(matrix(1, 1), std::cos(time), 1e-11) << time;
+    }
+}
+
+TEST(MotionDerivatives, are_followed_in_parts_where_they_change_faster_than_the_motion) {
+    // Neighbours come back within a hundredth of the time of a step: of a motion that does not move, and of one that is
+    // slow.
+    for (const double rate : {3.0, 30.0, 100.0}) {
+        const Model resting = first_order(fmt::format("-{}*x", rate), SectionOf::clock, 0);
+        Followed rest(resting, "s");
+        rest.run(resting.initial_state(), 0, 3.5, {1, 1});
+        for (const auto& [time, matrix] : rest.marks)
+            EXPECT_NEAR(std::log(matrix(0, 0)) / (-rate * time), 1, 1e-9) << rate << " " << time;
+        EXPECT_EQ(rest.marks.size(), 4u);
+    }
+}
+
+TEST(MotionDerivatives, of_a_step_do_not_depend_on_those_computed_beside_it) {
+    const Model model = load_model("electromagnetic-testbed");
+    const Simulation simulation(model, {section_probe(model, "phase0")});
+    const SectionMap map(simulation, 0);
+    const VariationalModes modes(map);
+    ASSERT_TRUE(modes.suit());
+    EXPECT_EQ(modes.directions(), (std::vector<std::size_t>{0, 1, 2})); // not the phase, which nothing disturbs
+    StepMaps together(modes), alone(modes);
+    const std::vector<double> scale{1e-3, 0.1, 1, 1}, parameters = model.parameter_values();
+    std::vector<std::vector<double>> states;
+    for (int k = 0; k < 23; ++k)
+        states.push_back({1e-5 * k, 0.01 * k, 0.1 - 0.01 * k, 0.2 * k});
+    together.begin(parameters, scale);
+    for (std::size_t k = 0; k < states.size(); ++k)
+        together.add(0, states[k], 1e-4 * static_cast<double>(k * k)); // up to far longer than a series reaches
+    together.compute();
+    for (std::size_t k = 0; k < states.size(); ++k) {
+        alone.begin(parameters, scale);
+        alone.add(0, states[k], 1e-4 * static_cast<double>(k * k));
+        alone.compute();
+        EXPECT_TRUE(std::ranges::equal(alone.map(0), together.map(k))) << k;
+    }
+}
+
+TEST(MotionDerivatives, do_not_exist_across_grazing_and_accumulations) {
+    // At its greatest height the motion just touches.
+    const Model grazing = parse_model(R"toml(
+name = "grazing"
+[states]
+x = { initial = -1 }
+v = { initial = 0 }
+theta = { initial = 0, period = 1 }
+[modes.only]
+rates = { x = "v", v = "-x", theta = 1 }
+watch = ["wall"]
+[events]
+wall = { function = "1 - x" }
+[jumps.impact]
+v = "-0.5*v"
+[[transitions]]
+mode = "only"
+event = "wall"
+jump = "impact"
+next = "only"
+[sections.s]
+state = "theta"
+value = 0.5
+[initial]
+mode = "only"
+)toml",
+                                      "grazing");
+    Followed touching(grazing, "s");
+    touching.run(grazing.initial_state(), 0, 2, {1, 1, 1});
+    EXPECT_TRUE(touching.derivatives.valid());
+    touching.run(grazing.initial_state(), 0, 4, {1, 1, 1});
+    EXPECT_FALSE(touching.trajectory.tangents_valid());
+    EXPECT_FALSE(touching.derivatives.valid());
+
+    Model ball = load_model("bouncing-ball");
+    ball.set_parameter("a", 0.0005); // carries the ball always
+    Followed bouncing(ball, "phase0");
+    bouncing.run(ball.initial_state(), ball.initial_mode, 5, {1, 1, 1});
+    EXPECT_TRUE(bouncing.derivatives.broken());
+}
+
+} // namespace
+} // namespace graze
