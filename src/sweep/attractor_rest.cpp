@@ -71,7 +71,7 @@ void AttractorSearch::displace(std::span<const double> state, std::size_t mode, 
     std::fill(thresholds_.begin(), thresholds_.end(), setting_->options.recurrence);
     restart(state, mode, duration);
     if (exponent_.begun() && !confirming_)
-        start_exponent();
+        start_exponent(watcher_.has_stuck(watcher_.remembered()));
 }
 
 /// The motion sits on something unstable, and is not to be displaced.

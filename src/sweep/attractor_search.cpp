@@ -164,8 +164,11 @@ void AttractorSearch::extend() {
 
 bool AttractorSearch::examine_return() {
     if (exponent_.begun() && !confirming_) {
-        exponent_.add_return(*main_);
-        watcher_.follow(exponent_.follower());
+        // What accumulations make of derivatives counts: those of this one are lost, but not of others to come.
+        if (exponent_.follower() && of_motion_->broken())
+            start_exponent(true);
+        else
+            exponent_.add_return(*main_);
     }
     const Return& last = watcher_.recent(0);
     if (watcher_.returns() > setting_->options.cycles)
@@ -201,8 +204,8 @@ bool AttractorSearch::find_orbit(std::span<const double> point, std::size_t peri
     return true;
 }
 
-void AttractorSearch::start_exponent() {
-    exponent_.begin(parameters_, watcher_.scale(), main_->time(), watcher_.has_stuck(watcher_.remembered()));
+void AttractorSearch::start_exponent(bool sticks) {
+    exponent_.begin(parameters_, watcher_.scale(), main_->time(), sticks);
     exponent_.seed(*main_);
     watcher_.follow(exponent_.follower());
     growth_.mark(watcher_);
@@ -222,7 +225,7 @@ bool AttractorSearch::go_on() {
         return true;
     }
     if (before > 0 && !exponent_.begun() && returns + before >= setting_->options.cycles)
-        start_exponent();
+        start_exponent(watcher_.has_stuck(watcher_.remembered()));
     const std::size_t next =
         exponent_.follower() && returns < setting_->options.cycles ? setting_->options.cycles : returns + 1;
     watcher_.stop_after(exponent_.begun() ? next : setting_->options.cycles - before);
@@ -287,7 +290,7 @@ std::optional<bool> AttractorSearch::conclude() {
         if (outward && growth_.goes_on(watcher_))
             return finish(Label::unbounded);
         if (outward && watcher_.returns() < limit_) // to be averaged where the motion is going
-            start_exponent();
+            start_exponent(watcher_.has_stuck(watcher_.remembered()));
         if (positive && !outward && all > least_growth) {
             confirm_chaos();
             return std::nullopt;

@@ -59,7 +59,7 @@ private:
     bool finish_equilibrium(const Equilibrium& equilibrium);
     bool finish_still();
     bool finish(Label label);
-    void start_exponent();
+    void start_exponent(bool sticks);
 
     std::shared_ptr<const AttractorSetting> setting_;
     std::optional<StepMaps> maps_; ///< for those that follow, where the model suits

@@ -61,18 +61,8 @@ Eigen::MatrixXd Exponent::seed_column() const {
 }
 
 void Exponent::add_return(Trajectory& trajectory) {
-    if (!carried_) {
-        if (derivatives_->broken()) {
-            catch_up();
-            carried_ = true;
-            const Eigen::MatrixXd direction = derivatives_->derivatives();
-            const double length = length_of(direction);
-            if (length > 0 && std::isfinite(length))
-                aim(direction / length);
-            seed(trajectory); // this return does not count
-        }
+    if (!carried_)
         return;
-    }
     Eigen::MatrixXd tangent(static_cast<Eigen::Index>(map_->states()), 1);
     std::copy(trajectory.tangents().begin(), trajectory.tangents().end(), tangent.data());
     if (!add({trajectory.time(), trajectory.mode(), trajectory.state()}, std::move(tangent),

@@ -26,8 +26,7 @@ public:
     void seed(Trajectory& trajectory);
     /// What is to be told of all that happens to the motion; null if its trajectory carries the vector.
     MotionDerivatives* follower() { return carried_ ? nullptr : derivatives_; }
-    /// Takes the growth since the last return from a trajectory that carries the vector and stopped at one. One that
-    /// has been followed carries it from here on if contacts have accumulated.
+    /// Takes the growth since the last return from a trajectory that stopped at one, if that carries the vector.
     void add_return(Trajectory& trajectory);
     /// Takes the growth over all returns that have been seen of a motion that is followed.
     void catch_up();
