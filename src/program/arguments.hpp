@@ -90,7 +90,14 @@ struct OrbitArguments {
     OutputArguments output{TableFormat::table, 0, ""};
 };
 
+struct InfoArguments {
+    std::string file;
+    bool all = false;
+    OutputArguments output;
+};
+
 struct Arguments {
+    InfoArguments info;
     RunArguments run;
     ExportArguments exports;
     PlotArguments plot;

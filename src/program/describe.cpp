@@ -74,21 +74,6 @@ void add_row(Table& table, std::string_view item, std::string_view name, const V
     table.add(text);
 }
 
-/// Breaks a text into lines that a terminal can show.
-std::string wrapped(const std::string& text) {
-    constexpr std::size_t width = 100;
-    std::string result;
-    std::size_t column = 0;
-    std::istringstream words(text);
-    for (std::string word; words >> word;) {
-        const bool fits = column > 0 && column + 1 + word.size() <= width;
-        result += column == 0 ? "" : fits ? " " : "\n";
-        column = (fits ? column + 1 : 0) + word.size();
-        result += word;
-    }
-    return result;
-}
-
 /// A heading, and below it rows of which only what is there takes room.
 class Listing {
 public:
@@ -126,6 +111,20 @@ private:
 };
 
 } // namespace
+
+std::string wrapped(const std::string& text) {
+    constexpr std::size_t width = 100;
+    std::string result;
+    std::size_t column = 0;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        const bool fits = column > 0 && column + 1 + word.size() <= width;
+        result += column == 0 ? "" : fits ? " " : "\n";
+        column = (fits ? column + 1 : 0) + word.size();
+        result += word;
+    }
+    return result;
+}
 
 std::vector<double> all_parameter_values(const Model& model) {
     std::vector<Expression> values;

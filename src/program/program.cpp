@@ -39,6 +39,8 @@ int dispatch(std::span<const std::string> words, const Console& console) {
         return models_command(arguments.models, console);
     if (app.got_subcommand("run"))
         return run_command(arguments.run, console);
+    if (app.got_subcommand("info"))
+        return info_command(arguments.info, console);
     if (app.got_subcommand("export"))
         return export_command(arguments.exports, console);
     if (app.got_subcommand("plot"))

@@ -21,6 +21,16 @@ constexpr const char* run_examples = R"(Examples:
   graze run results --output again                do all of it again, elsewhere
   graze run mems-switch --show > my-switch.toml)";
 
+constexpr const char* info_text = R"(Tell what is in a file.
+Of results: the study, its runs with their points, when they were made, how, and by which version of graze; of a model
+or a study what it has. Shipped models and studies go by their names.)";
+
+constexpr const char* info_examples = R"(Examples:
+  graze info results                   runs, counts, sizes, times
+  graze info results --all             and all their parameters and settings
+  graze info my-model.toml
+  graze info mems-switch --format json)";
+
 constexpr const char* export_text = R"(Take results out of the file of a study.
 What is shown: points (one row for each parameter value, with what the motion settles on, or for each orbit of a
 branch), samples, segments of the orbits of branches, multipliers of periodic orbits, the list of runs, or whatever a
@@ -72,6 +82,15 @@ void declare_run(CLI::App& app, RunArguments& arguments) {
     command.add_flag("--progress", arguments.progress, "Show progress even if standard error is no terminal");
     command.add_flag("--quiet", arguments.quiet, "Do not list what was done");
     declare_format(command, arguments.output);
+}
+
+void declare_info(CLI::App& app, InfoArguments& arguments) {
+    CLI::App& command = *app.add_subcommand("info", info_text);
+    command.footer(info_examples);
+    add(command, "FILE", arguments.file, "", "Result file, folder of a study, model or study")->required();
+    command.add_flag("--all", arguments.all, "Parameters and settings of runs too, as csv and json have them always");
+    declare_format(command, arguments.output);
+    add(command, "--output", arguments.output.file, "FILE", "Write there instead of to standard output");
 }
 
 void declare_export(CLI::App& app, ExportArguments& arguments) {
@@ -127,6 +146,7 @@ void declare_plot_results(CLI::App& app, PlotArguments& arguments) {
 
 void declare_study_commands(CLI::App& app, Arguments& arguments) {
     declare_run(app, arguments.run);
+    declare_info(app, arguments.info);
     declare_export(app, arguments.exports);
     declare_plot_results(app, arguments.plot);
 }

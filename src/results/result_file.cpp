@@ -60,7 +60,8 @@ ResultFile::ResultFile(const std::string& path, Access access) {
         throw InputError(Place{path, 0, 0}, "there is no such result file",
                          "graze run STUDY makes one, in the folder that --output names");
     auto lock = writing ? std::make_unique<WriteLock>(path) : nullptr;
-    state_ = std::make_unique<State>(State{std::move(lock), Database(path, writing), false, {}, nullptr});
+    state_ =
+        std::make_unique<State>(State{std::move(lock), Database(path, writing), false, {}, nullptr, result_format});
     const Database& database = state_->database;
     const std::int64_t application = database.value("PRAGMA application_id");
     const std::int64_t format = database.value("PRAGMA user_version");
@@ -109,6 +110,10 @@ ResultFile::~ResultFile() {
 
 const std::string& ResultFile::path() const {
     return state_->database.path();
+}
+
+int ResultFile::format() const {
+    return state_->format;
 }
 
 void ResultFile::set_patience(std::chrono::milliseconds patience) {

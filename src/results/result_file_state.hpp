@@ -30,6 +30,7 @@ struct ResultFile::State {
         std::optional<Model> model; ///< of a branch, once an orbit has been written
     };
     std::unique_ptr<Writer> writer; ///< of the run that was written to last
+    int format = result_format;     ///< of the file
 
     void begin() {
         if (in_transaction)

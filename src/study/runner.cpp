@@ -2,6 +2,7 @@
 
 #include "graze/model/model_file.hpp"
 #include "graze/results/name_advice.hpp"
+#include "graze/study/run_times.hpp"
 #include "graze/study/stored_study.hpp"
 #include "graze/symbolic/require.hpp"
 #include "study/branch_run.hpp"
@@ -195,9 +196,11 @@ public:
             if (!wanted_.contains(run.name))
                 continue;
             const auto begun = Clock::now();
+            times_.reset();
             reports_.push_back(attempt(run));
             before_ += planned_points(run);
             reports_.back().seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+            end_times(reports_.back());
             if (reports_.back().outcome == RunOutcome::interrupted)
                 break;
         }
@@ -230,6 +233,22 @@ private:
         return report;
     }
 
+    /// Before the first point of a run is computed. What is gone on with was begun earlier.
+    void begin_times(const std::string& run) {
+        times_ = file_->point_count(run) > 0 ? times_of(*file_, run) : std::nullopt;
+        if (!times_)
+            times_ = RunTimes{present_time(), "", 0};
+        note_times(*file_, run, *times_);
+    }
+    void end_times(const RunReport& report) {
+        if (!times_)
+            return;
+        times_->seconds += report.seconds;
+        if (report.outcome != RunOutcome::interrupted)
+            times_->ended = present_time();
+        note_times(*file_, report.name, *times_);
+    }
+
     /// Nothing of an earlier version of the run is left for others to take for its results.
     void fail(const StudyRun& run, RunReport& report, RunOutcome outcome, const std::string& problem,
               const std::string& remedy) {
@@ -255,6 +274,7 @@ private:
         if (is_done(record, *file_)) {
             report.points = file_->point_count(run.name);
         } else {
+            begin_times(run.name);
             const bool complete = run_branch(*study_, run, *file_, *options_, report);
             complete ? file_->complete_run(run.name) : file_->flush();
             report.outcome = complete ? RunOutcome::complete : RunOutcome::interrupted;
@@ -292,6 +312,7 @@ private:
         fingerprints_[run.name] = record.fingerprint;
         if (is_done(record, *file_))
             return;
+        begin_times(run.name);
         const System system(run.model);
         const Plan plan = plan_of(run, system, start ? &start->point : nullptr);
         std::size_t done = 0;
@@ -320,6 +341,7 @@ private:
     std::map<std::string, std::string> fingerprints_;
     std::size_t all_ = 0, before_ = 0; ///< points of the study; of the runs before this one
     std::vector<RunReport> reports_;
+    std::optional<RunTimes> times_; ///< of the present run, if it computes something
 };
 
 } // namespace

@@ -201,6 +201,10 @@ Study parse_study(std::string_view text, const std::string& file) {
     return study;
 }
 
+bool is_study_text(std::string_view text, const std::string& file) {
+    return parse_toml(text, file).contains("runs");
+}
+
 std::vector<std::string> input_files(const Study& study) {
     std::vector<std::string> files{study.file};
     for (const StudyRun& run : study.runs)

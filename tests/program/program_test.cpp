@@ -11,7 +11,7 @@ using ::testing::StartsWith;
 
 TEST(Program, HelpTeaches) {
     for (const std::string line : {"--help", "check --help", "models --help", "simulate --help", "simulate -h",
-                                   "run --help", "export --help", "plot --help", "points --help", "orbit --help"}) {
+                                   "run --help", "export --help", "plot --help", "points --help", "orbit --help", "info --help"}) {
         const Printed run = run_graze(line);
         EXPECT_EQ(run.code, 0) << line;
         EXPECT_EQ(run.err, "") << line;

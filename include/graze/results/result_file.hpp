@@ -138,6 +138,8 @@ public:
     void set_patience(std::chrono::milliseconds patience);
 
     const std::string& path() const;
+    /// Number of the format in which it is written.
+    int format() const;
 
 private:
     struct State;

@@ -110,6 +110,8 @@ struct Study {
 /// @throws InputError with the place of the first thing wrong
 Study parse_study(std::string_view text, const std::string& file);
 Study read_study(const std::string& path);
+/// Whether a TOML text is a study rather than a model: it has runs. @throws InputError when it is no TOML
+bool is_study_text(std::string_view text, const std::string& file);
 /// The files that a study is made of: itself, its models, tables of orbits.
 std::vector<std::string> input_files(const Study& study);
 
