@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/parser.hpp"
 #include "program/branch_arguments.hpp"
+#include "program/help_arguments.hpp"
 #include "program/study_arguments.hpp"
 
 #include <CLI/Config.hpp>
@@ -66,11 +67,6 @@ constexpr const char* simulate_examples = R"(Examples:
 
 const std::map<std::string, TableFormat> formats{
     {"table", TableFormat::table}, {"csv", TableFormat::csv}, {"json", TableFormat::json}};
-
-/// Refuses what an unset variable of a script leaves: it would silently count as if the option were not there.
-CLI::Validator not_empty() {
-    return CLI::Validator([](std::string& text) { return text.empty() ? "its value is empty" : std::string(); }, "");
-}
 
 CLI::Validator whole_number(long least, long most) {
     return CLI::Validator(
@@ -290,11 +286,16 @@ std::string explain_required(const std::string& message, const CLI::App& command
                        missing == "MODEL"   ? "the model"
                        : missing == "POINT" ? "the point"
                        : missing == "FILE"  ? "the file"
+                       : missing == "SHELL" ? "the shell"
                                             : missing,
                        name, all);
 }
 
 } // namespace
+
+CLI::Validator not_empty() {
+    return CLI::Validator([](std::string& text) { return text.empty() ? "its value is empty" : std::string(); }, "");
+}
 
 void declare_arguments(CLI::App& app, Arguments& arguments) {
     app.description(general_text)->footer(general_examples);
@@ -307,6 +308,7 @@ void declare_arguments(CLI::App& app, Arguments& arguments) {
     declare_simulate(app, arguments.simulate);
     declare_study_commands(app, arguments);
     declare_branch_commands(app, arguments);
+    declare_help_commands(app, arguments);
 }
 
 std::vector<std::string> with_joined_counts(std::vector<std::string> arguments) {

@@ -96,7 +96,18 @@ struct InfoArguments {
     OutputArguments output;
 };
 
+struct HelpArguments {
+    std::string command, folder;
+    bool man = false;
+};
+
+struct CompletionArguments {
+    std::string shell, file;
+};
+
 struct Arguments {
+    HelpArguments help;
+    CompletionArguments completion;
     InfoArguments info;
     RunArguments run;
     ExportArguments exports;
@@ -107,6 +118,9 @@ struct Arguments {
     ModelsArguments models;
     SimulateArguments simulate;
 };
+
+/// Refuses what an unset variable of a script leaves: it would silently count as if the option were not there.
+CLI::Validator not_empty();
 
 /// Declares the command line: one sub-command each for the members of `arguments`.
 void declare_arguments(CLI::App& app, Arguments& arguments);

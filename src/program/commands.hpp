@@ -13,6 +13,8 @@ int run_command(const RunArguments& arguments, const Console& console);
 int export_command(const ExportArguments& arguments, const Console& console);
 int plot_command(const PlotArguments& arguments, const Console& console);
 int info_command(const InfoArguments& arguments, const Console& console);
+int help_command(const CLI::App& app, const HelpArguments& arguments, const Console& console);
+int completion_command(const CLI::App& app, const CompletionArguments& arguments, const Console& console);
 int points_command(const PointsArguments& arguments, const Console& console);
 int orbit_command(const OrbitArguments& arguments, const Console& console);
 

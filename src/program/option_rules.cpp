@@ -55,6 +55,7 @@ const std::vector<Excludes>& exclusions() {
          nullptr,
          {"--quantity", "--samples", "--format", "--digits", "--output"},
          "name what is drawn by --x and --y, or leave the picture out"},
+        {"help", "--write", nullptr, {"COMMAND", "--man"}, "leave it out"},
         {"simulate", "--samples", nullptr, {"--every"}, "choose one of them"},
     };
     return all;

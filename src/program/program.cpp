@@ -39,6 +39,10 @@ int dispatch(std::span<const std::string> words, const Console& console) {
         return models_command(arguments.models, console);
     if (app.got_subcommand("run"))
         return run_command(arguments.run, console);
+    if (app.got_subcommand("help"))
+        return help_command(app, arguments.help, console);
+    if (app.got_subcommand("completion"))
+        return completion_command(app, arguments.completion, console);
     if (app.got_subcommand("info"))
         return info_command(arguments.info, console);
     if (app.got_subcommand("export"))

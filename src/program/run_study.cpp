@@ -4,6 +4,7 @@
 #include "graze/study/study_catalogue.hpp"
 #include "program/commands.hpp"
 #include "program/interrupt.hpp"
+#include "program/output_file.hpp"
 #include "program/step_lines.hpp"
 #include "program/study_pictures.hpp"
 #include "program/values.hpp"
@@ -176,17 +177,6 @@ bool tell_failures(const std::vector<RunReport>& reports, const Console& console
     return any;
 }
 
-std::string made_folder(const std::string& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error || !std::filesystem::is_directory(folder))
-        throw InputError(
-            {"--output", 0, 0},
-            fmt::format("folder '{}' cannot be made{}", folder, error ? " (" + error.message() + ")" : std::string()),
-            "choose another one");
-    return folder;
-}
-
 void check_names(const Study& study, const std::vector<std::string>& only) {
     const std::vector<std::string> known = names_of(study.runs);
     for (const std::string& name : only)
@@ -251,7 +241,8 @@ int run_command(const RunArguments& arguments, const Console& console) {
     const AskedFor request = asked_for(arguments);
     const Study& study = request.study;
     check_names(study, split_list(arguments.only));
-    const std::string folder = made_folder(request.folder);
+    const std::string& folder = request.folder;
+    make_folder(folder, "--output");
     ResultFile file(request.file, ResultFile::Access::write);
     std::vector<RunReport> reports;
     {
