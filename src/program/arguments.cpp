@@ -185,7 +185,7 @@ void declare_plot(CLI::App& command, SimulateArguments& arguments) {
         "Time histories and phase portrait as svg, png or pdf, by gnuplot. --quantity chooses what is shown");
     add(command, group, "--portrait", arguments.portraits, "X,Y", "Phase portraits of these (a state and its velocity)")
         ->expected(1, -1);
-    add(command, group, "--plot-data", arguments.plot_data, "FILE",
+    add(command, group, "--data,--plot-data", arguments.plot_data, "FILE",
         "Keep data and commands of the picture, to be changed and drawn by `gnuplot FILE`");
 }
 

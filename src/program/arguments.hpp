@@ -58,7 +58,7 @@ struct SimulateArguments {
 
 struct RunArguments {
     std::string study, folder;
-    std::vector<std::string> only;
+    std::vector<std::string> only, set;
     int jobs = 0; ///< 0: as many as there are cores
     bool progress = false, quiet = false, list = false, show = false, no_pictures = false, steps = false;
     OutputArguments output;

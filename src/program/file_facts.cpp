@@ -200,6 +200,8 @@ void add_facts(Facts& facts, const ResultFile& file) {
     try {
         study = stored_study(file);
         add_words(facts, "study", study->name, study->text, study->source);
+        for (const auto& [name, value] : study->set)
+            facts.add("study", study->name, "set." + name, value);
     } catch (const InputError& error) { // settings of another version, say: the rest can be told
         facts.add("file", "", "problem", error.what());
     }

@@ -108,6 +108,9 @@ std::string words_of(const Facts& facts, const std::string& item, const std::str
     for (const char* property : {"text", "source"})
         if (const std::string words = facts.text(item, name, property); !words.empty())
             text += wrapped((std::string_view(property) == "source" ? "Source: " : "") + words) + '\n';
+    for (const Fact& fact : facts.all())
+        if (fact.item == item && fact.name == name && fact.property.starts_with("set."))
+            text += fmt::format("with {} = {}\n", fact.property.substr(4), fact.text);
     return text;
 }
 

@@ -203,6 +203,43 @@ struct AskedFor {
     std::string folder, file;
 };
 
+/// "k=50", or "no other values"
+std::string text_of(const ParameterValues& set) {
+    std::string text;
+    for (const auto& [name, value] : set)
+        text += fmt::format("{}{}={}", text.empty() ? "" : ",", name, value);
+    return text;
+}
+
+/// Results of differing values are not to replace one another: the file would be of neither.
+void require_same_values(const Study& study, const ResultFile& file) {
+    auto stored = stored_set(file);
+    if (!stored)
+        return;
+    ParameterValues asked = study.set;
+    std::sort(stored->begin(), stored->end());
+    std::sort(asked.begin(), asked.end());
+    if (*stored == asked)
+        return;
+    const auto words = [](const ParameterValues& set) {
+        return set.empty() ? std::string("the study's own values") : text_of(set);
+    };
+    throw InputError(
+        Place{file.path(), 0, 0},
+        fmt::format("the results there were made with {}, and those asked for are of {}", words(*stored), words(asked)),
+        "choose another folder by --output");
+}
+
+Study load_study_with(const ParameterValues& set, const std::string& name) {
+    try {
+        return load_study(name, set);
+    } catch (const InputError& error) {
+        if (set.empty() || !error.place().file.empty())
+            throw;
+        throw InputError({"--set", 0, 0}, error.problem(), error.remedy());
+    }
+}
+
 /// A shipped study, one in a file, or the one that a result file has of itself.
 AskedFor asked_for(const RunArguments& arguments) {
     const std::string stored = result_path(arguments.study);
@@ -212,9 +249,13 @@ AskedFor asked_for(const RunArguments& arguments) {
     const bool is_shipped = std::find(shipped.begin(), shipped.end(), arguments.study) != shipped.end();
     AskedFor result;
     if (is_shipped || !from_results) {
-        result.study = load_study(arguments.study);
-        result.folder = arguments.folder.empty() ? result.study.name : arguments.folder;
+        result.study = load_study_with(parameter_values(arguments.set), arguments.study);
+        const std::string own = result.study.set.empty() ? "" : "-" + text_of(result.study.set);
+        result.folder = arguments.folder.empty() ? result.study.name + own : arguments.folder;
     } else {
+        if (!arguments.set.empty())
+            throw InputError({"--set", 0, 0}, "results have numbers, and no longer what the study computes from them",
+                             "name the study instead of its results");
         result.study = stored_study(ResultFile(stored, ResultFile::Access::read));
         result.folder = arguments.folder;
         result.file = stored;
@@ -244,6 +285,7 @@ int run_command(const RunArguments& arguments, const Console& console) {
     const std::string& folder = request.folder;
     make_folder(folder, "--output");
     ResultFile file(request.file, ResultFile::Access::write);
+    require_same_values(study, file);
     std::vector<RunReport> reports;
     {
         const InterruptGuard guard;

@@ -17,6 +17,7 @@ constexpr const char* run_examples = R"(Examples:
   graze run electromagnetic-testbed --output testbed
   graze run my-study.toml --output results --jobs 8
   graze run my-study.toml --only chain --steps
+  graze run my-study.toml --set k=50              for another value; into the folder my-study-k=50
   graze run results                               go on with what is in results/results.sqlite
   graze run results --output again                do all of it again, elsewhere
   graze run mems-switch --show > my-switch.toml)";
@@ -74,6 +75,7 @@ void declare_run(CLI::App& app, RunArguments& arguments) {
     add(command, "--output", arguments.folder, "FOLDER", "Where results and pictures go (the study's name)");
     add(command, "--jobs", arguments.jobs, "N", "Threads (as many as there are cores); results do not depend on it")
         ->check(CLI::Range(1, 1024));
+    add(command, "--set", arguments.set, "NAME=VALUE", "Values of parameters instead of those in the study");
     add(command, "--only", arguments.only, "RUN", "Only these runs, with those that they start from");
     command.add_flag("--list", arguments.list, "List the shipped studies");
     command.add_flag("--show", arguments.show, "Print the study instead of running it");

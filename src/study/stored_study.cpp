@@ -46,6 +46,11 @@ void describe_study(Fields& fields, One& study) {
     fields.field("name", study.name);
     fields.field("text", study.text);
     fields.field("source", study.source);
+    if (fields.has("set", !study.set.empty()))
+        fields.list("set", study.set, [](auto& one, auto& parameter) {
+            one.field("name", parameter.first);
+            one.field("value", parameter.second);
+        });
     fields.list("pictures", study.pictures, [](auto& one, auto& picture) { describe_picture(one, picture); });
 }
 
@@ -114,6 +119,20 @@ void store_study(const Study& study, ResultFile& file) {
     file.set_note(key_of_study, fields.text());
 }
 
+std::optional<ParameterValues> stored_set(const ResultFile& file) {
+    const Place place{"stored study", 0, 0};
+    const auto note = file.note(key_of_study);
+    if (!note)
+        return std::nullopt;
+    Study study;
+    const Json json = parse_json(*note, place);
+    const SettingsReader fields(json, nullptr, place);
+    describe_study(fields, study);
+    for (const auto& [name, value] : study.set)
+        require_plain_line(name, "name of a parameter", place);
+    return study.set;
+}
+
 Study stored_study(const ResultFile& file) {
     const Place place{"stored study", 0, 0};
     Study study;
@@ -121,6 +140,8 @@ Study stored_study(const ResultFile& file) {
     const Json json = parse_json(file.note(key_of_study).value_or("{}"), place);
     const SettingsReader fields(json, nullptr, place);
     describe_study(fields, study);
+    for (const auto& [name, value] : study.set)
+        require_plain_line(name, "name of a parameter", place);
     if (study.name.empty())
         study.name = "results";
     require_file_name(study.name, "name of a study, which its folder bears", place);

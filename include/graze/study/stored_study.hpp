@@ -3,6 +3,7 @@
 #include "graze/results/result_file.hpp"
 #include "graze/study/study.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ StudyRun stored_run(const RunRecord& record);
 /// Keeps in a result file what it needs besides the runs that are begun: the study's name, words and pictures, and all
 /// of its runs as they were asked for.
 void store_study(const Study& study, ResultFile& file);
+/// The values with which the study of a result file was read instead of its own; none if it holds no study.
+/// @throws InputError when they cannot be read
+std::optional<ParameterValues> stored_set(const ResultFile& file);
 /// The study of a result file, made of nothing else.
 /// @throws InputError when something cannot be read
 Study stored_study(const ResultFile& file);
