@@ -86,7 +86,9 @@ void declare_output(CLI::App& command, OutputArguments& output, const std::strin
         ->type_name("FORMAT")
         ->transform(CLI::Transformer(formats).description(""))
         ->group("Output");
-    command.add_option("--digits", output.digits, "Significant digits of numbers; 17 (default) lose nothing")
+    command
+        .add_option("--digits", output.digits,
+                    "Significant digits of numbers (8; 17 of csv and json, which lose nothing)")
         ->type_name("N")
         ->check(whole_number(1, 17))
         ->group("Output");
@@ -214,6 +216,8 @@ void declare_simulate(CLI::App& app, SimulateArguments& arguments) {
     declare_tables(command, arguments);
     declare_plot(command, arguments);
     declare_output(command, arguments.output, "--output");
+    command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal")
+        ->group("Output");
     declare_method(command, arguments);
 }
 

@@ -14,8 +14,11 @@ namespace graze {
 /// What comes with every table.
 struct OutputArguments {
     TableFormat format = TableFormat::table;
-    int digits = 17;
+    int digits = 0;   ///< 0: as many as go with the format
     std::string file; ///< empty: standard output
+    bool all = false; ///< tables for people have all columns, however wide they are
+
+    int shown_digits() const { return digits > 0 ? digits : format == TableFormat::table ? 8 : 17; }
 };
 
 struct CheckArguments {
@@ -79,15 +82,14 @@ struct PlotArguments {
 struct PointsArguments {
     std::string file;
     std::vector<std::string> runs, types;
-    bool all = false;
-    OutputArguments output{TableFormat::table, 0, ""}; ///< digits 0: as many as go with the format
+    OutputArguments output;
 };
 
 struct OrbitArguments {
     std::string file, point, plot, data, x;
     std::vector<std::string> quantities, y;
     std::optional<std::size_t> samples;
-    OutputArguments output{TableFormat::table, 0, ""};
+    OutputArguments output;
 };
 
 struct InfoArguments {

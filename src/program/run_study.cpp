@@ -69,63 +69,71 @@ private:
     Clock::time_point start_ = Clock::now(), last_ = start_;
 };
 
-/// "periodic 1330, chaotic 270", or of branches their special points: "GR 1, PD 2".
-std::string labels_of(const StoredRun& run) {
-    std::vector<std::pair<std::string, std::size_t>> counts;
-    if (run.record.is_branch()) {
-        std::map<std::string, std::size_t> of_types;
-        auto rows = run.rows({.columns = {"type", "located"}});
-        while (rows.next())
-            // An end that was not located is an orbit that was not found.
-            if (const std::string type = rows.text(0); type == "EP" && rows.integer(1) == 0)
-                ++of_types["not found"];
-            else if (type != "RG" && type != "EP")
-                ++of_types[type];
-        counts.assign(of_types.begin(), of_types.end());
-    } else {
-        counts = run.label_counts();
-    }
-    std::string text;
-    for (const auto& [label, count] : counts)
-        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", label, count);
-    return text;
+using Counts = std::vector<std::pair<std::string, std::size_t>>;
+
+/// How many points have which label, such as "periodic", or of branches of which type special points are, such as "GR".
+Counts label_counts(const StoredRun& run) {
+    if (!run.record.is_branch())
+        return run.label_counts();
+    std::map<std::string, std::size_t> of_types;
+    auto rows = run.rows({.columns = {"type", "located"}});
+    while (rows.next())
+        // An end that was not located is an orbit that was not found.
+        if (const std::string type = rows.text(0); type == "EP" && rows.integer(1) == 0)
+            ++of_types["not found"];
+        else if (type != "RG" && type != "EP")
+            ++of_types[type];
+    return {of_types.begin(), of_types.end()};
 }
 
-/// Why the first point that failed did.
-std::string first_failure(const StoredRun& run) {
-    const auto counts = run.label_counts();
-    const auto failed = [](const auto& label) { return label.first == name_of(Label::failed); };
-    if (std::none_of(counts.begin(), counts.end(), failed))
-        return "";
-    auto rows = run.rows({.columns = {"number", "label", "detail"}});
-    while (rows.next())
-        if (rows.text(1) == name_of(Label::failed))
-            return fmt::format("point {}: {}", rows.integer(0), rows.text(2));
+/// What the first point says that ended as nobody wants, with what to do.
+std::string first_remedy(const StoredRun& run, const Counts& counts) {
+    for (const Label label : {Label::failed, Label::chattering, Label::unsettled}) {
+        const std::string name(name_of(label));
+        if (std::none_of(counts.begin(), counts.end(), [&](const auto& one) { return one.first == name; }))
+            continue;
+        auto rows = run.rows({.columns = {"number", "label", "detail"}});
+        while (rows.next())
+            if (rows.text(1) == name && !rows.text(2).empty())
+                return fmt::format("point {}: {}", rows.integer(0), rows.text(2));
+    }
     return "";
 }
 
-/// How the branches of a run ended: of each part, what its last point says.
-std::string ends_of(const StoredRun& run) {
-    if (!run.record.is_branch())
-        return first_failure(run);
-    if (run.record.kind != name_of(RunKind::follow))
-        return "";
+/// How the parts of a branch ended: what the last point of each says.
+std::vector<std::pair<std::string, std::string>> ends_of(const StoredRun& run) {
     std::vector<std::pair<std::string, std::string>> ends; // parts in the order in which they ended
+    if (run.record.kind != name_of(RunKind::follow))
+        return ends;
     auto rows = run.rows({.columns = {"part", "detail"}});
     while (rows.next()) {
         std::erase_if(ends, [part = rows.text(0)](const auto& end) { return end.first == part; });
         ends.emplace_back(rows.text(0), rows.text(1));
     }
-    std::string text;
     const bool unfinished = run.record.status == RunStatus::unfinished; // of which only the last part can be
-    for (std::size_t p = 0; p < ends.size(); ++p) {
-        const auto& [part, detail] = ends[p];
-        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", part,
-                            !detail.empty()                      ? detail
-                            : unfinished && p + 1 == ends.size() ? "interrupted; the same command begins the run again"
-                                                                 : "a point that was asked for");
-    }
-    return text;
+    for (std::size_t p = 0; p < ends.size(); ++p)
+        if (ends[p].second.empty())
+            ends[p].second = unfinished && p + 1 == ends.size() ? "interrupted; the same command begins the run again"
+                                                                : "a point that was asked for";
+    return ends;
+}
+
+/// What there is to say of a run.
+struct ListedRun {
+    Counts labels;
+    std::string remedy; ///< or what went wrong
+    std::vector<std::pair<std::string, std::string>> ends;
+};
+
+ListedRun listed(const RunReport& report, const ResultFile& file) {
+    const StoredRun run(file, report.name, {});
+    ListedRun result{label_counts(run), report.problem, {}};
+    if (!report.problem.empty())
+        return result;
+    result.ends = ends_of(run);
+    if (!run.record.is_branch())
+        result.remedy = first_remedy(run, result.labels);
+    return result;
 }
 
 std::string status_of(const RunReport& report) {
@@ -142,25 +150,71 @@ std::string status_of(const RunReport& report) {
     return report.computed == 0 ? "was there" : report.computed < report.points ? "gone on with" : "done";
 }
 
+void add_report(Table& table, const RunReport& report) {
+    table.add(report.name);
+    table.add(report.kind);
+    table.add(static_cast<double>(report.points));
+    table.add(static_cast<double>(report.computed));
+    table.add(report.seconds);
+    table.add(status_of(report));
+}
+
+const std::vector<Table::Column> report_columns{{"run", ""},      {"kind", ""},     {"points", ""},
+                                                {"computed", ""}, {"seconds", "s"}, {"status", ""}};
+
+/// For people: "periodic 1330, chaotic 270", and "up: ..."
 Table table_of(const std::vector<RunReport>& reports, const ResultFile& file) {
-    Table table({{"run", ""},
-                 {"kind", ""},
-                 {"points", ""},
-                 {"computed", ""},
-                 {"seconds", "s"},
-                 {"status", ""},
-                 {"labels", ""},
-                 {"ended", ""}});
+    std::vector<Table::Column> columns = report_columns;
+    columns.insert(columns.end(), {{"labels", ""}, {"ended", ""}});
+    Table table(columns);
     for (const RunReport& report : reports) {
-        table.add(report.name);
-        table.add(report.kind);
-        table.add(static_cast<double>(report.points));
-        table.add(static_cast<double>(report.computed));
-        table.add(report.seconds);
-        table.add(status_of(report));
-        const StoredRun run(file, report.name, {});
-        table.add(labels_of(run));
-        table.add(report.problem.empty() ? ends_of(run) : report.problem);
+        add_report(table, report);
+        const ListedRun run = listed(report, file);
+        std::string labels, ends = run.remedy;
+        for (const auto& [label, count] : run.labels)
+            labels += fmt::format("{}{} {}", labels.empty() ? "" : ", ", label, count);
+        for (const auto& [part, detail] : run.ends)
+            ends += fmt::format("{}{}: {}", ends.empty() ? "" : "; ", part, detail);
+        table.add(labels);
+        table.add(ends);
+    }
+    return table;
+}
+
+/// For machines: each number and each text in a cell of its own.
+Table cells_of(const std::vector<RunReport>& reports, const ResultFile& file) {
+    std::vector<ListedRun> runs;
+    std::vector<std::string> labels;
+    std::size_t parts = 0;
+    for (const RunReport& report : reports) {
+        runs.push_back(listed(report, file));
+        parts = std::max(parts, runs.back().ends.size());
+        for (const auto& one : runs.back().labels)
+            if (std::find(labels.begin(), labels.end(), one.first) == labels.end())
+                labels.push_back(one.first);
+    }
+    std::vector<Table::Column> columns = report_columns;
+    for (std::string label : labels) {
+        std::replace(label.begin(), label.end(), ' ', '_');
+        columns.push_back({"points_" + label, ""});
+    }
+    columns.push_back({"problem", ""});
+    for (std::size_t p = 1; p <= parts; ++p)
+        columns.insert(columns.end(), {{fmt::format("part_{}", p), ""}, {fmt::format("ended_{}", p), ""}});
+    Table table(columns);
+    for (std::size_t r = 0; r < reports.size(); ++r) {
+        add_report(table, reports[r]);
+        for (const std::string& label : labels) {
+            const auto found = std::find_if(runs[r].labels.begin(), runs[r].labels.end(),
+                                            [&](const auto& one) { return one.first == label; });
+            table.add(found == runs[r].labels.end() ? 0.0 : static_cast<double>(found->second));
+        }
+        table.add(runs[r].remedy);
+        for (std::size_t p = 0; p < parts; ++p) {
+            const bool there = p < runs[r].ends.size();
+            table.add(there ? runs[r].ends[p].first : "");
+            table.add(there ? runs[r].ends[p].second : "");
+        }
     }
     return table;
 }
@@ -193,7 +247,9 @@ int list_studies(const RunArguments& arguments, const Console& console) {
         table.add(static_cast<double>(study.runs.size()));
         table.add(study.text);
     }
-    deliver(table, arguments.output, {}, console);
+    OutputArguments output = arguments.output;
+    output.all = true; // lines of words
+    deliver(table, output, {}, console);
     return exit_success;
 }
 
@@ -308,8 +364,10 @@ int run_command(const RunArguments& arguments, const Console& console) {
     }
     if (!arguments.quiet) {
         OutputArguments output = arguments.output;
-        output.digits = 6;
-        deliver(table_of(reports, file), output, {}, console);
+        const bool for_people = output.format == TableFormat::table;
+        output.digits = for_people ? 6 : 17;
+        output.all = true;
+        deliver(for_people ? table_of(reports, file) : cells_of(reports, file), output, {}, console);
     }
     const bool failed = tell_failures(reports, console);
     if (!reports.empty() && reports.back().outcome == RunOutcome::interrupted) {

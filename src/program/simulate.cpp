@@ -175,7 +175,7 @@ public:
         compute();
         table_->finish(*trajectory_);
         if (wants_table_)
-            deliver(table_->table(), arguments_.output, heading(), console_);
+            deliver(table_->table(), arguments_.output, heading(), console_, names_of(request_.quantities));
         const int code = report();
         if (plot_) {
             curves_->finish(*trajectory_);

@@ -111,8 +111,10 @@ void declare_export(CLI::App& app, ExportArguments& arguments) {
     add(command, "--format", arguments.hdf5, "FORMAT", "table (default), csv, json or hdf5")
         ->check(CLI::IsMember(known));
     add(command, "--output", arguments.output.file, "FILE", "Write there instead of to standard output");
-    add(command, "--digits", arguments.output.digits, "N", "Significant digits of numbers; 17 (default) lose nothing")
+    add(command, "--digits", arguments.output.digits, "N",
+        "Significant digits of numbers (8; 17 of csv and json, which lose nothing)")
         ->check(CLI::Range(1, 17));
+    command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal");
 }
 
 void declare_plot_results(CLI::App& app, PlotArguments& arguments) {
