@@ -110,7 +110,7 @@ _graze() {{
         COMPREPLY+=($(compgen -f -- "$current"))
     fi
 }}
-complete -F _graze graze
+complete -F _graze 'graze'
 )sh",
                        values, options, joined(names), arguments);
 }

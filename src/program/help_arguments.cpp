@@ -14,7 +14,7 @@ constexpr const char* help_examples = R"(Examples:
   graze help --write man1                pages of all commands)";
 
 constexpr const char* completion_text = R"(Print a script by which a shell completes commands, options and names.
-SHELL is bash, zsh or fish. An installed graze brings these scripts along.)";
+SHELL is bash, zsh or fish. An installation has these scripts already.)";
 
 constexpr const char* completion_examples = R"(Examples:
   graze completion bash > ~/.local/share/bash-completion/completions/graze

@@ -5,6 +5,7 @@
 #include "program/commands.hpp"
 #include "program/interrupt.hpp"
 #include "program/output_file.hpp"
+#include "program/progress_line.hpp"
 #include "program/step_lines.hpp"
 #include "program/study_pictures.hpp"
 #include "program/values.hpp"
@@ -12,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <map>
 #include <thread>
@@ -20,54 +20,6 @@
 namespace graze {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-using namespace std::chrono_literals;
-
-/// A line on standard error once a study takes long.
-class StudyProgress {
-public:
-    StudyProgress(const Console& console, bool wanted) : console_(&console), wanted_(wanted) {}
-    ~StudyProgress() {
-        if (shown_)
-            console_->progress() << (console_->terminal ? "\r\033[K" : "\n") << std::flush;
-    }
-    StudyProgress(const StudyProgress&) = delete;
-    StudyProgress& operator=(const StudyProgress&) = delete;
-
-    void update(const std::string& run, std::size_t done, std::size_t all) {
-        if (first_ == 0)
-            first_ = done;
-        show([&] {
-            const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-            const double left = elapsed * static_cast<double>(all - done) /
-                                static_cast<double>(std::max<std::size_t>(done - first_, 1));
-            return fmt::format("{}: {} of {} points, {:.0f} %, {:.0f} s left", run, done, all,
-                               100.0 * static_cast<double>(done) / static_cast<double>(all), left);
-        });
-    }
-    /// Of a branch nobody knows how long it will be.
-    void update(const std::string& run, const OrbitRecord& orbit) {
-        show([&] { return fmt::format("{}: {} orbits, at {:.8g}", run, orbit.number + 1, orbit.point.parameter); });
-    }
-
-private:
-    /// @param text made only when it is shown
-    template <class Text>
-    void show(Text text) {
-        const auto now = Clock::now();
-        if (!wanted_ || now - start_ < 2s || now - last_ < 200ms)
-            return;
-        last_ = now;
-        shown_ = true;
-        console_->progress() << fmt::format("\r{:<70}", text()) << std::flush;
-    }
-
-    const Console* console_;
-    bool wanted_, shown_ = false;
-    std::size_t first_ = 0;
-    Clock::time_point start_ = Clock::now(), last_ = start_;
-};
 
 using Counts = std::vector<std::pair<std::string, std::size_t>>;
 
@@ -345,16 +297,15 @@ int run_command(const RunArguments& arguments, const Console& console) {
     std::vector<RunReport> reports;
     {
         const InterruptGuard guard;
-        StudyProgress progress(console, (arguments.progress || console.terminal) && !arguments.steps);
+        ProgressLine progress(console, (arguments.progress || console.terminal) && !arguments.steps);
         StepLines steps(study, console.err);
         RunnerOptions options;
         options.jobs =
             arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
         options.only = split_list(arguments.only);
         options.interrupted = [] { return InterruptGuard::requested(); };
-        options.progress = [&](const std::string& run, std::size_t done, std::size_t all) {
-            progress.update(run, done, all);
-        };
+        options.one_by_one = arguments.steps; // lines about several at a time could not be read
+        options.progress = [&](const StudyProgress& made) { progress.update(made); };
         options.orbit = [&](const std::string& run, const OrbitRecord& record) {
             if (arguments.steps)
                 steps.show(run, record);
@@ -370,7 +321,8 @@ int run_command(const RunArguments& arguments, const Console& console) {
         deliver(for_people ? table_of(reports, file) : cells_of(reports, file), output, {}, console);
     }
     const bool failed = tell_failures(reports, console);
-    if (!reports.empty() && reports.back().outcome == RunOutcome::interrupted) {
+    if (std::any_of(reports.begin(), reports.end(),
+                    [](const RunReport& report) { return report.outcome == RunOutcome::interrupted; })) {
         console.err << "graze: interrupted; what was computed is kept, and the same command goes on from there\n";
         return exit_interrupted;
     }

@@ -109,6 +109,23 @@ void check(StudyPicture& picture, const Place& place) {
 
 } // namespace
 
+std::string settings_of(const StudyPicture& picture) {
+    SettingsWriter fields;
+    describe_picture(fields, picture);
+    return fields.text();
+}
+
+std::string fingerprint_of(std::string_view text) {
+    // FNV-1a with two seeds.
+    std::string result;
+    for (std::uint64_t value : {std::uint64_t{0xcbf29ce484222325u}, std::uint64_t{0x84222325cbf29ce4u}}) {
+        for (const char c : text)
+            value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+        result += fmt::format("{:016x}", value);
+    }
+    return result;
+}
+
 void store_study(const Study& study, ResultFile& file) {
     std::vector<PlannedRun> runs;
     for (const StudyRun& run : study.runs)
