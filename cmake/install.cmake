@@ -16,6 +16,12 @@ install(FILES ${PROJECT_BINARY_DIR}/graze-config.cmake ${PROJECT_BINARY_DIR}/gra
 
 if(TARGET graze_executable)
     install(TARGETS graze_executable)
+    install(DIRECTORY ${PROJECT_BINARY_DIR}/manual/man1 TYPE MAN FILES_MATCHING PATTERN "*.1")
+    install(FILES ${PROJECT_BINARY_DIR}/manual/graze DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+    install(FILES ${PROJECT_BINARY_DIR}/manual/_graze DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+    install(FILES ${PROJECT_BINARY_DIR}/manual/graze.fish
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+    )
 endif()
 install(DIRECTORY models studies DESTINATION ${CMAKE_INSTALL_DATADIR}/graze FILES_MATCHING PATTERN "*.toml")
 install(FILES LICENSE README.md CHANGELOG.md TYPE DOC)

@@ -16,3 +16,22 @@ if(TARGET graze_program AND EXISTS ${PROJECT_SOURCE_DIR}/src/program/main.cpp)
                                     INSTALL_RPATH $ORIGIN/../${CMAKE_INSTALL_LIBDIR}
     )
 endif()
+
+# Pages for man and completion for shells are what the program itself says of its options.
+if(TARGET graze_executable AND GRAZE_INSTALL)
+    set(pages ${PROJECT_BINARY_DIR}/manual)
+    add_custom_command(
+        OUTPUT ${pages}/written
+        COMMAND ${CMAKE_COMMAND} -E rm -rf ${pages}
+        COMMAND ${CMAKE_COMMAND} -E make_directory ${pages}
+        COMMAND graze_executable help --write ${pages}/man1 > ${pages}/list
+        COMMAND graze_executable completion bash --output ${pages}/graze
+        COMMAND graze_executable completion zsh --output ${pages}/_graze
+        COMMAND graze_executable completion fish --output ${pages}/graze.fish
+        COMMAND ${CMAKE_COMMAND} -E touch ${pages}/written
+        DEPENDS graze_executable
+        COMMENT "Writing pages for man and completion for shells"
+        VERBATIM
+    )
+    add_custom_target(graze_manual ALL DEPENDS ${pages}/written)
+endif()

@@ -27,22 +27,27 @@ public:
             throw InputError({source_.file(), 0, 0}, "the model is empty",
                              "give at least [states] and a mode; docs/model-format.md shows how");
         std::map<std::string, TomlEntry> top;
-        for (const TomlEntry& entry :
-             reader_.entries(root_, "",
-                             {"name", "text", "source", "time_unit", "parameters", "states", "definitions", "modes",
-                              "events", "jumps", "transitions", "sections", "symmetries", "quantities", "initial"})) {
+        for (const TomlEntry& entry : reader_.entries(root_, "")) {
+            mistakes_.attempt([&] {
+                reader_.require_known(entry, "",
+                                      {"name", "text", "source", "time_unit", "parameters", "states", "definitions",
+                                       "modes", "events", "jumps", "transitions", "sections", "symmetries",
+                                       "quantities", "initial"});
+            });
             places_.set(entry.name, entry.place);
             top.emplace(entry.name, entry);
         }
         const auto read = [&](const char* key, void (ModelReader::*member)(const TomlEntry&)) {
-            if (const auto found = top.find(key); found != top.end())
-                (this->*member)(found->second);
+            const auto found = top.find(key);
+            return found == top.end() || mistakes_.attempt([&] { (this->*member)(found->second); });
         };
-        read_head(top);
-        read("parameters", &ModelReader::name_parameters);
-        read("states", &ModelReader::name_states);
-        read("definitions", &ModelReader::name_definitions);
-        validate_names(model_, places_);
+        mistakes_.attempt([&] { read_head(top); });
+        const bool named =
+            read("parameters", &ModelReader::name_parameters) && read("states", &ModelReader::name_states) &&
+            read("definitions", &ModelReader::name_definitions) && read("modes", &ModelReader::name_modes) &&
+            mistakes_.attempt([&] { validate_names(model_, places_); });
+        if (!named) // all others refer to these names
+            mistakes_.throw_noted();
         make_scope();
         read("parameters", &ModelReader::read_parameters);
         read("states", &ModelReader::read_states);
@@ -50,17 +55,19 @@ public:
         read("events", &ModelReader::read_events);
         model_.jumps.front().map = identity();
         read("jumps", &ModelReader::read_jumps);
-        read("modes", &ModelReader::name_modes);
         read("modes", &ModelReader::read_modes);
         read("transitions", &ModelReader::read_transitions);
         read("sections", &ModelReader::read_sections);
         read("symmetries", &ModelReader::read_symmetries);
         read("quantities", &ModelReader::read_quantities);
-        if (top.count("initial") != 0)
-            read("initial", &ModelReader::read_initial);
-        else if (model_.modes.size() > 1)
-            throw InputError({source_.file(), 0, 0}, "the model has several modes but does not say which one is first",
-                             "add [initial] with mode = \"<mode>\"");
+        read("initial", &ModelReader::read_initial);
+        if (top.count("initial") == 0 && model_.modes.size() > 1)
+            mistakes_.attempt([&] {
+                throw InputError({source_.file(), 0, 0},
+                                 "the model has several modes but does not say which one is first",
+                                 "add [initial] with mode = \"<mode>\"");
+            });
+        mistakes_.throw_noted();
         validate_model(model_, places_);
         return std::move(model_);
     }
@@ -106,16 +113,18 @@ private:
         auto item = model_.parameters.begin();
         for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
             Parameter& parameter = *item++;
-            for (const TomlEntry& part : short_form(entry, "value", {"value", "unit", "text"})) {
-                if (part.name == "value" && part.node->is_number())
-                    parameter.value = number(part);
-                else if (part.name == "value")
-                    set_value(parameter, expression(part));
-                else
-                    read_words(part, parameter.unit, parameter.text);
-            }
-            if (!parameter.value && !parameter.expression)
-                fail_missing(entry, "value", "value");
+            mistakes_.attempt([&] {
+                for (const TomlEntry& part : short_form(entry, "value", {"value", "unit", "text"})) {
+                    if (part.name == "value" && part.node->is_number())
+                        parameter.value = number(part);
+                    else if (part.name == "value")
+                        set_value(parameter, expression(part));
+                    else
+                        read_words(part, parameter.unit, parameter.text);
+                }
+                if (!parameter.value && !parameter.expression)
+                    fail_missing(entry, "value", "value");
+            });
         }
     }
 
@@ -130,19 +139,21 @@ private:
         auto item = model_.states.begin();
         for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
             State& state = *item++;
-            for (const TomlEntry& part :
-                 short_form(entry, "initial", {"initial", "unit", "text", "period", "drifting"})) {
-                if (part.name == "initial")
-                    state.initial = expression(part);
-                else if (part.name == "period")
-                    state.period = expression(part);
-                else if (part.name == "drifting")
-                    state.drifting = reader_.boolean(part);
-                else
-                    read_words(part, state.unit, state.text);
-            }
-            if (state.initial.empty())
-                fail_missing(entry, "initial value", "initial");
+            mistakes_.attempt([&] {
+                for (const TomlEntry& part :
+                     short_form(entry, "initial", {"initial", "unit", "text", "period", "drifting"})) {
+                    if (part.name == "initial")
+                        state.initial = expression(part);
+                    else if (part.name == "period")
+                        state.period = expression(part);
+                    else if (part.name == "drifting")
+                        state.drifting = reader_.boolean(part);
+                    else
+                        read_words(part, state.unit, state.text);
+                }
+                if (state.initial.empty())
+                    fail_missing(entry, "initial value", "initial");
+            });
         }
     }
 
@@ -150,32 +161,39 @@ private:
         auto item = model_.definitions.begin();
         for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
             Definition& definition = *item++;
-            for (const TomlEntry& part : short_form(entry, "value", {"value", "text"})) {
-                if (part.name == "value")
-                    definition.value = expression(part);
-                else
-                    definition.text = reader_.string(part);
-            }
-            if (definition.value.empty())
-                fail_missing(entry, "value", "value");
+            mistakes_.attempt([&] {
+                for (const TomlEntry& part : short_form(entry, "value", {"value", "text"})) {
+                    if (part.name == "value")
+                        definition.value = expression(part);
+                    else
+                        definition.text = reader_.string(part);
+                }
+                if (definition.value.empty())
+                    fail_missing(entry, "value", "value");
+            });
         }
     }
 
     void read_events(const TomlEntry& group) {
         for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
-            places_.set(entry.path, entry.place);
             Event event;
             event.name = entry.name;
-            for (const TomlEntry& part : short_form(entry, "function", {"function", "kind", "text"})) {
-                if (part.name == "function")
-                    event.function = expression(part);
-                else if (part.name == "kind")
-                    event.kind = choice(part, {"barrier", "section"}) == 0 ? EventKind::barrier : EventKind::section;
-                else
-                    event.text = reader_.string(part);
-            }
-            if (event.function.empty())
-                fail_missing(entry, "function", "function");
+            const bool good = mistakes_.attempt([&] {
+                places_.set(entry.path, entry.place);
+                for (const TomlEntry& part : short_form(entry, "function", {"function", "kind", "text"})) {
+                    if (part.name == "function")
+                        event.function = expression(part);
+                    else if (part.name == "kind")
+                        event.kind =
+                            choice(part, {"barrier", "section"}) == 0 ? EventKind::barrier : EventKind::section;
+                    else
+                        event.text = reader_.string(part);
+                }
+                if (event.function.empty())
+                    fail_missing(entry, "function", "function");
+            });
+            if (!good) // for what refers to it
+                event.function = model_.graph->number(1);
             model_.events.push_back(std::move(event));
         }
     }
@@ -183,21 +201,24 @@ private:
     void read_jumps(const TomlEntry& group) {
         const bool has_text = !model_.find_state("text");
         for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
-            places_.set(entry.path, entry.place);
-            if (entry.name == "identity")
-                throw InputError(entry.place, "the jump 'identity' exists always",
-                                 "choose another name, or leave it out");
             Jump jump;
             jump.name = entry.name;
-            std::vector<TomlEntry> states = reader_.entries(reader_.table(entry), entry.path);
-            // "text" describes the jump, unless a state has that name.
-            if (has_text)
-                std::erase_if(states, [&](const TomlEntry& part) {
-                    if (part.name == "text")
-                        jump.text = reader_.string(part);
-                    return part.name == "text";
-                });
-            jump.map = state_map(states);
+            jump.map = identity();
+            mistakes_.attempt([&] {
+                places_.set(entry.path, entry.place);
+                if (entry.name == "identity")
+                    throw InputError(entry.place, "the jump 'identity' exists always",
+                                     "choose another name, or leave it out");
+                std::vector<TomlEntry> states = reader_.entries(reader_.table(entry), entry.path);
+                // "text" describes the jump, unless a state has that name.
+                if (has_text)
+                    std::erase_if(states, [&](const TomlEntry& part) {
+                        if (part.name == "text")
+                            jump.text = reader_.string(part);
+                        return part.name == "text";
+                    });
+                jump.map = state_map(states);
+            });
             model_.jumps.push_back(std::move(jump));
         }
     }
@@ -206,65 +227,69 @@ private:
         auto item = model_.modes.begin();
         for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
             Mode& mode = *item++;
-            mode.rates.resize(model_.states.size());
-            Place rates = entry.place;
-            for (const TomlEntry& part :
-                 reader_.entries(reader_.table(entry), entry.path, {"text", "rates", "watch"})) {
-                places_.set(part.path, part.place);
-                if (part.name == "text") {
-                    mode.text = reader_.string(part);
-                } else if (part.name == "watch") {
-                    for (const TomlEntry& event : reader_.elements(part))
-                        mode.watched.push_back(index(event, model_.events, "event"));
-                } else {
-                    rates = part.place;
-                    for (const TomlEntry& rate : reader_.entries(reader_.table(part), part.path))
-                        mode.rates[key_index(rate, model_.states, "state")] = expression(rate);
+            mistakes_.attempt([&] {
+                mode.rates.resize(model_.states.size());
+                Place rates = entry.place;
+                for (const TomlEntry& part :
+                     reader_.entries(reader_.table(entry), entry.path, {"text", "rates", "watch"})) {
+                    places_.set(part.path, part.place);
+                    if (part.name == "text") {
+                        mode.text = reader_.string(part);
+                    } else if (part.name == "watch") {
+                        for (const TomlEntry& event : reader_.elements(part))
+                            mode.watched.push_back(index(event, model_.events, "event"));
+                    } else {
+                        rates = part.place;
+                        for (const TomlEntry& rate : reader_.entries(reader_.table(part), part.path))
+                            mode.rates[key_index(rate, model_.states, "state")] = expression(rate);
+                    }
                 }
-            }
-            for (std::size_t i = 0; i < mode.rates.size(); ++i)
-                if (mode.rates[i].empty())
-                    throw InputError(
-                        rates,
-                        fmt::format("mode '{}' has no rate for the state '{}'", mode.name, model_.states[i].name),
-                        fmt::format("add {} = \"...\" to the rates; 0 for a state that does not move",
-                                    model_.states[i].name));
+                for (std::size_t i = 0; i < mode.rates.size(); ++i)
+                    if (mode.rates[i].empty())
+                        throw InputError(
+                            rates,
+                            fmt::format("mode '{}' has no rate for the state '{}'", mode.name, model_.states[i].name),
+                            fmt::format("add {} = \"...\" to the rates; 0 for a state that does not move",
+                                        model_.states[i].name));
+            });
         }
     }
 
     void read_transitions(const TomlEntry& group) {
         for (const TomlEntry& entry : reader_.elements(group)) {
-            places_.set(entry.path, entry.place);
-            Transition transition;
-            bool has_mode = false;
-            bool has_event = false;
-            for (const TomlEntry& part : reader_.entries(reader_.table(entry), entry.path,
-                                                         {"mode", "event", "label", "jump", "next", "chatter"})) {
-                if (part.name == "mode") {
-                    transition.mode = index(part, model_.modes, "mode");
-                    has_mode = true;
-                } else if (part.name == "event") {
-                    transition.event = index(part, model_.events, "event");
-                    has_event = true;
-                } else if (part.name == "label") {
-                    transition.label = reader_.line(part);
-                } else if (part.name == "jump") {
-                    transition.jump = index(part, model_.jumps, "jump");
-                } else if (part.name == "next") {
-                    transition.next = read_next(part);
-                } else {
-                    transition.chatter = read_chatter(part);
+            mistakes_.attempt([&] {
+                places_.set(entry.path, entry.place);
+                Transition transition;
+                bool has_mode = false;
+                bool has_event = false;
+                for (const TomlEntry& part : reader_.entries(reader_.table(entry), entry.path,
+                                                             {"mode", "event", "label", "jump", "next", "chatter"})) {
+                    if (part.name == "mode") {
+                        transition.mode = index(part, model_.modes, "mode");
+                        has_mode = true;
+                    } else if (part.name == "event") {
+                        transition.event = index(part, model_.events, "event");
+                        has_event = true;
+                    } else if (part.name == "label") {
+                        transition.label = reader_.line(part);
+                    } else if (part.name == "jump") {
+                        transition.jump = index(part, model_.jumps, "jump");
+                    } else if (part.name == "next") {
+                        transition.next = read_next(part);
+                    } else {
+                        transition.chatter = read_chatter(part);
+                    }
                 }
-            }
-            if (!has_mode)
-                fail_missing(entry, "mode", "mode");
-            if (!has_event)
-                fail_missing(entry, "event", "event");
-            if (transition.next.empty())
-                fail_missing(entry, "next mode", "next");
-            if (transition.label.empty())
-                transition.label = model_.modes[transition.mode].name + ":" + model_.events[transition.event].name;
-            model_.transitions.push_back(std::move(transition));
+                if (!has_mode)
+                    fail_missing(entry, "mode", "mode");
+                if (!has_event)
+                    fail_missing(entry, "event", "event");
+                if (transition.next.empty())
+                    fail_missing(entry, "next mode", "next");
+                if (transition.label.empty())
+                    transition.label = model_.modes[transition.mode].name + ":" + model_.events[transition.event].name;
+                model_.transitions.push_back(std::move(transition));
+            });
         }
     }
 
@@ -315,78 +340,85 @@ private:
 
     void read_sections(const TomlEntry& group) {
         for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
-            places_.set(entry.path, entry.place);
-            Section section;
-            section.name = entry.name;
-            const TomlEntry* direction = nullptr;
-            const std::vector<TomlEntry> parts =
-                reader_.entries(reader_.table(entry), entry.path, {"function", "direction", "state", "value", "text"});
-            for (const TomlEntry& part : parts) {
-                if (part.name == "function")
-                    section.function = expression(part);
-                else if (part.name == "state")
-                    section.state = index(part, model_.states, "state");
-                else if (part.name == "value")
-                    section.value = expression(part);
-                else if (part.name == "text")
-                    section.text = reader_.string(part);
-                else
-                    direction = &part;
-            }
-            if (section.function.empty() == !section.state)
-                throw InputError(entry.place, fmt::format("{} needs either a function or a state", entry.path),
-                                 "give function = \"...\", or state = \"...\" and value = ...");
-            if (section.state.has_value() == section.value.empty())
-                throw InputError(entry.place, fmt::format("{}: state and value belong together", entry.path),
-                                 "give state = \"...\" and value = ...");
-            if (direction != nullptr && section.state)
-                throw InputError(direction->place, fmt::format("{} cannot have a direction", entry.path),
-                                 "a phase section is passed as the phase moves: leave direction out");
-            constexpr std::array directions{Direction::falling, Direction::rising, Direction::both};
-            if (direction != nullptr)
-                section.direction = directions[choice(*direction, {"falling", "rising", "both"})];
-            model_.sections.push_back(std::move(section));
+            mistakes_.attempt([&] {
+                places_.set(entry.path, entry.place);
+                Section section;
+                section.name = entry.name;
+                const TomlEntry* direction = nullptr;
+                const std::vector<TomlEntry> parts = reader_.entries(
+                    reader_.table(entry), entry.path, {"function", "direction", "state", "value", "text"});
+                for (const TomlEntry& part : parts) {
+                    if (part.name == "function")
+                        section.function = expression(part);
+                    else if (part.name == "state")
+                        section.state = index(part, model_.states, "state");
+                    else if (part.name == "value")
+                        section.value = expression(part);
+                    else if (part.name == "text")
+                        section.text = reader_.string(part);
+                    else
+                        direction = &part;
+                }
+                if (section.function.empty() == !section.state)
+                    throw InputError(entry.place, fmt::format("{} needs either a function or a state", entry.path),
+                                     "give function = \"...\", or state = \"...\" and value = ...");
+                if (section.state.has_value() == section.value.empty())
+                    throw InputError(entry.place, fmt::format("{}: state and value belong together", entry.path),
+                                     "give state = \"...\" and value = ...");
+                if (direction != nullptr && section.state)
+                    throw InputError(direction->place, fmt::format("{} cannot have a direction", entry.path),
+                                     "a phase section is passed as the phase moves: leave direction out");
+                constexpr std::array directions{Direction::falling, Direction::rising, Direction::both};
+                if (direction != nullptr)
+                    section.direction = directions[choice(*direction, {"falling", "rising", "both"})];
+                model_.sections.push_back(std::move(section));
+            });
         }
     }
 
     void read_symmetries(const TomlEntry& group) {
         for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
-            places_.set(entry.path, entry.place);
-            Symmetry symmetry;
-            symmetry.name = entry.name;
-            symmetry.map = model_.state_symbols();
-            for (std::size_t i = 0; i < model_.modes.size(); ++i)
-                symmetry.modes.push_back(i);
-            for (const TomlEntry& part : reader_.entries(reader_.table(entry), entry.path, {"map", "modes", "text"})) {
-                if (part.name == "text") {
-                    symmetry.text = reader_.string(part);
-                } else if (part.name == "map") {
-                    symmetry.map = state_map(reader_.entries(reader_.table(part), part.path));
-                } else {
-                    for (const TomlEntry& mode : reader_.entries(reader_.table(part), part.path)) {
-                        const std::size_t from = key_index(mode, model_.modes, "mode");
-                        symmetry.modes[from] = index(mode, model_.modes, "mode");
+            mistakes_.attempt([&] {
+                places_.set(entry.path, entry.place);
+                Symmetry symmetry;
+                symmetry.name = entry.name;
+                symmetry.map = model_.state_symbols();
+                for (std::size_t i = 0; i < model_.modes.size(); ++i)
+                    symmetry.modes.push_back(i);
+                for (const TomlEntry& part :
+                     reader_.entries(reader_.table(entry), entry.path, {"map", "modes", "text"})) {
+                    if (part.name == "text") {
+                        symmetry.text = reader_.string(part);
+                    } else if (part.name == "map") {
+                        symmetry.map = state_map(reader_.entries(reader_.table(part), part.path));
+                    } else {
+                        for (const TomlEntry& mode : reader_.entries(reader_.table(part), part.path)) {
+                            const std::size_t from = key_index(mode, model_.modes, "mode");
+                            symmetry.modes[from] = index(mode, model_.modes, "mode");
+                        }
                     }
                 }
-            }
-            model_.symmetries.push_back(std::move(symmetry));
+                model_.symmetries.push_back(std::move(symmetry));
+            });
         }
     }
 
     void read_quantities(const TomlEntry& group) {
         for (const TomlEntry& entry : reader_.entries(reader_.table(group), group.path)) {
-            places_.set(entry.path, entry.place);
-            Quantity quantity;
-            quantity.name = entry.name;
-            for (const TomlEntry& part : short_form(entry, "value", {"value", "unit", "text"})) {
-                if (part.name == "value")
-                    quantity.value = expression(part);
-                else
-                    read_words(part, quantity.unit, quantity.text);
-            }
-            if (quantity.value.empty())
-                fail_missing(entry, "value", "value");
-            model_.quantities.push_back(std::move(quantity));
+            mistakes_.attempt([&] {
+                places_.set(entry.path, entry.place);
+                Quantity quantity;
+                quantity.name = entry.name;
+                for (const TomlEntry& part : short_form(entry, "value", {"value", "unit", "text"})) {
+                    if (part.name == "value")
+                        quantity.value = expression(part);
+                    else
+                        read_words(part, quantity.unit, quantity.text);
+                }
+                if (quantity.value.empty())
+                    fail_missing(entry, "value", "value");
+                model_.quantities.push_back(std::move(quantity));
+            });
         }
     }
 

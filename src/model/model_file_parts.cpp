@@ -40,6 +40,11 @@ auto ModelParts::parse_string(const TomlEntry& entry, Parse parse) {
 }
 
 Expression ModelParts::expression(const TomlEntry& entry) {
+    Expression result;
+    return mistakes_.attempt([&] { result = parsed_expression(entry); }) ? result : model_.graph->number(1);
+}
+
+Expression ModelParts::parsed_expression(const TomlEntry& entry) {
     if (entry.node->is_number())
         return model_.graph->number(number(entry));
     if (!entry.node->is_string())
@@ -61,9 +66,13 @@ double ModelParts::number(const TomlEntry& entry) {
 }
 
 std::vector<Condition> ModelParts::conditions(const TomlEntry& entry) {
-    return parse_string(entry, [&](const std::string& text, const Place& place) {
-        return parse_conditions(*model_.graph, text, scope_, place);
+    std::vector<Condition> result;
+    mistakes_.attempt([&] {
+        result = parse_string(entry, [&](const std::string& text, const Place& place) {
+            return parse_conditions(*model_.graph, text, scope_, place);
+        });
     });
+    return result;
 }
 
 std::vector<TomlEntry> ModelParts::short_form(const TomlEntry& entry, const char* key,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/model/model.hpp"
+#include "graze/symbolic/input_errors.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "model/model_file_toml.hpp"
 #include "model/model_places.hpp"
@@ -25,10 +26,11 @@ protected:
     /// Lets expressions use the names of parameters, states and definitions.
     void make_scope();
 
-    /// A number or the text of an expression.
+    /// A number or the text of an expression. One that is wrong is noted, and a number stands for it.
     Expression expression(const TomlEntry& entry);
     /// A number, which must be finite.
     double number(const TomlEntry& entry);
+    /// Those that are wrong are noted, and left out.
     std::vector<Condition> conditions(const TomlEntry& entry);
     /// The entries of a table, or the short form: a value alone, which stands for `{ key = value }`.
     std::vector<TomlEntry> short_form(const TomlEntry& entry, const char* key,
@@ -58,6 +60,7 @@ protected:
     TomlReader reader_;
     Places places_;
     Model model_;
+    Mistakes mistakes_; ///< found so far
 
 private:
     /// Places of the names of some items, which may get more of them but keep those that they have.
@@ -79,6 +82,7 @@ private:
     }
     [[noreturn]] static void fail_name(const std::string& name, const Place& place,
                                        const std::vector<std::string>& names, const char* kind);
+    Expression parsed_expression(const TomlEntry& entry);
     InputError inside(const TomlEntry& entry, const std::string& text, const InputError& error) const;
     template <typename Parse>
     auto parse_string(const TomlEntry& entry, Parse parse);

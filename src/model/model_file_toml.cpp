@@ -1,7 +1,7 @@
 #include "model/model_file_toml.hpp"
 
 #include "graze/symbolic/file_name.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/input_errors.hpp"
 #include "graze/symbolic/printable.hpp"
 #include "model/model_file_guard.hpp"
 #include "model/model_validate.hpp"
@@ -44,12 +44,18 @@ std::vector<TomlEntry> TomlReader::entries(const toml::table& table, const std::
 std::vector<TomlEntry> TomlReader::entries(const toml::table& table, const std::string& path,
                                            std::initializer_list<std::string_view> allowed) const {
     std::vector<TomlEntry> result = entries(table, path);
+    Mistakes mistakes;
     for (const TomlEntry& entry : result)
-        if (std::find(allowed.begin(), allowed.end(), entry.name) == allowed.end())
-            throw InputError(entry.place,
-                             fmt::format("unknown key '{}'{}", entry.name, path.empty() ? "" : " in " + path),
-                             name_remedy(entry.name, {allowed.begin(), allowed.end()}));
+        mistakes.attempt([&] { require_known(entry, path, allowed); });
+    mistakes.throw_noted();
     return result;
+}
+
+void TomlReader::require_known(const TomlEntry& entry, const std::string& path,
+                               std::initializer_list<std::string_view> allowed) const {
+    if (std::find(allowed.begin(), allowed.end(), entry.name) == allowed.end())
+        throw InputError(entry.place, fmt::format("unknown key '{}'{}", entry.name, path.empty() ? "" : " in " + path),
+                         name_remedy(entry.name, {allowed.begin(), allowed.end()}));
 }
 
 const toml::table& TomlReader::table(const TomlEntry& entry) const {

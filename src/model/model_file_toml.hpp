@@ -38,6 +38,10 @@ public:
     std::vector<TomlEntry> entries(const toml::table& table, const std::string& path,
                                    std::initializer_list<std::string_view> allowed) const;
 
+    /// @param path of the table that it is in @throws InputError for a key that may not occur there
+    void require_known(const TomlEntry& entry, const std::string& path,
+                       std::initializer_list<std::string_view> allowed) const;
+
     const toml::table& table(const TomlEntry& entry) const;
     /// Elements, with paths such as "modes.flight.watch.1".
     std::vector<TomlEntry> elements(const TomlEntry& entry) const;

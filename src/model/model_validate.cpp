@@ -1,7 +1,7 @@
 #include "model/model_validate.hpp"
 
 #include "graze/symbolic/file_name.hpp"
-#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/input_errors.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/model_expand.hpp"
@@ -90,9 +90,19 @@ public:
         check_indices();
         check_expressions();
         check_circles();
-        check_transitions();
-        check_sections();
-        check_values();
+        Mistakes mistakes; // of things that do not depend on one another
+        std::set<std::pair<std::size_t, std::size_t>> served;
+        for (std::size_t i = 0; i < model_.transitions.size(); ++i)
+            mistakes.attempt([&] { check_transition(i, served); });
+        for (const Mode& mode : model_.modes) {
+            std::set<std::size_t> watched;
+            for (std::size_t i = 0; i < mode.watched.size(); ++i)
+                mistakes.attempt([&] { check_watched(mode, i, watched, served); });
+        }
+        for (const Section& section : model_.sections)
+            mistakes.attempt([&] { check_section(section); });
+        mistakes.attempt([&] { check_values(); });
+        mistakes.throw_noted();
     }
 
 private:
@@ -250,52 +260,47 @@ private:
                          "define one of them without the others");
     }
 
-    void check_transitions() const {
-        std::set<std::pair<std::size_t, std::size_t>> seen;
-        for (std::size_t i = 0; i < model_.transitions.size(); ++i) {
-            const Transition& transition = model_.transitions[i];
-            const std::string path = fmt::format("transitions.{}", i + 1);
-            if (!seen.emplace(transition.mode, transition.event).second)
-                fail(path,
-                     fmt::format("there is a second transition for event '{}' in mode '{}'",
-                                 model_.events[transition.event].name, model_.modes[transition.mode].name),
-                     "write one transition with alternatives: next = [{ when = \"...\", mode = \"...\" }, ...]");
-            if (transition.next.empty())
-                fail(path + ".next", fmt::format("{} does not say what comes next", path),
-                     "give next = \"<mode>\", or \"end\"");
-        }
-        for (const Mode& mode : model_.modes) {
-            const std::string path = "modes." + mode.name + ".watch";
-            std::set<std::size_t> watched;
-            for (std::size_t i = 0; i < mode.watched.size(); ++i) {
-                const Event& event = model_.events[mode.watched[i]];
-                const std::string item = fmt::format("{}.{}", path, i + 1);
-                if (!watched.insert(mode.watched[i]).second)
-                    fail(item, fmt::format("mode '{}' watches event '{}' twice", mode.name, event.name),
-                         "remove one of the two");
-                const auto index = static_cast<std::size_t>(&mode - model_.modes.data());
-                if (event.kind == EventKind::barrier && !seen.contains({index, mode.watched[i]}))
-                    fail(item,
-                         fmt::format("mode '{}' watches the barrier '{}' but has no transition for it", mode.name,
-                                     event.name),
-                         fmt::format("add [[transitions]] with mode = \"{}\" and event = \"{}\", or make the event a "
-                                     "section",
-                                     mode.name, event.name));
-            }
-        }
+    /// @param served modes and events of the transitions before it
+    void check_transition(std::size_t index, std::set<std::pair<std::size_t, std::size_t>>& served) const {
+        const Transition& transition = model_.transitions[index];
+        const std::string path = fmt::format("transitions.{}", index + 1);
+        if (!served.emplace(transition.mode, transition.event).second)
+            fail(path,
+                 fmt::format("there is a second transition for event '{}' in mode '{}'",
+                             model_.events[transition.event].name, model_.modes[transition.mode].name),
+                 "write one transition with alternatives: next = [{ when = \"...\", mode = \"...\" }, ...]");
+        if (transition.next.empty())
+            fail(path + ".next", fmt::format("{} does not say what comes next", path),
+                 "give next = \"<mode>\", or \"end\"");
     }
 
-    void check_sections() const {
-        for (const Section& section : model_.sections) {
-            const std::string path = "sections." + section.name;
-            if (section.state && !section.function.empty())
-                fail(path, fmt::format("{} has both a function and a state", path), "keep one of the two");
-            if (section.state && !model_.states[*section.state].period)
-                fail(path + ".state",
-                     fmt::format("{} is at a value of the state '{}', which is not cyclic", path,
-                                 model_.states[*section.state].name),
-                     "give the state a period, or use function = \"...\"");
-        }
+    /// @param watched events that the mode watches before it
+    void check_watched(const Mode& mode, std::size_t place, std::set<std::size_t>& watched,
+                       const std::set<std::pair<std::size_t, std::size_t>>& served) const {
+        const std::size_t index = mode.watched[place];
+        const Event& event = model_.events[index];
+        const std::string item = fmt::format("modes.{}.watch.{}", mode.name, place + 1);
+        if (!watched.insert(index).second)
+            fail(item, fmt::format("mode '{}' watches event '{}' twice", mode.name, event.name),
+                 "remove one of the two");
+        const auto of_mode = static_cast<std::size_t>(&mode - model_.modes.data());
+        if (event.kind == EventKind::barrier && !served.contains({of_mode, index}))
+            fail(item,
+                 fmt::format("mode '{}' watches the barrier '{}' but has no transition for it", mode.name, event.name),
+                 fmt::format("add [[transitions]] with mode = \"{}\" and event = \"{}\", or make the event a "
+                             "section",
+                             mode.name, event.name));
+    }
+
+    void check_section(const Section& section) const {
+        const std::string path = "sections." + section.name;
+        if (section.state && !section.function.empty())
+            fail(path, fmt::format("{} has both a function and a state", path), "keep one of the two");
+        if (section.state && !model_.states[*section.state].period)
+            fail(path + ".state",
+                 fmt::format("{} is at a value of the state '{}', which is not cyclic", path,
+                             model_.states[*section.state].name),
+                 "give the state a period, or use function = \"...\"");
     }
 
     /// Values that the parameters, as they stand, give.

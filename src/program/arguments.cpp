@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/parser.hpp"
 #include "program/branch_arguments.hpp"
+#include "program/help_arguments.hpp"
 #include "program/study_arguments.hpp"
 
 #include <CLI/Config.hpp>
@@ -67,11 +68,6 @@ constexpr const char* simulate_examples = R"(Examples:
 const std::map<std::string, TableFormat> formats{
     {"table", TableFormat::table}, {"csv", TableFormat::csv}, {"json", TableFormat::json}};
 
-/// Refuses what an unset variable of a script leaves: it would silently count as if the option were not there.
-CLI::Validator not_empty() {
-    return CLI::Validator([](std::string& text) { return text.empty() ? "its value is empty" : std::string(); }, "");
-}
-
 CLI::Validator whole_number(long least, long most) {
     return CLI::Validator(
         [=](std::string& text) {
@@ -90,7 +86,9 @@ void declare_output(CLI::App& command, OutputArguments& output, const std::strin
         ->type_name("FORMAT")
         ->transform(CLI::Transformer(formats).description(""))
         ->group("Output");
-    command.add_option("--digits", output.digits, "Significant digits of numbers; 17 (default) lose nothing")
+    command
+        .add_option("--digits", output.digits,
+                    "Significant digits of numbers (8; 17 of csv and json, which lose nothing)")
         ->type_name("N")
         ->check(whole_number(1, 17))
         ->group("Output");
@@ -189,7 +187,7 @@ void declare_plot(CLI::App& command, SimulateArguments& arguments) {
         "Time histories and phase portrait as svg, png or pdf, by gnuplot. --quantity chooses what is shown");
     add(command, group, "--portrait", arguments.portraits, "X,Y", "Phase portraits of these (a state and its velocity)")
         ->expected(1, -1);
-    add(command, group, "--plot-data", arguments.plot_data, "FILE",
+    add(command, group, "--data,--plot-data", arguments.plot_data, "FILE",
         "Keep data and commands of the picture, to be changed and drawn by `gnuplot FILE`");
 }
 
@@ -218,6 +216,8 @@ void declare_simulate(CLI::App& app, SimulateArguments& arguments) {
     declare_tables(command, arguments);
     declare_plot(command, arguments);
     declare_output(command, arguments.output, "--output");
+    command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal")
+        ->group("Output");
     declare_method(command, arguments);
 }
 
@@ -290,11 +290,16 @@ std::string explain_required(const std::string& message, const CLI::App& command
                        missing == "MODEL"   ? "the model"
                        : missing == "POINT" ? "the point"
                        : missing == "FILE"  ? "the file"
+                       : missing == "SHELL" ? "the shell"
                                             : missing,
                        name, all);
 }
 
 } // namespace
+
+CLI::Validator not_empty() {
+    return CLI::Validator([](std::string& text) { return text.empty() ? "its value is empty" : std::string(); }, "");
+}
 
 void declare_arguments(CLI::App& app, Arguments& arguments) {
     app.description(general_text)->footer(general_examples);
@@ -307,6 +312,7 @@ void declare_arguments(CLI::App& app, Arguments& arguments) {
     declare_simulate(app, arguments.simulate);
     declare_study_commands(app, arguments);
     declare_branch_commands(app, arguments);
+    declare_help_commands(app, arguments);
 }
 
 std::vector<std::string> with_joined_counts(std::vector<std::string> arguments) {

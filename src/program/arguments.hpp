@@ -14,8 +14,11 @@ namespace graze {
 /// What comes with every table.
 struct OutputArguments {
     TableFormat format = TableFormat::table;
-    int digits = 17;
+    int digits = 0;   ///< 0: as many as go with the format
     std::string file; ///< empty: standard output
+    bool all = false; ///< tables for people have all columns, however wide they are
+
+    int shown_digits() const { return digits > 0 ? digits : format == TableFormat::table ? 8 : 17; }
 };
 
 struct CheckArguments {
@@ -58,7 +61,7 @@ struct SimulateArguments {
 
 struct RunArguments {
     std::string study, folder;
-    std::vector<std::string> only;
+    std::vector<std::string> only, set;
     int jobs = 0; ///< 0: as many as there are cores
     bool progress = false, quiet = false, list = false, show = false, no_pictures = false, steps = false;
     OutputArguments output;
@@ -79,18 +82,35 @@ struct PlotArguments {
 struct PointsArguments {
     std::string file;
     std::vector<std::string> runs, types;
-    bool all = false;
-    OutputArguments output{TableFormat::table, 0, ""}; ///< digits 0: as many as go with the format
+    OutputArguments output;
 };
 
 struct OrbitArguments {
     std::string file, point, plot, data, x;
     std::vector<std::string> quantities, y;
     std::optional<std::size_t> samples;
-    OutputArguments output{TableFormat::table, 0, ""};
+    OutputArguments output;
+};
+
+struct InfoArguments {
+    std::string file;
+    bool all = false;
+    OutputArguments output;
+};
+
+struct HelpArguments {
+    std::string command, folder;
+    bool man = false;
+};
+
+struct CompletionArguments {
+    std::string shell, file;
 };
 
 struct Arguments {
+    HelpArguments help;
+    CompletionArguments completion;
+    InfoArguments info;
     RunArguments run;
     ExportArguments exports;
     PlotArguments plot;
@@ -100,6 +120,9 @@ struct Arguments {
     ModelsArguments models;
     SimulateArguments simulate;
 };
+
+/// Refuses what an unset variable of a script leaves: it would silently count as if the option were not there.
+CLI::Validator not_empty();
 
 /// Declares the command line: one sub-command each for the members of `arguments`.
 void declare_arguments(CLI::App& app, Arguments& arguments);

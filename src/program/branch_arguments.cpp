@@ -48,7 +48,8 @@ void declare_output(CLI::App& command, OutputArguments& output) {
         {"table", TableFormat::table}, {"csv", TableFormat::csv}, {"json", TableFormat::json}};
     add(command, "Output", "--format", output.format, "FORMAT", "table (default), csv or json")
         ->transform(CLI::Transformer(formats).description(""));
-    add(command, "Output", "--digits", output.digits, "N", "Significant digits of numbers (10; 17 of csv and json)")
+    add(command, "Output", "--digits", output.digits, "N",
+        "Significant digits of numbers (8; 17 of csv and json, which lose nothing)")
         ->check(CLI::Range(1, 17));
     add(command, "Output", "--output", output.file, "FILE", "Write the table there instead of to standard output");
 }
@@ -60,7 +61,8 @@ void declare_points(CLI::App& app, PointsArguments& arguments) {
     const char* group = "What to show";
     add(command, group, "--run", arguments.runs, "RUN", "Only these runs (all branches)");
     add(command, group, "--type", arguments.types, "TYPE", "Only points of these types, such as GR,SN");
-    command.add_flag("--all", arguments.all, "The regular points between them too (type RG)")->group(group);
+    command.add_flag("--all", arguments.output.all, "The regular points between them too (type RG), and all columns")
+        ->group(group);
     declare_output(command, arguments.output);
 }
 
@@ -75,6 +77,8 @@ void declare_orbit(CLI::App& app, OrbitArguments& arguments) {
     add(command, group, "--samples", arguments.samples, "N", "About so many rows of the whole period (200)")
         ->check(CLI::Range(1, 1'000'000));
     declare_output(command, arguments.output);
+    command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal")
+        ->group("Output");
     group = "Picture";
     add(command, group, "--plot", arguments.plot, "FILE", "Draw it instead, as svg, png or pdf");
     add(command, group, "--x", arguments.x, "NAME", "Horizontal axis: a value, or t for histories (a state)");

@@ -12,11 +12,17 @@ int simulate_command(const SimulateArguments& arguments, const Console& console)
 int run_command(const RunArguments& arguments, const Console& console);
 int export_command(const ExportArguments& arguments, const Console& console);
 int plot_command(const PlotArguments& arguments, const Console& console);
+int info_command(const InfoArguments& arguments, const Console& console);
+int help_command(const CLI::App& app, const HelpArguments& arguments, const Console& console);
+int completion_command(const CLI::App& app, const CompletionArguments& arguments, const Console& console);
 int points_command(const PointsArguments& arguments, const Console& console);
 int orbit_command(const OrbitArguments& arguments, const Console& console);
 
-/// Hands a table to the user. @throws InputError when it cannot be written
-void deliver(const Table& table, const OutputArguments& output, const JsonObject& heading, const Console& console);
+/// Hands a table to the user: for people the columns that fit a terminal, unless all are asked for.
+/// @param kept names of columns that are shown in any case
+/// @throws InputError when it cannot be written
+void deliver(const Table& table, const OutputArguments& output, const JsonObject& heading, const Console& console,
+             const std::vector<std::string>& kept = {});
 /// Throws when standard output has not taken what was written to it.
 void require_delivered(const Console& console);
 

@@ -1,19 +1,41 @@
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/output_file.hpp"
+#include "program/table_fit.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <sstream>
 
 namespace graze {
 
-void deliver(const Table& table, const OutputArguments& output, const JsonObject& heading, const Console& console) {
+namespace {
+
+/// Letters in a line, of windows on a screen and in print.
+constexpr std::size_t terminal_width = 100;
+
+} // namespace
+
+void deliver(const Table& given, const OutputArguments& output, const JsonObject& heading, const Console& console,
+             const std::vector<std::string>& kept) {
+    const int digits = output.shown_digits();
+    FittedTable chosen;
+    const bool fits = output.format == TableFormat::table && !output.all;
+    if (fits)
+        chosen = fitted(given, digits, terminal_width, kept);
+    const Table& table = fits ? chosen.table : given;
     if (output.file.empty()) {
-        write_table(console.out, table, output.format, output.digits, heading);
-        return require_delivered(console);
+        write_table(console.out, table, output.format, digits, heading);
+        require_delivered(console);
+    } else {
+        std::ostringstream text;
+        write_table(text, table, output.format, digits, heading);
+        write_file(output.file, text.view());
     }
-    std::ostringstream text;
-    write_table(text, table, output.format, output.digits, heading);
-    write_file(output.file, text.view());
+    if (const std::size_t count = chosen.left_out.size(); count > 0)
+        console.err << fmt::format("graze: {} column{} left out for lack of room ({}); --all shows everything\n", count,
+                                   count == 1 ? " is" : "s are", fmt::join(chosen.left_out, ", "));
 }
 
 void require_delivered(const Console& console) {

@@ -49,12 +49,13 @@ std::string section_text(const Model& model, const Section& section) {
     return formula(section.function) + " = 0" + direction;
 }
 
-std::string symmetry_text(const Model& model, const Symmetry& symmetry) {
+/// What becomes of the states that a symmetry changes.
+std::vector<std::string> images_of(const Model& model, const Symmetry& symmetry) {
     std::vector<std::string> images;
     for (std::size_t i = 0; i < model.states.size(); ++i)
         if (symmetry.map[i] != model.symbol(model.states[i].name))
             images.push_back(fmt::format("{} -> {}", model.states[i].name, formula(symmetry.map[i])));
-    return fmt::format("{}", fmt::join(images, ", "));
+    return images;
 }
 
 std::string kind_of(const State& state) {
@@ -72,21 +73,6 @@ void add_row(Table& table, std::string_view item, std::string_view name, const V
     table.add(value);
     table.add(unit);
     table.add(text);
-}
-
-/// Breaks a text into lines that a terminal can show.
-std::string wrapped(const std::string& text) {
-    constexpr std::size_t width = 100;
-    std::string result;
-    std::size_t column = 0;
-    std::istringstream words(text);
-    for (std::string word; words >> word;) {
-        const bool fits = column > 0 && column + 1 + word.size() <= width;
-        result += column == 0 ? "" : fits ? " " : "\n";
-        column = (fits ? column + 1 : 0) + word.size();
-        result += word;
-    }
-    return result;
 }
 
 /// A heading, and below it rows of which only what is there takes room.
@@ -127,6 +113,20 @@ private:
 
 } // namespace
 
+std::string wrapped(const std::string& text) {
+    constexpr std::size_t width = 100;
+    std::string result;
+    std::size_t column = 0;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        const bool fits = column > 0 && column + 1 + word.size() <= width;
+        result += column == 0 ? "" : fits ? " " : "\n";
+        column = (fits ? column + 1 : 0) + word.size();
+        result += word;
+    }
+    return result;
+}
+
 std::vector<double> all_parameter_values(const Model& model) {
     std::vector<Expression> values;
     for (const Parameter& parameter : model.parameters)
@@ -146,8 +146,11 @@ Table describe_in_table(const Model& model) {
         add_row(table, "state", model.states[i].name, states[i], model.states[i].unit, model.states[i].text);
     for (const Definition& item : model.definitions)
         add_row(table, "definition", item.name, formula(item.value), "", item.text);
-    for (const Mode& item : model.modes)
-        add_row(table, "mode", item.name, watched_by(model, item), "", item.text);
+    for (const Mode& item : model.modes) {
+        add_row(table, "mode", item.name, "", "", item.text);
+        for (const std::size_t event : item.watched)
+            add_row(table, "watched event", item.name, model.events[event].name, "", "");
+    }
     for (const Event& item : model.events)
         add_row(table, item.kind == EventKind::barrier ? "barrier" : "section event", item.name, formula(item.function),
                 "", item.text);
@@ -158,8 +161,11 @@ Table describe_in_table(const Model& model) {
         add_row(table, "transition", item.label, way_of(model, item), "", "");
     for (const Section& item : model.sections)
         add_row(table, "section", item.name, section_text(model, item), "", item.text);
-    for (const Symmetry& item : model.symmetries)
-        add_row(table, "symmetry", item.name, symmetry_text(model, item), "", item.text);
+    for (const Symmetry& item : model.symmetries) {
+        add_row(table, "symmetry", item.name, "", "", item.text);
+        for (const std::string& image : images_of(model, item))
+            add_row(table, "image", item.name, image, "", "");
+    }
     for (const Quantity& item : model.quantities)
         add_row(table, "quantity", item.name, formula(item.value), item.unit, item.text);
     return table;
@@ -192,7 +198,7 @@ std::string describe(const Model& model) {
         listing.row({item.name, section_text(model, item), item.text});
     listing.heading(model.symmetries.size(), "symmetry", "symmetries");
     for (const Symmetry& item : model.symmetries)
-        listing.row({item.name, symmetry_text(model, item), item.text});
+        listing.row({item.name, fmt::format("{}", fmt::join(images_of(model, item), ", ")), item.text});
     listing.heading(model.quantities.size(), "quantity", "quantities");
     for (const Quantity& item : model.quantities)
         listing.row({item.name, item.unit, item.text});

@@ -12,6 +12,9 @@ Table describe_in_table(const Model& model);
 /// The same for people.
 std::string describe(const Model& model);
 
+/// Breaks a text into lines that a terminal can show.
+std::string wrapped(const std::string& text);
+
 /// Values of all parameters, the dependent ones too, in the order of the model.
 std::vector<double> all_parameter_values(const Model& model);
 

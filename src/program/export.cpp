@@ -96,19 +96,20 @@ int export_command(const ExportArguments& arguments, const Console& console) {
                                                : TableFormat::table;
     ResultTable table = table_asked_for(arguments, file, console);
     if (output.format == TableFormat::csv && output.file.empty()) {
-        write_csv(console.out, table.rows, output.digits);
+        write_csv(console.out, table.rows, output.shown_digits());
         return exit_success;
     }
     if (output.format == TableFormat::csv) {
         FileReplacement target(output.file);
         std::ofstream stream(target.temporary_path(), std::ios::binary);
-        write_csv(stream, table.rows, output.digits);
+        write_csv(stream, table.rows, output.shown_digits());
         stream.close();
         if (!stream)
             throw InputError({output.file, 0, 0}, "it cannot be written", "look whether the disk is full");
         target.commit();
         return exit_success;
     }
+    output.all = output.all || !arguments.sql.empty(); // which names its columns
     JsonObject heading;
     heading.add("file", file.path());
     deliver(table_of(table), output, heading, console);

@@ -56,7 +56,9 @@ void list(const ModelsArguments& arguments, const Console& console) {
         table.add(family);
         table.add(std::string_view(text).substr(0, text.find(". ")));
     }
-    deliver(table, arguments.output, {}, console);
+    OutputArguments output = arguments.output;
+    output.all = true; // lines of words
+    deliver(table, output, {}, console);
 }
 
 } // namespace

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <complex>
 
 namespace graze {
 
@@ -71,6 +72,20 @@ void add_certificate(JsonObject& heading, const OrbitSolution& solution, const M
     heading.add("end_values", ends);
 }
 
+/// Real and imaginary parts; an infinite one as a text. None where an event is met without speed.
+std::vector<JsonObject> list_of(const std::vector<std::complex<double>>& multipliers) {
+    std::vector<JsonObject> list;
+    for (const std::complex<double>& multiplier : multipliers) {
+        JsonObject& one = list.emplace_back();
+        if (std::isinf(multiplier.real()))
+            one.add("real", multiplier.real() > 0 ? "inf" : "-inf");
+        else
+            one.add("real", multiplier.real());
+        one.add("imaginary", multiplier.imag());
+    }
+    return list;
+}
+
 JsonObject heading_of(const ResultFile& file, const StoredOrbit& stored) {
     const OrbitRecord& record = stored.record;
     const OrbitSolution& solution = record.point.solution;
@@ -94,8 +109,8 @@ JsonObject heading_of(const ResultFile& file, const StoredOrbit& stored) {
     heading.add("period", solution.orbit.period());
     heading.add("signature", to_string(model, solution.orbit.signature));
     heading.add("symmetry", solution.orbit.symmetry ? model.symmetries[*solution.orbit.symmetry].name : "");
-    heading.add("multipliers", multipliers_text(solution, 17));
-    heading.add("half_multipliers", multipliers_text(solution.half_multipliers, 17));
+    heading.add("multipliers", list_of(solution.multipliers));
+    heading.add("half_multipliers", list_of(solution.half_multipliers));
     heading.add("stable", record.stable ? 1.0 : 0.0);
     heading.add("admissible", solution.certificate.admissible ? 1.0 : 0.0);
     heading.add("reason", solution.certificate.reason);
@@ -135,10 +150,8 @@ int orbit_command(const OrbitArguments& arguments, const Console& console) {
     const Model model = model_at(stored.run.model, orbit);
     const auto quantities = requested_quantities(model, arguments.quantities, "--quantity");
     const auto motion = orbit_motion(model, orbit, arguments.samples.value_or(default_samples));
-    OutputArguments output = arguments.output;
-    if (output.digits == 0)
-        output.digits = output.format == TableFormat::table ? 10 : 17;
-    deliver(table_of(model, motion, quantities), output, heading_of(file, stored), console);
+    deliver(table_of(model, motion, quantities), arguments.output, heading_of(file, stored), console,
+            names_of(quantities));
     bool whole = true;
     for (std::size_t s = 0; s < motion.size(); ++s)
         if (!motion[s].problem.empty()) {

@@ -102,6 +102,16 @@ void require_writable(const std::string& path) {
     const FileReplacement attempt(path);
 }
 
+void make_folder(const std::string& folder, const std::string& option) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error || !std::filesystem::is_directory(folder))
+        throw InputError(
+            {option, 0, 0},
+            fmt::format("folder '{}' cannot be made{}", folder, error ? " (" + error.message() + ")" : std::string()),
+            "choose another one");
+}
+
 void require_distinct(const std::vector<NamedFile>& files) {
     const auto is_regular = [](const std::string& path) { // or may become so, unlike /dev/null
         std::error_code error;

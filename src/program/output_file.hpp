@@ -10,6 +10,10 @@ namespace graze {
 /// @throws InputError when it cannot
 void require_writable(const std::string& path);
 
+/// Makes a folder, with those that it is in, unless it is there. @param option that names it
+/// @throws InputError when it cannot be made
+void make_folder(const std::string& folder, const std::string& option);
+
 struct NamedFile {
     std::string name; ///< the option that asks for it, or "the model"
     std::string path; ///< empty: there is none

@@ -87,7 +87,7 @@ void draw_plot(const PlotRequest& request, const PlotRecorder& recorder) {
         run_process({request.gnuplot, "-d", "-"}, script.text(request.ending, file.temporary_path()));
     if (result.status != 0)
         throw InputError(fmt::format("gnuplot could not draw '{}': {}", request.path, one_line(result.output)),
-                         "keep its commands by --plot-data FILE and run gnuplot FILE");
+                         "keep its commands by --data FILE and run gnuplot FILE");
     require_whole_picture(file.temporary_path(), request.ending, request.path);
     file.commit();
 }

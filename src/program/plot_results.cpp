@@ -121,7 +121,7 @@ int plot_command(const PlotArguments& arguments, const Console& console) {
         const ResultPicture made = make_picture(picture_of(arguments, run.record), file);
         draw_figure(made.figure, path, arguments.data);
         if (made.table.rows() > 0)
-            deliver(made.table, {TableFormat::table, 6, ""}, {}, console);
+            deliver(made.table, {TableFormat::table, 6, "", true}, {}, console);
         console.out << path << '\n';
     }
     return exit_success;

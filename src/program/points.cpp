@@ -108,13 +108,13 @@ PointList listed_points(const PointsArguments& arguments, const ResultFile& file
             several = several || (!list.followed.empty() && list.followed != followed);
             list.followed = followed;
         }
-        const bool wants_regular = arguments.all || run.kind == "orbit" ||
+        const bool wants_regular = arguments.output.all || run.kind == "orbit" ||
                                    std::find(types.begin(), types.end(), PointType::regular) != types.end();
         auto stored = stored_values(list.runs[r]);
         for (OrbitRecord& record : file.orbits(run.name, !wants_regular)) {
             if (!types.empty() && std::find(types.begin(), types.end(), record.point.type) == types.end())
                 continue;
-            if (arguments.output.format == TableFormat::table && !arguments.all &&
+            if (arguments.output.format == TableFormat::table && !arguments.output.all &&
                 record.point.detail.starts_with("twin of ")) {
                 ++list.twins;
                 continue;
@@ -134,8 +134,9 @@ PointList listed_points(const PointsArguments& arguments, const ResultFile& file
 /// Fills a table column by column: all that is known for machines, for people what they look at.
 class PointTable {
 public:
-    PointTable(const PointList& list, TableFormat format, int digits)
-        : list_(list), for_people_(format == TableFormat::table), digits_(digits) {
+    /// @param brief whether long words are cut short, for numbers to have room
+    PointTable(const PointList& list, TableFormat format, int digits, bool brief)
+        : list_(list), for_people_(format == TableFormat::table), brief_(brief && for_people_), digits_(digits) {
         const auto any = [&](auto holds) { return std::any_of(list.points.begin(), list.points.end(), holds); };
         with_symmetry_ = !for_people_ ||
                          any([](const ListedPoint& p) { return p.record.point.solution.orbit.symmetry.has_value(); });
@@ -144,7 +145,13 @@ public:
         with_detail_ = !for_people_ || any([](const ListedPoint& p) {
             return !p.record.point.detail.empty() || is_unphysical(p.record);
         });
+        for (const ListedPoint& p : list.points) {
+            segments_ = std::max(segments_, p.record.point.solution.orbit.segments());
+            multipliers_ = std::max(multipliers_, p.record.point.solution.multipliers.size());
+        }
+        note_monitors();
         with_type_ = !for_people_ || any([](const ListedPoint& p) { return p.record.label.empty(); });
+        with_run_ = !brief_ || list.runs.size() != 1;
         with_parameter_ = list.followed.empty() &&
                           any([](const ListedPoint& p) { return !followed_parameter(p.run->record).empty(); });
     }
@@ -159,7 +166,8 @@ public:
 
 private:
     void declare() {
-        add_columns({"run", "label"}, true);
+        add_columns({"run"}, with_run_);
+        add_columns({"label"}, true);
         add_columns({"type"}, with_type_);
         if (with_parameter_)
             for (const char* name : {"parameter", "value"})
@@ -170,17 +178,43 @@ private:
             columns_.push_back({name, unit_of(name)});
         const std::string time = list_.runs.empty() ? "" : list_.runs.front().model.time_unit;
         columns_.push_back({"period", time});
-        columns_.push_back({"durations", time});
+        if (for_people_)
+            columns_.push_back({"durations", time});
+        for (std::size_t s = 1; !for_people_ && s <= segments_; ++s)
+            columns_.push_back({fmt::format("duration_{}", s), time});
         add_columns({"signature"}, true);
         add_columns({"symmetry"}, with_symmetry_);
         add_columns({"stable", "multiplier"}, true);
-        add_columns({"multipliers"}, !for_people_);
+        for (std::size_t m = 1; !for_people_ && m <= multipliers_; ++m)
+            for (const char* part : {"real", "imaginary"})
+                columns_.push_back({fmt::format("multiplier_{}_{}", m, part), ""});
         add_columns({for_people_ ? "physical" : "admissible"}, with_reason_);
         add_columns({"reason"}, !for_people_);
         add_columns({"located", "low", "high"}, with_bracket_);
         add_columns({"detail"}, with_detail_);
+        add_monitors();
         add_columns({"residual"}, !for_people_);
         add_columns(stored_columns(), !for_people_);
+    }
+    /// Of all runs, by their names; people are shown the period already.
+    void note_monitors() {
+        for (const StoredRun& run : list_.runs)
+            for (const ResultColumn& value : run.record.values)
+                if (std::none_of(monitors_.begin(), monitors_.end(),
+                                 [&](const ResultColumn& one) { return one.name == value.name; }) &&
+                    !(for_people_ && value.name == "period"))
+                    monitors_.push_back(value);
+    }
+    /// A name that another column has gets a number behind it, as in the result file.
+    void add_monitors() {
+        for (const ResultColumn& monitor : monitors_) {
+            std::string name = monitor.name;
+            for (int i = 2; std::any_of(columns_.begin(), columns_.end(),
+                                        [&](const Table::Column& column) { return column.name == name; });
+                 ++i)
+                name = fmt::format("{}_{}", monitor.name, i);
+            columns_.push_back({name, monitor.unit});
+        }
     }
     void add_columns(const std::vector<std::string>& names, bool wanted) {
         for (const std::string& name : names)
@@ -195,7 +229,8 @@ private:
         const OrbitRecord& record = point.record;
         const OrbitSolution& solution = record.point.solution;
         const RunRecord& run = point.run->record;
-        table_.add(run.name);
+        if (with_run_)
+            table_.add(run.name);
         table_.add(record.label);
         if (with_type_)
             table_.add(short_name(record.point.type));
@@ -209,14 +244,20 @@ private:
         for (const std::string& name : list_.others)
             table_.add(value_of_parameter(point, name));
         table_.add(solution.orbit.period());
-        table_.add(numbers_text(solution.orbit.durations, for_people_ ? 6 : digits_));
+        if (for_people_)
+            table_.add(numbers_text(solution.orbit.durations, 6));
+        for (std::size_t s = 0; !for_people_ && s < segments_; ++s)
+            table_.add(s < solution.orbit.segments() ? solution.orbit.durations[s] : nothing);
         table_.add(to_string(point.run->model, solution.orbit.signature));
         if (with_symmetry_)
             table_.add(solution.orbit.symmetry ? point.run->model.symmetries[*solution.orbit.symmetry].name : "");
         add_truth(record.stable);
         add_multiplier(solution);
-        if (!for_people_)
-            table_.add(multipliers_text(solution, digits_));
+        for (std::size_t m = 0; !for_people_ && m < multipliers_; ++m) {
+            const bool known = m < solution.multipliers.size();
+            add_number(known ? solution.multipliers[m].real() : nothing);
+            add_number(known ? solution.multipliers[m].imag() : nothing);
+        }
         if (with_reason_ && for_people_)
             table_.add(solution.certificate.admissible ? "yes" : is_unphysical(record) ? "no" : "limit");
         else if (with_reason_)
@@ -229,12 +270,23 @@ private:
             table_.add(record.point.bracket.second);
         }
         if (with_detail_)
-            table_.add(detail_of(record));
+            table_.add(cut(detail_of(record)));
+        for (const ResultColumn& monitor : monitors_)
+            add_number(monitor_of(point, monitor.name));
         if (for_people_)
             return;
         table_.add(solution.residual);
         for (const double value : point.stored)
             table_.add(value);
+    }
+    std::string cut(std::string text) const {
+        constexpr std::size_t longest = 22;
+        if (!brief_ || text.size() <= longest)
+            return text;
+        std::size_t end = longest - 4;
+        while (end > 0 && ((static_cast<unsigned char>(text[end]) & 0xc0) == 0x80 || text[end - 1] == ' '))
+            --end; // neither within a character nor behind a blank
+        return text.substr(0, end) + " ...";
     }
     /// To people also why it is unphysical.
     std::string detail_of(const OrbitRecord& record) const {
@@ -251,7 +303,22 @@ private:
         else if (for_people_ && solution.multipliers.empty())
             table_.add(multipliers_text(solution, digits_));
         else
-            table_.add(std::isfinite(largest) ? brief(largest) : nothing);
+            table_.add(std::isfinite(largest) ? few_digits(largest) : nothing);
+    }
+    static double monitor_of(const ListedPoint& point, const std::string& name) {
+        const std::vector<ResultColumn>& values = point.run->record.values;
+        const std::vector<double>& monitors = point.record.point.monitors;
+        for (std::size_t m = 0; m < std::min(values.size(), monitors.size()); ++m)
+            if (values[m].name == name)
+                return monitors[m];
+        return nothing;
+    }
+    /// One that is infinite is said to be so.
+    void add_number(double value) {
+        if (std::isinf(value))
+            table_.add(value > 0 ? "inf" : "-inf");
+        else
+            table_.add(value);
     }
     void add_truth(bool holds) {
         if (for_people_)
@@ -260,7 +327,7 @@ private:
             table_.add(holds ? 1.0 : 0.0);
     }
     /// People compare multipliers with 1, for which few digits do.
-    double brief(double value) const { return for_people_ ? std::stod(fmt::format("{:.6g}", value)) : value; }
+    double few_digits(double value) const { return for_people_ ? std::stod(fmt::format("{:.6g}", value)) : value; }
     static std::string numbers_text(const std::vector<double>& values, int digits) {
         std::string text;
         for (const double value : values)
@@ -270,8 +337,11 @@ private:
 
     static constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     const PointList& list_;
-    bool for_people_, with_symmetry_, with_reason_, with_bracket_, with_detail_, with_type_, with_parameter_;
+    bool for_people_, brief_, with_run_, with_symmetry_, with_reason_, with_bracket_, with_detail_, with_type_,
+        with_parameter_;
     int digits_;
+    std::size_t segments_ = 0, multipliers_ = 0; ///< most of any point
+    std::vector<ResultColumn> monitors_;
     std::vector<Table::Column> columns_;
     Table table_;
 };
@@ -281,12 +351,11 @@ private:
 int points_command(const PointsArguments& arguments, const Console& console) {
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
     const PointList list = listed_points(arguments, file);
-    OutputArguments output = arguments.output;
-    if (output.digits == 0)
-        output.digits = output.format == TableFormat::table ? 10 : 17;
+    const OutputArguments& output = arguments.output;
     JsonObject heading;
     heading.add("file", file.path());
-    deliver(PointTable(list, output.format, output.digits).make(), output, heading, console);
+    deliver(PointTable(list, output.format, output.shown_digits(), !output.all).make(), output, heading, console,
+            {"label", list.followed, "period", "signature", "stable", "multiplier", "physical"});
     if (list.twins > 0)
         console.err << fmt::format(
             "graze: {} points are left out that are images of others under the model's symmetry; "

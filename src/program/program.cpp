@@ -1,6 +1,6 @@
 #include "program/program.hpp"
 
-#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/input_errors.hpp"
 #include "program/arguments.hpp"
 #include "program/commands.hpp"
 #include "program/option_rules.hpp"
@@ -39,6 +39,12 @@ int dispatch(std::span<const std::string> words, const Console& console) {
         return models_command(arguments.models, console);
     if (app.got_subcommand("run"))
         return run_command(arguments.run, console);
+    if (app.got_subcommand("help"))
+        return help_command(app, arguments.help, console);
+    if (app.got_subcommand("completion"))
+        return completion_command(app, arguments.completion, console);
+    if (app.got_subcommand("info"))
+        return info_command(arguments.info, console);
     if (app.got_subcommand("export"))
         return export_command(arguments.exports, console);
     if (app.got_subcommand("plot"))
@@ -48,6 +54,16 @@ int dispatch(std::span<const std::string> words, const Console& console) {
     if (app.got_subcommand("orbit"))
         return orbit_command(arguments.orbit, console);
     return simulate_command(arguments.simulate, console);
+}
+
+/// A line each; of very many those that fit a terminal.
+void tell(const InputErrors& errors, const Console& console) {
+    constexpr std::size_t most = 20;
+    const std::size_t count = errors.all().size();
+    for (std::size_t i = 0; i < std::min(count, most); ++i)
+        console.err << "graze: " << errors.all()[i].what() << '\n';
+    if (count > most)
+        console.err << "graze: and " << count - most << " mistakes more; mend these first\n";
 }
 
 } // namespace
@@ -60,6 +76,9 @@ int run_program(std::span<const std::string> arguments, const Console& given) {
         const int code = dispatch(arguments, console);
         require_delivered(console);
         return code;
+    } catch (const InputErrors& errors) {
+        tell(errors, console);
+        return exit_bad_input;
     } catch (const InputError& error) {
         console.err << "graze: " << error.what() << '\n';
         return exit_bad_input;

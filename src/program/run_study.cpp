@@ -4,6 +4,8 @@
 #include "graze/study/study_catalogue.hpp"
 #include "program/commands.hpp"
 #include "program/interrupt.hpp"
+#include "program/output_file.hpp"
+#include "program/progress_line.hpp"
 #include "program/step_lines.hpp"
 #include "program/study_pictures.hpp"
 #include "program/values.hpp"
@@ -11,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <map>
 #include <thread>
@@ -20,111 +21,71 @@ namespace graze {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-using namespace std::chrono_literals;
+using Counts = std::vector<std::pair<std::string, std::size_t>>;
 
-/// A line on standard error once a study takes long.
-class StudyProgress {
-public:
-    StudyProgress(const Console& console, bool wanted) : console_(&console), wanted_(wanted) {}
-    ~StudyProgress() {
-        if (shown_)
-            console_->progress() << (console_->terminal ? "\r\033[K" : "\n") << std::flush;
-    }
-    StudyProgress(const StudyProgress&) = delete;
-    StudyProgress& operator=(const StudyProgress&) = delete;
-
-    void update(const std::string& run, std::size_t done, std::size_t all) {
-        if (first_ == 0)
-            first_ = done;
-        show([&] {
-            const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-            const double left = elapsed * static_cast<double>(all - done) /
-                                static_cast<double>(std::max<std::size_t>(done - first_, 1));
-            return fmt::format("{}: {} of {} points, {:.0f} %, {:.0f} s left", run, done, all,
-                               100.0 * static_cast<double>(done) / static_cast<double>(all), left);
-        });
-    }
-    /// Of a branch nobody knows how long it will be.
-    void update(const std::string& run, const OrbitRecord& orbit) {
-        show([&] { return fmt::format("{}: {} orbits, at {:.8g}", run, orbit.number + 1, orbit.point.parameter); });
-    }
-
-private:
-    /// @param text made only when it is shown
-    template <class Text>
-    void show(Text text) {
-        const auto now = Clock::now();
-        if (!wanted_ || now - start_ < 2s || now - last_ < 200ms)
-            return;
-        last_ = now;
-        shown_ = true;
-        console_->progress() << fmt::format("\r{:<70}", text()) << std::flush;
-    }
-
-    const Console* console_;
-    bool wanted_, shown_ = false;
-    std::size_t first_ = 0;
-    Clock::time_point start_ = Clock::now(), last_ = start_;
-};
-
-/// "periodic 1330, chaotic 270", or of branches their special points: "GR 1, PD 2".
-std::string labels_of(const StoredRun& run) {
-    std::vector<std::pair<std::string, std::size_t>> counts;
-    if (run.record.is_branch()) {
-        std::map<std::string, std::size_t> of_types;
-        auto rows = run.rows({.columns = {"type", "located"}});
-        while (rows.next())
-            // An end that was not located is an orbit that was not found.
-            if (const std::string type = rows.text(0); type == "EP" && rows.integer(1) == 0)
-                ++of_types["not found"];
-            else if (type != "RG" && type != "EP")
-                ++of_types[type];
-        counts.assign(of_types.begin(), of_types.end());
-    } else {
-        counts = run.label_counts();
-    }
-    std::string text;
-    for (const auto& [label, count] : counts)
-        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", label, count);
-    return text;
+/// How many points have which label, such as "periodic", or of branches of which type special points are, such as "GR".
+Counts label_counts(const StoredRun& run) {
+    if (!run.record.is_branch())
+        return run.label_counts();
+    std::map<std::string, std::size_t> of_types;
+    auto rows = run.rows({.columns = {"type", "located"}});
+    while (rows.next())
+        // An end that was not located is an orbit that was not found.
+        if (const std::string type = rows.text(0); type == "EP" && rows.integer(1) == 0)
+            ++of_types["not found"];
+        else if (type != "RG" && type != "EP")
+            ++of_types[type];
+    return {of_types.begin(), of_types.end()};
 }
 
-/// Why the first point that failed did.
-std::string first_failure(const StoredRun& run) {
-    const auto counts = run.label_counts();
-    const auto failed = [](const auto& label) { return label.first == name_of(Label::failed); };
-    if (std::none_of(counts.begin(), counts.end(), failed))
-        return "";
-    auto rows = run.rows({.columns = {"number", "label", "detail"}});
-    while (rows.next())
-        if (rows.text(1) == name_of(Label::failed))
-            return fmt::format("point {}: {}", rows.integer(0), rows.text(2));
+/// What the first point says that ended as nobody wants, with what to do.
+std::string first_remedy(const StoredRun& run, const Counts& counts) {
+    for (const Label label : {Label::failed, Label::chattering, Label::unsettled}) {
+        const std::string name(name_of(label));
+        if (std::none_of(counts.begin(), counts.end(), [&](const auto& one) { return one.first == name; }))
+            continue;
+        auto rows = run.rows({.columns = {"number", "label", "detail"}});
+        while (rows.next())
+            if (rows.text(1) == name && !rows.text(2).empty())
+                return fmt::format("point {}: {}", rows.integer(0), rows.text(2));
+    }
     return "";
 }
 
-/// How the branches of a run ended: of each part, what its last point says.
-std::string ends_of(const StoredRun& run) {
-    if (!run.record.is_branch())
-        return first_failure(run);
-    if (run.record.kind != name_of(RunKind::follow))
-        return "";
+/// How the parts of a branch ended: what the last point of each says.
+std::vector<std::pair<std::string, std::string>> ends_of(const StoredRun& run) {
     std::vector<std::pair<std::string, std::string>> ends; // parts in the order in which they ended
+    if (run.record.kind != name_of(RunKind::follow))
+        return ends;
     auto rows = run.rows({.columns = {"part", "detail"}});
     while (rows.next()) {
         std::erase_if(ends, [part = rows.text(0)](const auto& end) { return end.first == part; });
         ends.emplace_back(rows.text(0), rows.text(1));
     }
-    std::string text;
     const bool unfinished = run.record.status == RunStatus::unfinished; // of which only the last part can be
-    for (std::size_t p = 0; p < ends.size(); ++p) {
-        const auto& [part, detail] = ends[p];
-        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", part,
-                            !detail.empty()                      ? detail
-                            : unfinished && p + 1 == ends.size() ? "interrupted; the same command begins the run again"
-                                                                 : "a point that was asked for");
-    }
-    return text;
+    for (std::size_t p = 0; p < ends.size(); ++p)
+        if (ends[p].second.empty())
+            ends[p].second = unfinished && p + 1 == ends.size() ? "interrupted; the same command begins the run again"
+                                                                : "a point that was asked for";
+    return ends;
+}
+
+/// What there is to say of a run.
+struct ListedRun {
+    Counts labels;
+    std::string remedy; ///< or what went wrong
+    std::vector<std::pair<std::string, std::string>> ends;
+};
+
+ListedRun listed(const RunReport& report, const ResultFile& file) {
+    const StoredRun run(file, report.name, {});
+    ListedRun result{label_counts(run), report.problem, {}};
+    if (!report.problem.empty())
+        return result;
+    result.ends = ends_of(run);
+    if (!run.record.is_branch())
+        result.remedy = first_remedy(run, result.labels);
+    return result;
 }
 
 std::string status_of(const RunReport& report) {
@@ -141,25 +102,71 @@ std::string status_of(const RunReport& report) {
     return report.computed == 0 ? "was there" : report.computed < report.points ? "gone on with" : "done";
 }
 
+void add_report(Table& table, const RunReport& report) {
+    table.add(report.name);
+    table.add(report.kind);
+    table.add(static_cast<double>(report.points));
+    table.add(static_cast<double>(report.computed));
+    table.add(report.seconds);
+    table.add(status_of(report));
+}
+
+const std::vector<Table::Column> report_columns{{"run", ""},      {"kind", ""},     {"points", ""},
+                                                {"computed", ""}, {"seconds", "s"}, {"status", ""}};
+
+/// For people: "periodic 1330, chaotic 270", and "up: ..."
 Table table_of(const std::vector<RunReport>& reports, const ResultFile& file) {
-    Table table({{"run", ""},
-                 {"kind", ""},
-                 {"points", ""},
-                 {"computed", ""},
-                 {"seconds", "s"},
-                 {"status", ""},
-                 {"labels", ""},
-                 {"ended", ""}});
+    std::vector<Table::Column> columns = report_columns;
+    columns.insert(columns.end(), {{"labels", ""}, {"ended", ""}});
+    Table table(columns);
     for (const RunReport& report : reports) {
-        table.add(report.name);
-        table.add(report.kind);
-        table.add(static_cast<double>(report.points));
-        table.add(static_cast<double>(report.computed));
-        table.add(report.seconds);
-        table.add(status_of(report));
-        const StoredRun run(file, report.name, {});
-        table.add(labels_of(run));
-        table.add(report.problem.empty() ? ends_of(run) : report.problem);
+        add_report(table, report);
+        const ListedRun run = listed(report, file);
+        std::string labels, ends = run.remedy;
+        for (const auto& [label, count] : run.labels)
+            labels += fmt::format("{}{} {}", labels.empty() ? "" : ", ", label, count);
+        for (const auto& [part, detail] : run.ends)
+            ends += fmt::format("{}{}: {}", ends.empty() ? "" : "; ", part, detail);
+        table.add(labels);
+        table.add(ends);
+    }
+    return table;
+}
+
+/// For machines: each number and each text in a cell of its own.
+Table cells_of(const std::vector<RunReport>& reports, const ResultFile& file) {
+    std::vector<ListedRun> runs;
+    std::vector<std::string> labels;
+    std::size_t parts = 0;
+    for (const RunReport& report : reports) {
+        runs.push_back(listed(report, file));
+        parts = std::max(parts, runs.back().ends.size());
+        for (const auto& one : runs.back().labels)
+            if (std::find(labels.begin(), labels.end(), one.first) == labels.end())
+                labels.push_back(one.first);
+    }
+    std::vector<Table::Column> columns = report_columns;
+    for (std::string label : labels) {
+        std::replace(label.begin(), label.end(), ' ', '_');
+        columns.push_back({"points_" + label, ""});
+    }
+    columns.push_back({"problem", ""});
+    for (std::size_t p = 1; p <= parts; ++p)
+        columns.insert(columns.end(), {{fmt::format("part_{}", p), ""}, {fmt::format("ended_{}", p), ""}});
+    Table table(columns);
+    for (std::size_t r = 0; r < reports.size(); ++r) {
+        add_report(table, reports[r]);
+        for (const std::string& label : labels) {
+            const auto found = std::find_if(runs[r].labels.begin(), runs[r].labels.end(),
+                                            [&](const auto& one) { return one.first == label; });
+            table.add(found == runs[r].labels.end() ? 0.0 : static_cast<double>(found->second));
+        }
+        table.add(runs[r].remedy);
+        for (std::size_t p = 0; p < parts; ++p) {
+            const bool there = p < runs[r].ends.size();
+            table.add(there ? runs[r].ends[p].first : "");
+            table.add(there ? runs[r].ends[p].second : "");
+        }
     }
     return table;
 }
@@ -174,17 +181,6 @@ bool tell_failures(const std::vector<RunReport>& reports, const Console& console
                                        report.remedy);
         }
     return any;
-}
-
-std::string made_folder(const std::string& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error || !std::filesystem::is_directory(folder))
-        throw InputError(
-            {"--output", 0, 0},
-            fmt::format("folder '{}' cannot be made{}", folder, error ? " (" + error.message() + ")" : std::string()),
-            "choose another one");
-    return folder;
 }
 
 void check_names(const Study& study, const std::vector<std::string>& only) {
@@ -203,7 +199,9 @@ int list_studies(const RunArguments& arguments, const Console& console) {
         table.add(static_cast<double>(study.runs.size()));
         table.add(study.text);
     }
-    deliver(table, arguments.output, {}, console);
+    OutputArguments output = arguments.output;
+    output.all = true; // lines of words
+    deliver(table, output, {}, console);
     return exit_success;
 }
 
@@ -212,6 +210,43 @@ struct AskedFor {
     Study study;
     std::string folder, file;
 };
+
+/// "k=50", or "no other values"
+std::string text_of(const ParameterValues& set) {
+    std::string text;
+    for (const auto& [name, value] : set)
+        text += fmt::format("{}{}={}", text.empty() ? "" : ",", name, value);
+    return text;
+}
+
+/// Results of differing values are not to replace one another: the file would be of neither.
+void require_same_values(const Study& study, const ResultFile& file) {
+    auto stored = stored_set(file);
+    if (!stored)
+        return;
+    ParameterValues asked = study.set;
+    std::sort(stored->begin(), stored->end());
+    std::sort(asked.begin(), asked.end());
+    if (*stored == asked)
+        return;
+    const auto words = [](const ParameterValues& set) {
+        return set.empty() ? std::string("the study's own values") : text_of(set);
+    };
+    throw InputError(
+        Place{file.path(), 0, 0},
+        fmt::format("the results there were made with {}, and those asked for are of {}", words(*stored), words(asked)),
+        "choose another folder by --output");
+}
+
+Study load_study_with(const ParameterValues& set, const std::string& name) {
+    try {
+        return load_study(name, set);
+    } catch (const InputError& error) {
+        if (set.empty() || !error.place().file.empty())
+            throw;
+        throw InputError({"--set", 0, 0}, error.problem(), error.remedy());
+    }
+}
 
 /// A shipped study, one in a file, or the one that a result file has of itself.
 AskedFor asked_for(const RunArguments& arguments) {
@@ -222,9 +257,13 @@ AskedFor asked_for(const RunArguments& arguments) {
     const bool is_shipped = std::find(shipped.begin(), shipped.end(), arguments.study) != shipped.end();
     AskedFor result;
     if (is_shipped || !from_results) {
-        result.study = load_study(arguments.study);
-        result.folder = arguments.folder.empty() ? result.study.name : arguments.folder;
+        result.study = load_study_with(parameter_values(arguments.set), arguments.study);
+        const std::string own = result.study.set.empty() ? "" : "-" + text_of(result.study.set);
+        result.folder = arguments.folder.empty() ? result.study.name + own : arguments.folder;
     } else {
+        if (!arguments.set.empty())
+            throw InputError({"--set", 0, 0}, "results have numbers, and no longer what the study computes from them",
+                             "name the study instead of its results");
         result.study = stored_study(ResultFile(stored, ResultFile::Access::read));
         result.folder = arguments.folder;
         result.file = stored;
@@ -251,21 +290,22 @@ int run_command(const RunArguments& arguments, const Console& console) {
     const AskedFor request = asked_for(arguments);
     const Study& study = request.study;
     check_names(study, split_list(arguments.only));
-    const std::string folder = made_folder(request.folder);
+    const std::string& folder = request.folder;
+    make_folder(folder, "--output");
     ResultFile file(request.file, ResultFile::Access::write);
+    require_same_values(study, file);
     std::vector<RunReport> reports;
     {
         const InterruptGuard guard;
-        StudyProgress progress(console, (arguments.progress || console.terminal) && !arguments.steps);
+        ProgressLine progress(console, (arguments.progress || console.terminal) && !arguments.steps);
         StepLines steps(study, console.err);
         RunnerOptions options;
         options.jobs =
             arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
         options.only = split_list(arguments.only);
         options.interrupted = [] { return InterruptGuard::requested(); };
-        options.progress = [&](const std::string& run, std::size_t done, std::size_t all) {
-            progress.update(run, done, all);
-        };
+        options.one_by_one = arguments.steps; // lines about several at a time could not be read
+        options.progress = [&](const StudyProgress& made) { progress.update(made); };
         options.orbit = [&](const std::string& run, const OrbitRecord& record) {
             if (arguments.steps)
                 steps.show(run, record);
@@ -275,11 +315,14 @@ int run_command(const RunArguments& arguments, const Console& console) {
     }
     if (!arguments.quiet) {
         OutputArguments output = arguments.output;
-        output.digits = 6;
-        deliver(table_of(reports, file), output, {}, console);
+        const bool for_people = output.format == TableFormat::table;
+        output.digits = for_people ? 6 : 17;
+        output.all = true;
+        deliver(for_people ? table_of(reports, file) : cells_of(reports, file), output, {}, console);
     }
     const bool failed = tell_failures(reports, console);
-    if (!reports.empty() && reports.back().outcome == RunOutcome::interrupted) {
+    if (std::any_of(reports.begin(), reports.end(),
+                    [](const RunReport& report) { return report.outcome == RunOutcome::interrupted; })) {
         console.err << "graze: interrupted; what was computed is kept, and the same command goes on from there\n";
         return exit_interrupted;
     }

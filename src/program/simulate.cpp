@@ -175,7 +175,7 @@ public:
         compute();
         table_->finish(*trajectory_);
         if (wants_table_)
-            deliver(table_->table(), arguments_.output, heading(), console_);
+            deliver(table_->table(), arguments_.output, heading(), console_, names_of(request_.quantities));
         const int code = report();
         if (plot_) {
             curves_->finish(*trajectory_);
@@ -194,11 +194,11 @@ private:
         require_distinct({{"the model", is_model_path(arguments_.model) ? arguments_.model : ""},
                           {"--output", arguments_.output.file},
                           {"--plot", arguments_.plot},
-                          {"--plot-data", arguments_.plot_data}});
+                          {"--data", arguments_.plot_data}});
         if (wants_table_ && !arguments_.output.file.empty())
             require_writable(arguments_.output.file);
         if (arguments_.plot.empty() && (!arguments_.plot_data.empty() || !arguments_.portraits.empty()))
-            throw InputError("--portrait and --plot-data say something about a picture that is not asked for",
+            throw InputError("--portrait and --data say something about a picture that is not asked for",
                              "add --plot FILE.svg");
         if (!arguments_.plot.empty())
             plot_ = plot_request(model_, arguments_, request_.events);

@@ -17,9 +17,20 @@ constexpr const char* run_examples = R"(Examples:
   graze run electromagnetic-testbed --output testbed
   graze run my-study.toml --output results --jobs 8
   graze run my-study.toml --only chain --steps
+  graze run my-study.toml --set k=50              for another value; into the folder my-study-k=50
   graze run results                               go on with what is in results/results.sqlite
   graze run results --output again                do all of it again, elsewhere
   graze run mems-switch --show > my-switch.toml)";
+
+constexpr const char* info_text = R"(Tell what is in a file.
+Of results: the study, its runs with their points, when they were made, how, and by which version of graze; of a model
+or a study what it has. Shipped models and studies go by their names.)";
+
+constexpr const char* info_examples = R"(Examples:
+  graze info results                   runs, counts, sizes, times
+  graze info results --all             and all their parameters and settings
+  graze info my-model.toml
+  graze info mems-switch --format json)";
 
 constexpr const char* export_text = R"(Take results out of the file of a study.
 What is shown: points (one row for each parameter value, with what the motion settles on, or for each orbit of a
@@ -64,6 +75,7 @@ void declare_run(CLI::App& app, RunArguments& arguments) {
     add(command, "--output", arguments.folder, "FOLDER", "Where results and pictures go (the study's name)");
     add(command, "--jobs", arguments.jobs, "N", "Threads (as many as there are cores); results do not depend on it")
         ->check(CLI::Range(1, 1024));
+    add(command, "--set", arguments.set, "NAME=VALUE", "Values of parameters instead of those in the study");
     add(command, "--only", arguments.only, "RUN", "Only these runs, with those that they start from");
     command.add_flag("--list", arguments.list, "List the shipped studies");
     command.add_flag("--show", arguments.show, "Print the study instead of running it");
@@ -72,6 +84,15 @@ void declare_run(CLI::App& app, RunArguments& arguments) {
     command.add_flag("--progress", arguments.progress, "Show progress even if standard error is no terminal");
     command.add_flag("--quiet", arguments.quiet, "Do not list what was done");
     declare_format(command, arguments.output);
+}
+
+void declare_info(CLI::App& app, InfoArguments& arguments) {
+    CLI::App& command = *app.add_subcommand("info", info_text);
+    command.footer(info_examples);
+    add(command, "FILE", arguments.file, "", "Result file, folder of a study, model or study")->required();
+    command.add_flag("--all", arguments.all, "Parameters and settings of runs too, as csv and json have them always");
+    declare_format(command, arguments.output);
+    add(command, "--output", arguments.output.file, "FILE", "Write there instead of to standard output");
 }
 
 void declare_export(CLI::App& app, ExportArguments& arguments) {
@@ -90,8 +111,10 @@ void declare_export(CLI::App& app, ExportArguments& arguments) {
     add(command, "--format", arguments.hdf5, "FORMAT", "table (default), csv, json or hdf5")
         ->check(CLI::IsMember(known));
     add(command, "--output", arguments.output.file, "FILE", "Write there instead of to standard output");
-    add(command, "--digits", arguments.output.digits, "N", "Significant digits of numbers; 17 (default) lose nothing")
+    add(command, "--digits", arguments.output.digits, "N",
+        "Significant digits of numbers (8; 17 of csv and json, which lose nothing)")
         ->check(CLI::Range(1, 17));
+    command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal");
 }
 
 void declare_plot_results(CLI::App& app, PlotArguments& arguments) {
@@ -127,6 +150,7 @@ void declare_plot_results(CLI::App& app, PlotArguments& arguments) {
 
 void declare_study_commands(CLI::App& app, Arguments& arguments) {
     declare_run(app, arguments.run);
+    declare_info(app, arguments.info);
     declare_export(app, arguments.exports);
     declare_plot_results(app, arguments.plot);
 }

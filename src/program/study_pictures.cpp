@@ -1,5 +1,6 @@
 #include "program/study_pictures.hpp"
 
+#include "graze/study/stored_study.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "program/figure.hpp"
 #include "program/output_file.hpp"
@@ -9,11 +10,84 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
 namespace graze {
 
-DrawnPictures draw_study_pictures(const Study& study, const ResultFile& file, const std::string& folder,
+namespace {
+
+/// Changes when the same results are drawn in another way than by an earlier version.
+constexpr int drawing = 1;
+
+std::string contents_of(const std::string& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// One picture of a study, with the files that it is made of.
+class PictureFiles {
+public:
+    PictureFiles(const StudyPicture& picture, ResultFile& file, const std::string& folder)
+        : picture_(&picture), file_(&file), base_((std::filesystem::path(folder) / picture.name).string()) {}
+
+    std::string table() const { return base_ + ".csv"; }
+    std::string drawing_file() const { return base_ + "." + picture_->format; }
+
+    /// Files of the same picture, if they are as they were written.
+    std::vector<std::string> present() const {
+        const auto note = file_->note(key());
+        if (!note)
+            return {};
+        for (const auto& files : {std::vector<std::string>{drawing_file()}, {table(), drawing_file()}})
+            if (*note == made_of(files))
+                return files;
+        return {};
+    }
+    void remember(const std::vector<std::string>& files) { file_->set_note(key(), made_of(files)); }
+
+private:
+    std::string key() const { return "picture " + picture_->name; }
+    /// Of what a picture was made, and what it has become.
+    std::string made_of(const std::vector<std::string>& files) const {
+        std::string text = fmt::format("{} {} {}", drawing, GRAZE_VERSION, settings_of(*picture_));
+        for (const std::string& name : picture_->runs)
+            if (const auto run = file_->find_run(name))
+                text += fmt::format("\n{} {} {} {}", name, run->fingerprint, file_->point_count(name),
+                                    run->status == RunStatus::complete);
+        for (const std::string& path : files) {
+            std::error_code error;
+            if (!std::filesystem::is_regular_file(path, error))
+                return "";
+            text += '\n' + fingerprint_of(contents_of(path));
+        }
+        return fingerprint_of(text);
+    }
+
+    const StudyPicture* picture_;
+    ResultFile* file_;
+    std::string base_;
+};
+
+/// @return the files that were written
+std::vector<std::string> draw(const StudyPicture& picture, const PictureFiles& files, const ResultFile& file) {
+    std::vector<std::string> written;
+    const ResultPicture made = make_picture(picture, file);
+    if (made.table.rows() > 0) {
+        std::ostringstream text;
+        write_table(text, made.table, TableFormat::csv, 17, {});
+        write_file(files.table(), text.view());
+        written.push_back(files.table());
+    }
+    draw_figure(made.figure, files.drawing_file(), "");
+    written.push_back(files.drawing_file());
+    return written;
+}
+
+} // namespace
+
+DrawnPictures draw_study_pictures(const Study& study, ResultFile& file, const std::string& folder,
                                   const Console& console) {
     const std::vector<std::string> inputs = input_files(study);
     std::vector<StudyPicture> pictures = study.pictures;
@@ -23,25 +97,22 @@ DrawnPictures draw_study_pictures(const Study& study, const ResultFile& file, co
                 pictures.push_back(default_picture(*record));
     DrawnPictures drawn;
     for (const StudyPicture& picture : pictures) {
-        const std::string base = (std::filesystem::path(folder) / picture.name).string();
         try {
             if (std::none_of(picture.runs.begin(), picture.runs.end(),
                              [&](const std::string& run) { return file.point_count(run) > 0; }))
                 throw InputError(fmt::format("run '{}' has no points", picture.runs.front()), "see why above");
-            const ResultPicture made = make_picture(picture, file);
-            for (const std::string& path : {base + ".csv", base + "." + picture.format}) {
+            PictureFiles files(picture, file, folder);
+            for (const std::string& path : {files.table(), files.drawing_file()}) {
                 require_inside(path, folder);
                 for (const std::string& input : inputs)
                     require_distinct({{"the study, or what it reads,", input}, {"picture " + picture.name, path}});
             }
-            if (made.table.rows() > 0) {
-                std::ostringstream text;
-                write_table(text, made.table, TableFormat::csv, 17, {});
-                write_file(base + ".csv", text.view());
-                drawn.paths.push_back(base + ".csv");
-            }
-            draw_figure(made.figure, base + "." + picture.format, "");
-            drawn.paths.push_back(base + "." + picture.format);
+            std::vector<std::string> paths = files.present();
+            if (!paths.empty())
+                ++drawn.kept;
+            else
+                files.remember(paths = draw(picture, files, file));
+            drawn.paths.insert(drawn.paths.end(), paths.begin(), paths.end());
         } catch (const InputError& error) {
             console.err << fmt::format("graze: warning: picture '{}' was not drawn: {}\n", picture.name, error.what());
             drawn.complete = false;

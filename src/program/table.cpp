@@ -93,23 +93,20 @@ void write_json(std::ostream& out, const Table& table, int digits, const JsonObj
     out << "]}\n";
 }
 
+/// A line feed in a text would begin a row.
+std::string shown_cell(const Table& table, std::size_t row, std::size_t column, int digits) {
+    return printable_line(cell_text(table, row, column, digits));
+}
+
 void write_aligned(std::ostream& out, const Table& table, int digits) {
     const std::size_t columns = table.columns().size();
-    std::vector<std::size_t> widths(columns);
+    const std::vector<std::size_t> widths = column_widths(table, digits);
     std::vector<bool> right(columns, true);
     bool units = false;
-    // A line feed in a text would begin a row.
-    const auto shown = [&](std::size_t row, std::size_t column) {
-        return printable_line(cell_text(table, row, column, digits));
-    };
     for (std::size_t column = 0; column < columns; ++column) {
-        const Table::Column& heading = table.columns()[column];
-        units = units || !heading.unit.empty();
-        widths[column] = std::max(width_of(heading.name), width_of(heading.unit));
-        for (std::size_t row = 0; row < table.rows(); ++row) {
-            widths[column] = std::max(widths[column], width_of(shown(row, column)));
+        units = units || !table.columns()[column].unit.empty();
+        for (std::size_t row = 0; row < table.rows(); ++row)
             right[column] = right[column] && !table.is_text(row, column);
-        }
     }
     const auto write_line = [&](const auto& text_of) {
         std::string line;
@@ -122,7 +119,7 @@ void write_aligned(std::ostream& out, const Table& table, int digits) {
     if (units)
         write_line([&](std::size_t column) { return table.columns()[column].unit; });
     for (std::size_t row = 0; row < table.rows(); ++row)
-        write_line([&](std::size_t column) { return shown(row, column); });
+        write_line([&](std::size_t column) { return shown_cell(table, row, column, digits); });
 }
 
 } // namespace
@@ -152,6 +149,17 @@ void JsonObject::add(std::string_view name, const std::vector<JsonObject>& objec
     for (std::size_t i = 0; i < objects.size(); ++i)
         members_ += (i > 0 ? ",\n{" : "{") + objects[i].members_ + '}';
     members_ += ']';
+}
+
+std::vector<std::size_t> column_widths(const Table& table, int digits) {
+    std::vector<std::size_t> widths;
+    for (std::size_t column = 0; column < table.columns().size(); ++column) {
+        const Table::Column& heading = table.columns()[column];
+        std::size_t& width = widths.emplace_back(std::max(width_of(heading.name), width_of(heading.unit)));
+        for (std::size_t row = 0; row < table.rows(); ++row)
+            width = std::max(width, width_of(shown_cell(table, row, column, digits)));
+    }
+    return widths;
 }
 
 void write_table(std::ostream& out, const Table& table, TableFormat format, int digits, const JsonObject& heading) {

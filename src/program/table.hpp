@@ -26,6 +26,9 @@ private:
     std::string members_;
 };
 
+/// How wide the columns are for people, headings included.
+std::vector<std::size_t> column_widths(const Table& table, int digits);
+
 /// @param digits significant digits; 17 tell any two numbers apart
 /// @param heading what a JSON object says before columns, units and rows; other formats leave it out
 void write_table(std::ostream& out, const Table& table, TableFormat format, int digits, const JsonObject& heading);

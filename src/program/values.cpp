@@ -29,9 +29,9 @@ struct Assignment {
 Assignment parse_assignment(const std::string& item, const std::string& option) {
     const std::size_t equals = item.find('=');
     if (equals == std::string::npos)
-        throw InputError(
-            {option, 0, 0}, fmt::format("'{}' sets nothing", item),
-            fmt::format("write {}=VALUE (the model comes before the options)", is_valid_name(item) ? item : "NAME"));
+        throw InputError({option, 0, 0}, fmt::format("'{}' sets nothing", item),
+                         fmt::format("write {}=VALUE (what is to be computed comes before the options)",
+                                     is_valid_name(item) ? item : "NAME"));
     Assignment result;
     result.name = trimmed(std::string_view(item).substr(0, equals));
     result.text = item.substr(equals + 1);
@@ -92,6 +92,17 @@ void set_parameters(Model& model, const std::vector<std::string>& assignments) {
         require_new(names, assignment.name, "--set");
         model.set_parameter(assignment.name, value_of_text(model, assignment.text, assignment.place));
     }
+}
+
+std::vector<std::pair<std::string, double>> parameter_values(const std::vector<std::string>& assignments) {
+    std::vector<std::pair<std::string, double>> values;
+    std::set<std::string> names;
+    for (const std::string& item : split_list(assignments)) {
+        const Assignment assignment = parse_assignment(item, "--set");
+        require_new(names, assignment.name, "--set");
+        values.emplace_back(assignment.name, value_of_text(Model(), assignment.text, assignment.place));
+    }
+    return values;
 }
 
 void set_initial_state(Model& model, const std::vector<std::string>& assignments) {

@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -24,6 +25,9 @@ double positive_value_of(const Model& model, std::string_view text, const std::s
 
 /// Carries out `--set NAME=EXPRESSION ...`, one after the other. @throws InputError
 void set_parameters(Model& model, const std::vector<std::string>& assignments);
+/// Names and values of `--set NAME=NUMBER ...` for models that are not known yet: expressions without names.
+/// @throws InputError
+std::vector<std::pair<std::string, double>> parameter_values(const std::vector<std::string>& assignments);
 /// Carries out `--from STATE=EXPRESSION ...`. @throws InputError
 void set_initial_state(Model& model, const std::vector<std::string>& assignments);
 

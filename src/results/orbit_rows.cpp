@@ -147,7 +147,7 @@ void ResultFile::add_orbit(const std::string& name, const OrbitRecord& record) {
         state_->commit_when_due();
     } catch (...) {
         state_->sqlite_rollback();
-        state_->writer.reset();
+        state_->writers.erase(name);
         throw;
     }
 }

@@ -71,7 +71,7 @@ void ResultFile::add_point(const std::string& name, const PointRecord& point) {
         state_->commit_when_due();
     } catch (...) {
         state_->sqlite_rollback();
-        state_->writer.reset();
+        state_->writers.erase(name);
         throw;
     }
 }

@@ -60,7 +60,7 @@ ResultFile::ResultFile(const std::string& path, Access access) {
         throw InputError(Place{path, 0, 0}, "there is no such result file",
                          "graze run STUDY makes one, in the folder that --output names");
     auto lock = writing ? std::make_unique<WriteLock>(path) : nullptr;
-    state_ = std::make_unique<State>(State{std::move(lock), Database(path, writing), false, {}, nullptr});
+    state_ = std::make_unique<State>(State{std::move(lock), Database(path, writing), false, {}, {}, result_format});
     const Database& database = state_->database;
     const std::int64_t application = database.value("PRAGMA application_id");
     const std::int64_t format = database.value("PRAGMA user_version");
@@ -97,18 +97,22 @@ ResultFile::~ResultFile() {
         return;
     try {
         flush();
-        state_->writer.reset();
+        state_->writers.clear();
         // One plain file, which can be read where nothing can be written; not while somebody reads it.
         if (state_->lock)
             state_->database.execute("PRAGMA journal_mode = DELETE");
     } catch (...) { // whoever wants to know has called flush
         state_->sqlite_rollback();
     }
-    state_->writer.reset();
+    state_->writers.clear();
 }
 
 const std::string& ResultFile::path() const {
     return state_->database.path();
+}
+
+int ResultFile::format() const {
+    return state_->format;
 }
 
 void ResultFile::set_patience(std::chrono::milliseconds patience) {
@@ -149,7 +153,7 @@ void ResultFile::remove_run(const std::string& name) {
     const auto run = find_run(name);
     if (!run)
         return;
-    state_->writer.reset();
+    state_->writers.clear();
     state_->at_once([&] {
         const Database& database = state_->database;
         const RunTables tables(*run);
@@ -179,6 +183,30 @@ void ResultFile::begin_run(const RunRecord& given) {
         Statement insert = database.prepare(insert_into(fmt::format("runs({})", listed(columns)), columns.size()));
         write_row(insert, run_columns(), NoContext{}, run);
         write_lists(database, run);
+        database.execute(views(runs()));
+    });
+}
+
+void ResultFile::order_runs(const std::vector<std::string>& names) {
+    const std::vector<std::string> present = names_of(runs());
+    std::vector<std::string> ordered;
+    for (const auto* list : {&names, &present})
+        for (const std::string& name : *list)
+            if (std::find(ordered.begin(), ordered.end(), name) == ordered.end() &&
+                std::find(present.begin(), present.end(), name) != present.end())
+                ordered.push_back(name);
+    const auto last = state_->database.value("SELECT coalesce(max(number), 0) FROM runs");
+    if (ordered == present && last == static_cast<std::int64_t>(present.size()))
+        return;
+    state_->at_once([&] {
+        const Database& database = state_->database;
+        // By way of negative numbers, for none to be given twice.
+        for (std::size_t i = 0; i < ordered.size(); ++i)
+            database.prepare("UPDATE runs SET number = ? WHERE name = ?")
+                .bind(1, -static_cast<std::int64_t>(i + 1))
+                .bind(2, std::string_view(ordered[i]))
+                .run();
+        database.execute("UPDATE runs SET number = -number");
         database.execute(views(runs()));
     });
 }

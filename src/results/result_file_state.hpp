@@ -9,8 +9,11 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace graze {
 
@@ -29,7 +32,8 @@ struct ResultFile::State {
         Statement multiplier, half_multiplier, minimum, end_value;
         std::optional<Model> model; ///< of a branch, once an orbit has been written
     };
-    std::unique_ptr<Writer> writer; ///< of the run that was written to last
+    std::map<std::string, Writer, std::less<>> writers; ///< of runs that are written to, some at the same time
+    int format = result_format;                         ///< of the file
 
     void begin() {
         if (in_transaction)
@@ -40,7 +44,8 @@ struct ResultFile::State {
     }
     /// The writer of a run. @throws InputError when there is no such run
     Writer& writer_of(const ResultFile& file, const std::string& name) {
-        if (!writer || writer->run.name != name) {
+        auto found = writers.find(name);
+        if (found == writers.end()) {
             const auto run = file.find_run(name);
             if (!run)
                 throw InputError(fmt::format("there is no run '{}'", name), "begin it first");
@@ -49,11 +54,13 @@ struct ResultFile::State {
                 return database.prepare(insert_into(table.name, 3 + table.columns.size()));
             };
             const std::vector<DetailTable>& details = detail_tables();
-            writer = std::make_unique<Writer>(
-                Writer{*run, database.prepare(tables.insert_point()), database.prepare(tables.insert_sample()),
-                       insert(details[0]), insert(details[1]), insert(details[2]), insert(details[3]), std::nullopt});
+            found = writers
+                        .emplace(name, Writer{*run, database.prepare(tables.insert_point()),
+                                              database.prepare(tables.insert_sample()), insert(details[0]),
+                                              insert(details[1]), insert(details[2]), insert(details[3]), std::nullopt})
+                        .first;
         }
-        return *writer;
+        return found->second;
     }
     void commit_when_due() {
         if (Clock::now() - begun > between_commits)

@@ -37,9 +37,9 @@ ResultTable with_units(ResultFile::Rows rows, const Units& units) {
     return {std::move(rows), std::move(of_columns), {}};
 }
 
-/// A column that is shown, and its unit.
+/// A column that is shown, its unit, and what it is called if no other is.
 struct ShownColumn {
-    std::string sql, unit;
+    std::string sql, unit, name = "";
 };
 
 /// Units of columns of several runs, where all have the same.
@@ -114,18 +114,18 @@ std::vector<ShownColumn> columns_of(const StoredRun& run, const std::string& wha
     const RunTables& tables = query.run_tables();
     std::vector<ShownColumn> columns;
     const auto add = [&](const char* table, const RunColumn& column) {
-        columns.push_back({table + quoted_name(column.column), unit_of(column, run)});
+        columns.push_back({table + quoted_name(column.column), unit_of(column, run), column.column});
     };
     if (what == "points") {
         for (const RunColumn& column : tables.point_columns)
             add("p.", column);
         return columns;
     }
-    columns.push_back({"s.point", ""});
+    columns.push_back({"s.point", "", "point"});
     if (what == "segments")
-        columns.insert(columns.end(), {{"p.part", ""}, {"p.type", ""}, {"p.label", ""}});
+        columns.insert(columns.end(), {{"p.part", "", "part"}, {"p.type", "", "type"}, {"p.label", "", "label"}});
     else
-        columns.push_back({"p.direction", ""});
+        columns.push_back({"p.direction", "", "direction"});
     std::size_t shown = what == "samples" ? run.record.coordinates.size() : 1; // of a branch what is followed
     for (const RunColumn& column : tables.point_columns)
         if (column.kind.group == ColumnGroup::coordinates && shown > 0) {
@@ -138,10 +138,12 @@ std::vector<ShownColumn> columns_of(const StoredRun& run, const std::string& wha
     return columns;
 }
 
+/// Columns of two tables may have one name: the second gets a number behind it.
 std::string listed(const std::vector<ShownColumn>& columns) {
     std::vector<std::string> texts;
+    std::set<std::string> taken;
     for (const ShownColumn& column : columns)
-        texts.push_back(column.sql);
+        texts.push_back(fmt::format("{} AS {}", column.sql, quoted_name(distinct_name(column.name, taken))));
     return fmt::format("{}", fmt::join(texts, ", "));
 }
 
@@ -206,7 +208,7 @@ ResultTable table_of_rows(const ResultFile& file, const ResultTableRequest& requ
         const bool branch = run.record.is_branch();
         std::vector<ShownColumn> columns = columns_of(run, request.what);
         if (several)
-            columns.insert(columns.begin(), {text_literal(run.record.name) + " AS run", ""});
+            columns.insert(columns.begin(), {text_literal(run.record.name), "", "run"});
         merge(units, columns, units.empty());
         all += fmt::format("{}SELECT {} FROM {} WHERE {}", all.empty() ? "" : " UNION ALL ", listed(columns),
                            query.tables(!of_points, false),

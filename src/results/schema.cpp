@@ -21,13 +21,16 @@ std::string lower(std::string text) {
     return text;
 }
 
-/// The name, with a number behind it if another column has it already; SQL does not tell upper and lower case apart.
-std::string distinct(const std::string& name, std::set<std::string>& taken) {
+} // namespace
+
+std::string distinct_name(const std::string& name, std::set<std::string>& taken) {
     std::string result = name;
     for (int i = 2; !taken.insert(lower(result)).second; ++i)
         result = fmt::format("{}_{}", name, i);
     return result;
 }
+
+namespace {
 
 const char* type_text(ColumnType type) {
     return type == ColumnType::whole ? "INTEGER" : type == ColumnType::text ? "TEXT" : "REAL";
@@ -64,7 +67,7 @@ std::vector<RunColumn> columns_for(const std::vector<ColumnKind>& kinds, const R
             columns.push_back({kind.name, kind, "", ""});
         else
             for (const ResultColumn& thing : things_of(run, kind.group))
-                columns.push_back({distinct(kind.name + thing.name, taken), kind, thing.name, thing.unit});
+                columns.push_back({distinct_name(kind.name + thing.name, taken), kind, thing.name, thing.unit});
     return columns;
 }
 

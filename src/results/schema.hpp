@@ -3,6 +3,7 @@
 #include "graze/results/result_file.hpp"
 #include "results/columns.hpp"
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,8 @@ std::string common_tables();
 std::string views(const std::vector<RunRecord>& runs);
 /// Writes a row with so many cells.
 std::string insert_into(const std::string& table, std::size_t columns);
+/// The name, with a number behind it if another column has it already; SQL does not tell upper and lower case apart.
+std::string distinct_name(const std::string& name, std::set<std::string>& taken);
 /// "a, b, c"
 std::string listed(const std::vector<ColumnKind>& columns, std::string_view before_each = "");
 

@@ -99,6 +99,11 @@ std::size_t StoredRun::points() const {
     return file->point_count(record.name);
 }
 
+std::size_t StoredRun::samples() const {
+    auto rows = file->query(fmt::format("SELECT count(*) FROM {}", RunTables(record).samples));
+    return rows.next() ? static_cast<std::size_t>(rows.integer(0)) : 0;
+}
+
 std::optional<std::pair<double, double>> StoredRun::extent(const std::string& quantity) const {
     const RunQuery query(record);
     auto rows = file->query(

@@ -151,14 +151,19 @@ std::vector<Part> parts_from_orbit(const StudyRun& run, const System& system, co
 }
 
 /// @return none when interrupted
-std::vector<Part> parts_of(const Study& study, const StudyRun& run, const System& system, const ResultFile& file,
+std::vector<Part> parts_of(const Study& study, const StudyRun& run, const System& system, SharedFile& file,
                            const RunnerOptions& options) {
     const BranchRequest& branch = run.branch;
     if (run.start) {
         const StudyRun& parent = run_named(study, run.start->run);
-        if (parent.is_branch())
-            return parts_from_orbit(run, system, parent, orbit_to_start_from(*run.start, parent, file));
-        const auto orbit = settled(run, system_at(run, point_to_start_from(run, study, file)), options);
+        if (parent.is_branch()) {
+            const OrbitRecord record =
+                file.with([&](const ResultFile& results) { return orbit_to_start_from(*run.start, parent, results); });
+            return parts_from_orbit(run, system, parent, record);
+        }
+        const StartPoint start =
+            file.with([&](const ResultFile& results) { return point_to_start_from(run, study, results); });
+        const auto orbit = settled(run, system_at(run, start), options);
         return orbit ? both_directions(run, *orbit) : std::vector<Part>();
     }
     if (branch.has_table())
@@ -170,7 +175,7 @@ std::vector<Part> parts_of(const Study& study, const StudyRun& run, const System
 /// Writes points one by one, the last of a part only when it is known to be the last.
 class PointWriter {
 public:
-    PointWriter(const StudyRun& run, ResultFile& file, const RunnerOptions& options, RunReport& report)
+    PointWriter(const StudyRun& run, SharedFile& file, const RunnerOptions& options, RunReport& report)
         : run_(&run), file_(&file), options_(&options), report_(&report) {}
 
     void add(const std::string& part, const SpecialPoint& point, bool stable) {
@@ -200,10 +205,12 @@ public:
             record.label = fmt::format("{}{}", type, ++counts_[type]);
             note_twin(record);
         }
-        file_->add_orbit(run_->name, record);
-        ++report_->computed;
-        if (options_->orbit)
-            options_->orbit(run_->name, record);
+        file_->with([&](ResultFile& results) {
+            results.add_orbit(run_->name, record);
+            ++report_->computed;
+            if (options_->orbit)
+                options_->orbit(run_->name, record);
+        });
         waiting_.reset();
     }
 
@@ -226,7 +233,7 @@ private:
     }
 
     const StudyRun* run_;
-    ResultFile* file_;
+    SharedFile* file_;
     const RunnerOptions* options_;
     RunReport* report_;
     std::string twin_;
@@ -300,7 +307,7 @@ std::optional<BranchOutcome> follow_part(const StudyRun& run, const System& syst
     return branch.outcome();
 }
 
-bool compute_orbit(const Study& study, const StudyRun& run, const System& system, const ResultFile& file,
+bool compute_orbit(const Study& study, const StudyRun& run, const System& system, SharedFile& file,
                    const RunnerOptions& options, PointWriter& writer) {
     const std::vector<Part> parts = parts_of(study, run, system, file, options);
     if (parts.empty())
@@ -333,7 +340,7 @@ bool compute_orbit(const Study& study, const StudyRun& run, const System& system
 
 } // namespace
 
-bool run_branch(const Study& study, const StudyRun& run, ResultFile& file, const RunnerOptions& options,
+bool run_branch(const Study& study, const StudyRun& run, SharedFile& file, const RunnerOptions& options,
                 RunReport& report) {
     const System system = at_place(run.place, run, [&] { return System(run.model); });
     PointWriter writer(run, file, options, report);

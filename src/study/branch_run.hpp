@@ -1,13 +1,14 @@
 #pragma once
 
 #include "graze/study/runner.hpp"
+#include "study/shared_file.hpp"
 
 namespace graze {
 
 /// Computes a run of kind orbit or continue from its beginning, and writes it to the file, where it has been begun.
 /// @return whether it was finished rather than interrupted
 /// @throws InputError when there is nothing to start from
-bool run_branch(const Study& study, const StudyRun& run, ResultFile& file, const RunnerOptions& options,
+bool run_branch(const Study& study, const StudyRun& run, SharedFile& file, const RunnerOptions& options,
                 RunReport& report);
 
 /// Ways in which a run of kind continue, or a sweep, goes.

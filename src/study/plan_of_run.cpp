@@ -74,13 +74,9 @@ std::vector<double> coordinates_of(const StudyRun& run, std::size_t point) {
     return coordinates;
 }
 
-namespace {
-
 std::size_t chains_of(const StudyRun& run) {
     return combinations(run) * std::max<std::size_t>(run.draws, 1);
 }
-
-} // namespace
 
 std::size_t points_of(const StudyRun& run) {
     return chains_of(run) * chain_length_of(run);

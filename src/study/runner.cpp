@@ -2,14 +2,18 @@
 
 #include "graze/model/model_file.hpp"
 #include "graze/results/name_advice.hpp"
+#include "graze/study/run_times.hpp"
 #include "graze/study/stored_study.hpp"
 #include "graze/symbolic/require.hpp"
 #include "study/branch_run.hpp"
+#include "study/run_schedule.hpp"
+#include "study/shared_file.hpp"
 #include "study/start_point.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <map>
 #include <set>
@@ -20,17 +24,6 @@ namespace {
 
 /// Changes when the same settings lead to other numbers than in an earlier version.
 constexpr int numbers = 2;
-
-/// FNV-1a with two seeds: equal for equal texts everywhere, and different for others with near certainty.
-std::string hash(const std::string& text) {
-    std::string result;
-    for (std::uint64_t value : {std::uint64_t{0xcbf29ce484222325u}, std::uint64_t{0x84222325cbf29ce4u}}) {
-        for (const char c : text)
-            value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-        result += fmt::format("{:016x}", value);
-    }
-    return result;
-}
 
 /// All parameters, the one that is followed first.
 void add_parameters(const StudyRun& run, RunRecord& record) {
@@ -73,7 +66,8 @@ RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, 
     record.model = write_model(run.model);
     record.settings = settings_of(run);
     record.version = GRAZE_VERSION;
-    record.fingerprint = hash(fmt::format("{} {} {} {}", numbers, record.model, record.settings, parent_fingerprint));
+    record.fingerprint =
+        fingerprint_of(fmt::format("{} {} {} {}", numbers, record.model, record.settings, parent_fingerprint));
     if (run.is_branch())
         add_parameters(run, record);
     for (const Variation& axis : run.axes)
@@ -179,69 +173,136 @@ StudyRun at_start(const StudyRun& run, const StartPoint& start) {
     return result;
 }
 
-/// What does a study's runs, one after the other.
+/// Does a study's runs, those side by side that do not start from one another. What it knows of them is looked at and
+/// changed only by whoever has the file.
 class Runner {
 public:
     Runner(const Study& study, ResultFile& file, const RunnerOptions& options)
-        : study_(&study), file_(&file), options_(&options), wanted_(wanted_runs(study, options.only)) {
+        : study_(&study), path_(file.path()), file_(file), options_(options) {
+        options_.interrupted = [this, asked = options.interrupted] { return broken_off_ || (asked && asked()); };
+        const std::set<std::string> wanted = wanted_runs(study, options.only);
         for (const StudyRun& run : study.runs)
-            if (wanted_.contains(run.name))
-                all_ += planned_points(run);
+            if (wanted.contains(run.name)) {
+                runs_.push_back(&run);
+                (run.is_branch() ? progress_.branches_left : progress_.study_points) += planned_points(run);
+            }
     }
 
     std::vector<RunReport> run() {
-        using Clock = std::chrono::steady_clock;
-        for (const StudyRun& run : study_->runs) {
-            if (!wanted_.contains(run.name))
-                continue;
-            const auto begun = Clock::now();
-            reports_.push_back(attempt(run));
-            before_ += planned_points(run);
-            reports_.back().seconds = std::chrono::duration<double>(Clock::now() - begun).count();
-            if (reports_.back().outcome == RunOutcome::interrupted)
-                break;
+        std::vector<ScheduledRun> schedule;
+        for (const StudyRun* run : runs_) {
+            ScheduledRun& one = schedule.emplace_back();
+            one.threads = run->is_branch() ? 1 : chains_of(*run);
+            for (std::size_t r = 0; run->start && r + 1 < schedule.size(); ++r)
+                if (runs_[r]->name == run->start->run)
+                    one.after = r;
         }
-        return std::move(reports_);
+        reports_.resize(runs_.size());
+        if (options_.one_by_one)
+            for (std::size_t run = 0; run < runs_.size() && !stopped_; ++run)
+                do_one(run, options_.jobs);
+        else
+            run_side_by_side(
+                schedule, options_.jobs, [this] { return stopped_.load(); },
+                [this](std::size_t run, int threads) { do_one(run, threads); });
+        std::vector<RunReport> begun;
+        for (std::optional<RunReport>& report : reports_)
+            if (report)
+                begun.push_back(std::move(*report));
+        return begun;
     }
 
 private:
+    using Clock = std::chrono::steady_clock;
+
+    /// A run that is being done.
+    struct Work {
+        RunReport report;
+        int threads = 1;
+        std::size_t counted = 0;       ///< of its points, in the progress
+        std::optional<RunTimes> times; ///< if it computes something
+    };
+
     static std::size_t planned_points(const StudyRun& run) { return run.is_branch() ? 1 : points_of(run); }
 
-    /// A run that fails is told of, and those that do not start from it go on.
-    RunReport attempt(const StudyRun& run) {
-        RunReport report;
-        report.name = run.name;
-        report.kind = name_of(run.kind);
-        if (run.start && failed_.contains(run.start->run)) {
-            fail(run, report, RunOutcome::skipped,
-                 fmt::format("run '{}', from which it starts, failed", run.start->run), "mend that one first");
-            return report;
-        }
+    void do_one(std::size_t index, int threads) {
+        const StudyRun& run = *runs_[index];
+        const auto begun = Clock::now();
+        Work work;
+        work.threads = threads;
         try {
-            run.is_branch() ? do_branch(run, report) : do_points(run, report);
-        } catch (const InputError& error) {
-            if (error.place().file == file_->path()) // the file cannot be written: neither can other runs
-                throw;
-            file_->flush();
-            const std::string place = error.place().text();
-            fail(run, report, RunOutcome::failed, place + (place.empty() ? "" : ": ") + error.problem(),
-                 error.remedy());
+            attempt(run, work);
+            work.report.seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+            file_.with([&](ResultFile& file) { end(run, work, file); });
+        } catch (...) {
+            broken_off_ = stopped_ = true; // whatever else goes on ends, too
+            throw;
         }
-        return report;
+        if (work.report.outcome == RunOutcome::interrupted)
+            stopped_ = true;
+        reports_[index] = std::move(work.report);
+    }
+
+    void end(const StudyRun& run, Work& work, ResultFile& file) {
+        if (run.is_branch())
+            --progress_.branches_left;
+        else
+            progress_.study_done += planned_points(run) - work.counted;
+        if (!work.times)
+            return;
+        work.times->seconds += work.report.seconds;
+        if (work.report.outcome != RunOutcome::interrupted)
+            work.times->ended = present_time();
+        note_times(file, run.name, *work.times);
+    }
+
+    /// A run that fails is told of, and those that do not start from it go on.
+    void attempt(const StudyRun& run, Work& work) {
+        work.report.name = run.name;
+        work.report.kind = name_of(run.kind);
+        const bool skipped = file_.with([&](ResultFile& file) {
+            const bool failed = run.start && failed_.contains(run.start->run);
+            if (failed)
+                fail(run, work.report, file, RunOutcome::skipped,
+                     fmt::format("run '{}', from which it starts, failed", run.start->run), "mend that one first");
+            return failed;
+        });
+        if (skipped)
+            return;
+        try {
+            run.is_branch() ? do_branch(run, work) : do_points(run, work);
+        } catch (const InputError& error) {
+            if (error.place().file == path_) // the file cannot be written: neither can other runs
+                throw;
+            file_.with([&](ResultFile& file) {
+                file.flush();
+                const std::string place = error.place().text();
+                fail(run, work.report, file, RunOutcome::failed, place + (place.empty() ? "" : ": ") + error.problem(),
+                     error.remedy());
+            });
+        }
+    }
+
+    /// Before the first point of a run is computed. What is gone on with was begun earlier.
+    static void begin_times(const StudyRun& run, Work& work, ResultFile& file) {
+        work.times = file.point_count(run.name) > 0 ? times_of(file, run.name) : std::nullopt;
+        if (!work.times)
+            work.times = RunTimes{present_time(), "", 0};
+        note_times(file, run.name, *work.times);
     }
 
     /// Nothing of an earlier version of the run is left for others to take for its results.
-    void fail(const StudyRun& run, RunReport& report, RunOutcome outcome, const std::string& problem,
+    void fail(const StudyRun& run, RunReport& report, ResultFile& file, RunOutcome outcome, const std::string& problem,
               const std::string& remedy) {
         report.outcome = outcome;
         report.problem = problem;
         report.remedy = remedy;
         failed_.insert(run.name);
         const RunRecord record = record_of(run, parent_fingerprint(run), 0);
-        const auto stored = file_->find_run(run.name);
+        const auto stored = file.find_run(run.name);
         if (!stored || stored->fingerprint != record.fingerprint)
-            file_->begin_run(record);
-        report.points = file_->point_count(run.name);
+            file.begin_run(record);
+        report.points = file.point_count(run.name);
     }
 
     std::string parent_fingerprint(const StudyRun& run) const {
@@ -249,25 +310,32 @@ private:
         return found == fingerprints_.end() ? "" : found->second;
     }
 
-    void do_branch(const StudyRun& run, RunReport& report) {
-        const RunRecord record = record_of(run, parent_fingerprint(run), 0);
-        fingerprints_[run.name] = record.fingerprint;
-        if (is_done(record, *file_)) {
-            report.points = file_->point_count(run.name);
-        } else {
-            const bool complete = run_branch(*study_, run, *file_, *options_, report);
-            complete ? file_->complete_run(run.name) : file_->flush();
-            report.outcome = complete ? RunOutcome::complete : RunOutcome::interrupted;
-        }
-        if (report.outcome == RunOutcome::complete)
-            note_missing_orbits(run, report);
+    void do_branch(const StudyRun& run, Work& work) {
+        const bool done = file_.with([&](ResultFile& file) {
+            const RunRecord record = record_of(run, parent_fingerprint(run), 0);
+            fingerprints_[run.name] = record.fingerprint;
+            const bool is_there = is_done(record, file);
+            if (is_there)
+                work.report.points = file.point_count(run.name);
+            else
+                begin_times(run, work, file);
+            return is_there;
+        });
+        const bool complete = done || run_branch(*study_, run, file_, options_, work.report);
+        file_.with([&](ResultFile& file) {
+            if (!done)
+                complete ? file.complete_run(run.name) : file.flush();
+            work.report.outcome = complete ? RunOutcome::complete : RunOutcome::interrupted;
+            if (complete)
+                note_missing_orbits(run, work.report, file);
+        });
     }
 
     /// A run that has come to its end without an orbit, or with parts that have none, has failed.
-    void note_missing_orbits(const StudyRun& run, RunReport& report) {
+    void note_missing_orbits(const StudyRun& run, RunReport& report, const ResultFile& file) {
         std::size_t found = 0;
         std::string why;
-        for (const OrbitRecord& record : file_->orbits(run.name, true))
+        for (const OrbitRecord& record : file.orbits(run.name, true))
             if (record.point.solution.outcome == OrbitOutcome::converged)
                 ++found;
             else if (why.empty())
@@ -282,44 +350,73 @@ private:
         report.remedy = "begin nearer to an orbit, or elsewhere";
     }
 
-    void do_points(const StudyRun& wanted, RunReport& report) {
-        std::optional<StartPoint> start;
-        if (wanted.start)
-            start = point_to_start_from(wanted, *study_, *file_);
+    void do_points(const StudyRun& wanted, Work& work) {
+        const auto start = file_.with([&](const ResultFile& file) {
+            return wanted.start ? std::optional(point_to_start_from(wanted, *study_, file)) : std::nullopt;
+        });
         const StudyRun run = start ? at_start(wanted, *start) : wanted;
-        report.points = points_of(run);
-        const RunRecord record = record_of(run, parent_fingerprint(run), report.points);
-        fingerprints_[run.name] = record.fingerprint;
-        if (is_done(record, *file_))
-            return;
+        work.report.points = points_of(run);
+        const bool done = file_.with([&](ResultFile& file) {
+            const RunRecord record = record_of(run, parent_fingerprint(run), work.report.points);
+            fingerprints_[run.name] = record.fingerprint;
+            const bool is_there = is_done(record, file);
+            if (!is_there)
+                begin_times(run, work, file);
+            return is_there;
+        });
+        if (!done)
+            compute_points(run, start ? &start->point : nullptr, work);
+    }
+
+    void compute_points(const StudyRun& run, const PointRecord* start, Work& work) {
         const System system(run.model);
-        const Plan plan = plan_of(run, system, start ? &start->point : nullptr);
-        std::size_t done = 0;
-        const auto progress = progress_of(*file_, run, plan, done);
+        const Plan plan = plan_of(run, system, start);
+        const auto known = file_.with([&](const ResultFile& file) {
+            const auto progress = progress_of(file, run, plan, work.counted);
+            progress_.study_done += work.counted;
+            return progress;
+        });
         ExecutionOptions execution;
-        execution.jobs = options_->jobs;
-        execution.interrupted = options_->interrupted;
+        execution.jobs = work.threads;
+        execution.interrupted = options_.interrupted;
         const auto searches = searches_of(run, system);
-        const bool complete = execute(
-            plan, *searches, progress, execution, [&](std::size_t point, const PointStart&, PointResult& result) {
-                report.returns += result.periods_run;
-                file_->add_point(run.name, {point, point / plan.chain_length, direction_of(run, point),
-                                            coordinates_of(run, point), std::move(result)});
-                ++report.computed;
-                if (options_->progress)
-                    options_->progress(run.name, before_ + done + report.computed, all_);
+        const auto keep = [&](std::size_t point, const PointStart&, PointResult& result) {
+            file_.with([&](ResultFile& file) {
+                work.report.returns += result.periods_run;
+                file.add_point(run.name, {point, point / plan.chain_length, direction_of(run, point),
+                                          coordinates_of(run, point), std::move(result)});
+                ++work.report.computed;
+                tell(run, work);
             });
-        complete ? file_->complete_run(run.name) : file_->flush();
-        report.outcome = complete ? RunOutcome::complete : RunOutcome::interrupted;
+        };
+        const bool complete = execute(plan, *searches, known, execution, keep);
+        file_.with([&](ResultFile& file) { complete ? file.complete_run(run.name) : file.flush(); });
+        work.report.outcome = complete ? RunOutcome::complete : RunOutcome::interrupted;
+    }
+
+    void tell(const StudyRun& run, Work& work) {
+        ++work.counted;
+        ++progress_.study_done;
+        ++progress_.computed;
+        if (!options_.progress)
+            return;
+        progress_.run = run.name;
+        progress_.done = work.counted;
+        progress_.points = work.report.points;
+        options_.progress(progress_);
     }
 
     const Study* study_;
-    ResultFile* file_;
-    const RunnerOptions* options_;
-    std::set<std::string> wanted_, failed_;
+    std::string path_;
+    SharedFile file_;
+    RunnerOptions options_;
+    std::vector<const StudyRun*> runs_; ///< those that are wanted, in their order
+    std::set<std::string> failed_;
     std::map<std::string, std::string> fingerprints_;
-    std::size_t all_ = 0, before_ = 0; ///< points of the study; of the runs before this one
-    std::vector<RunReport> reports_;
+    StudyProgress progress_;
+    std::vector<std::optional<RunReport>> reports_; ///< of runs that were begun
+    std::atomic<bool> stopped_ = false;             ///< no run is to begin any more
+    std::atomic<bool> broken_off_ = false;          ///< by an error, for all
 };
 
 } // namespace
@@ -328,7 +425,10 @@ std::vector<RunReport> run_study(const Study& study, ResultFile& file, const Run
     Runner runner(study, file, options);
     if (study.file != file.path()) // otherwise it has been read from there
         store_study(study, file);
-    return runner.run();
+    const std::vector<RunReport> reports = runner.run();
+    // However they took turns.
+    file.order_runs(names_of(study.runs));
+    return reports;
 }
 
 } // namespace graze

@@ -46,6 +46,11 @@ void describe_study(Fields& fields, One& study) {
     fields.field("name", study.name);
     fields.field("text", study.text);
     fields.field("source", study.source);
+    if (fields.has("set", !study.set.empty()))
+        fields.list("set", study.set, [](auto& one, auto& parameter) {
+            one.field("name", parameter.first);
+            one.field("value", parameter.second);
+        });
     fields.list("pictures", study.pictures, [](auto& one, auto& picture) { describe_picture(one, picture); });
 }
 
@@ -104,6 +109,23 @@ void check(StudyPicture& picture, const Place& place) {
 
 } // namespace
 
+std::string settings_of(const StudyPicture& picture) {
+    SettingsWriter fields;
+    describe_picture(fields, picture);
+    return fields.text();
+}
+
+std::string fingerprint_of(std::string_view text) {
+    // FNV-1a with two seeds.
+    std::string result;
+    for (std::uint64_t value : {std::uint64_t{0xcbf29ce484222325u}, std::uint64_t{0x84222325cbf29ce4u}}) {
+        for (const char c : text)
+            value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+        result += fmt::format("{:016x}", value);
+    }
+    return result;
+}
+
 void store_study(const Study& study, ResultFile& file) {
     std::vector<PlannedRun> runs;
     for (const StudyRun& run : study.runs)
@@ -114,6 +136,20 @@ void store_study(const Study& study, ResultFile& file) {
     file.set_note(key_of_study, fields.text());
 }
 
+std::optional<ParameterValues> stored_set(const ResultFile& file) {
+    const Place place{"stored study", 0, 0};
+    const auto note = file.note(key_of_study);
+    if (!note)
+        return std::nullopt;
+    Study study;
+    const Json json = parse_json(*note, place);
+    const SettingsReader fields(json, nullptr, place);
+    describe_study(fields, study);
+    for (const auto& [name, value] : study.set)
+        require_plain_line(name, "name of a parameter", place);
+    return study.set;
+}
+
 Study stored_study(const ResultFile& file) {
     const Place place{"stored study", 0, 0};
     Study study;
@@ -121,6 +157,8 @@ Study stored_study(const ResultFile& file) {
     const Json json = parse_json(file.note(key_of_study).value_or("{}"), place);
     const SettingsReader fields(json, nullptr, place);
     describe_study(fields, study);
+    for (const auto& [name, value] : study.set)
+        require_plain_line(name, "name of a parameter", place);
     if (study.name.empty())
         study.name = "results";
     require_file_name(study.name, "name of a study, which its folder bears", place);

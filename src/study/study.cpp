@@ -86,6 +86,40 @@ void read_logarithmic(const StudyReader& reader, const TomlEntry& entry, StudyPi
     }
 }
 
+/// Values that change nothing are mistakes.
+void check_given(const Study& study) {
+    for (const auto& given : study.set) {
+        const std::string& name = given.first;
+        std::vector<std::string> known;
+        bool is_state = false, follows = false, used = false, varied = false;
+        for (const StudyRun& run : study.runs) {
+            for (const std::string& parameter : run.model.independent_parameters())
+                known.push_back(parameter);
+            is_state = is_state || run.model.find_state(name);
+            const bool is_known = run.model.find_independent_parameter(name).has_value();
+            follows = follows || (!is_known && run.model.find_parameter(name));
+            const bool varies =
+                std::any_of(run.axes.begin(), run.axes.end(), [&](const Variation& axis) { return axis.name == name; });
+            varied = varied || (is_known && varies);
+            used = used || (is_known && !varies);
+        }
+        if (used)
+            continue;
+        if (varied)
+            throw InputError(fmt::format("every run varies '{}', so that a value of it has no effect", name),
+                             "change in the study from where to where it goes");
+        if (follows)
+            throw InputError(fmt::format("parameter '{}' follows from others", name), "give values of those");
+        if (is_state)
+            throw InputError(fmt::format("'{}' is a state, not a parameter", name),
+                             "change in the study where it starts, by from = { ... }");
+        std::sort(known.begin(), known.end());
+        known.erase(std::unique(known.begin(), known.end()), known.end());
+        throw InputError(fmt::format("no model of the study has a parameter '{}'", name),
+                         study_name_remedy(name, known));
+    }
+}
+
 } // namespace
 
 StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
@@ -143,13 +177,15 @@ StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
     return picture;
 }
 
-Study parse_study(std::string_view text, const std::string& file) {
+Study parse_study(std::string_view text, const std::string& file, const ParameterValues& set) {
     const toml::table root = parse_toml(text, file);
     const StudyReader reader(file);
     const TomlReader& toml = reader.toml();
     Study study;
     study.file = file;
+    study.set = set;
     StudyDefaults defaults;
+    defaults.given = set;
     Place name_place;
     std::optional<TomlEntry> runs, pictures;
     for (const TomlEntry& entry :
@@ -188,6 +224,7 @@ Study parse_study(std::string_view text, const std::string& file) {
     }
     if (study.runs.empty())
         throw InputError(runs->place, "the study has no runs", "add a table [runs.NAME]");
+    check_given(study);
     for (const StudyRun& run : study.runs)
         require_free_name(run.name, run.is_branch(), names_of(study.runs), run.place);
     study.runs = in_order(std::move(study.runs));
@@ -201,6 +238,10 @@ Study parse_study(std::string_view text, const std::string& file) {
     return study;
 }
 
+bool is_study_text(std::string_view text, const std::string& file) {
+    return parse_toml(text, file).contains("runs");
+}
+
 std::vector<std::string> input_files(const Study& study) {
     std::vector<std::string> files{study.file};
     for (const StudyRun& run : study.runs)
@@ -210,8 +251,8 @@ std::vector<std::string> input_files(const Study& study) {
     return files;
 }
 
-Study read_study(const std::string& path) {
-    return parse_study(read_text_file(path, "study", longest_model), path);
+Study read_study(const std::string& path, const ParameterValues& set) {
+    return parse_study(read_text_file(path, "study", longest_model), path, set);
 }
 
 } // namespace graze

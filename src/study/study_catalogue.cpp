@@ -23,9 +23,9 @@ std::string shipped_study_text(const std::string& name) {
                      study_name_remedy(name, shipped_studies()) + "; a file needs its ending .toml");
 }
 
-Study load_study(const std::string& name_or_path) {
-    return is_model_path(name_or_path) ? read_study(name_or_path)
-                                       : parse_study(shipped_study_text(name_or_path), name_or_path);
+Study load_study(const std::string& name_or_path, const ParameterValues& set) {
+    return is_model_path(name_or_path) ? read_study(name_or_path, set)
+                                       : parse_study(shipped_study_text(name_or_path), name_or_path, set);
 }
 
 } // namespace graze

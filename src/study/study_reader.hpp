@@ -43,6 +43,7 @@ struct StudyDefaults {
     std::string model; ///< name or path; empty: each run says its own
     Place model_place;
     std::optional<TomlEntry> set, values;
+    ParameterValues given; ///< in the place of what the study says
 };
 
 using RunKeys = std::map<std::string, TomlEntry>;

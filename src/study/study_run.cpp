@@ -32,8 +32,14 @@ Model model_of(const StudyReader& reader, const std::string& name, const Place& 
     }
 }
 
-void set_values(const StudyReader& reader, Model& model, const TomlEntry& entry, bool initial) {
+/// @param given parameters that keep the values that they have
+void set_values(const StudyReader& reader, Model& model, const TomlEntry& entry, bool initial,
+                const ParameterValues& given = {}) {
     for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path)) {
+        const bool is_given =
+            std::any_of(given.begin(), given.end(), [&](const auto& one) { return one.first == item.name; });
+        if (is_given && model.find_independent_parameter(item.name))
+            continue;
         const double value = reader.number(model, item);
         try {
             initial ? model.set_initial(item.name, value) : model.set_parameter(item.name, value);
@@ -298,10 +304,14 @@ void read_model(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
         run.model = model_of(reader, defaults.model, defaults.model_place, run.model_path);
     else
         throw InputError(entry.place, fmt::format("{} has no model", entry.path), "give model = \"NAME\" or a path");
+    // Before the others, whose expressions may depend on them.
+    for (const auto& [name, value] : defaults.given)
+        if (run.model.find_independent_parameter(name))
+            run.model.set_parameter(name, value);
     if (defaults.set)
-        set_values(reader, run.model, *defaults.set, false);
+        set_values(reader, run.model, *defaults.set, false, defaults.given);
     if (keys.contains("set")) {
-        set_values(reader, run.model, keys.at("set"), false);
+        set_values(reader, run.model, keys.at("set"), false, defaults.given);
         note_set(reader, run, keys.at("set"));
     }
     if (keys.contains("from"))

@@ -16,6 +16,13 @@ if(NOT installed_models)
     message(FATAL_ERROR "no models were installed")
 endif()
 must_run(${work}/prefix/bin/graze models)
+foreach(file man/man1/graze.1 man/man1/graze-run.1 bash-completion/completions/graze zsh/site-functions/_graze
+             fish/vendor_completions.d/graze.fish
+)
+    if(NOT EXISTS ${work}/prefix/share/${file})
+        message(FATAL_ERROR "share/${file} was not installed")
+    endif()
+endforeach()
 
 # A copy, so that no relative path can lead back into the repository.
 file(COPY ${CMAKE_CURRENT_LIST_DIR}/consumer DESTINATION ${work})

@@ -42,6 +42,27 @@ TEST(Check, WarnsAndReportsPlaces) {
     EXPECT_THAT(wrong.err, HasSubstr("graze: " + file + ":5:"));
 }
 
+TEST(Check, TellsSeveralMistakesALineEach) {
+    const Folder folder;
+    const std::string file = folder / "wrong.toml";
+    std::string text = "[states]\nx = 1\n[modes.m]\nrates = { x = \"-k*x\" }\n[definitions]\n";
+    std::ofstream(file) << text << "a = \"2*\"\nb = true\n";
+    const Printed few = run_graze("check " + file);
+    EXPECT_EQ(few.code, exit_bad_input);
+    EXPECT_EQ(few.out, "");
+    const std::vector<std::string> said = split(few.err, '\n');
+    ASSERT_EQ(said.size(), 3U) << few.err;
+    EXPECT_THAT(said[0], HasSubstr("graze: " + file + ":4:17: unknown name 'k'"));
+    EXPECT_THAT(said[1], HasSubstr("graze: " + file + ":6:"));
+    EXPECT_THAT(said[2], HasSubstr("graze: " + file + ":7:5: definitions.b must be"));
+    for (int i = 0; i < 50; ++i)
+        text += "d" + std::to_string(i) + " = \"2*\"\n";
+    std::ofstream(file) << text;
+    const std::vector<std::string> many = split(run_graze("check " + file).err, '\n');
+    EXPECT_EQ(many.size(), 21U);
+    EXPECT_EQ(many.back(), "graze: and 31 mistakes more; mend these first");
+}
+
 /// Barriers of random lines, the start on either side; a wall that the start, or a jump, is beyond has the wrong sign.
 TEST(Check, WarnsOfAProbablyWrongSign) {
     const Folder folder;

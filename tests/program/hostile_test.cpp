@@ -174,7 +174,7 @@ TEST_F(Hostile, NothingIsWrittenOntoDatabases) {
               "export " + results + " --format hdf5 --output ",
               "export " + results + " --what runs --format json --output ",
               "simulate " + (folder / "model.toml") + " --time 1 --output ",
-              "simulate " + (folder / "model.toml") + " --time 1 --plot " + (folder / "p.svg") + " --plot-data ",
+              "simulate " + (folder / "model.toml") + " --time 1 --plot " + (folder / "p.svg") + " --data ",
               "plot " + results + " --output " + (folder / "p.svg") + " --data ",
               std::string("models impact-oscillator --write "), "check " + (folder / "model.toml") + " --output "}) {
             EXPECT_EQ(run_graze(command + target).code, 2) << command << target;

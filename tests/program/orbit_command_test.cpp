@@ -119,9 +119,11 @@ TEST_F(OrbitCommand, JsonSaysWhichOrbitItIs) {
     write_branches();
     const Printed printed = run_graze({"orbit", path, "second:GR1", "--format", "json"});
     EXPECT_TRUE(JsonCheck(printed.out).valid());
-    for (const char* part : {"\"run\":\"second\"", "\"label\":\"GR1\"", "\"type\":\"GR\"",
-                             "\"parameters\":{\"g\":1.25,\n\"w\":2}", "\"period\":1.6", "\"signature\":\"bounce\"",
-                             "\"multipliers\":\"0.5, 0.25+0.125i, 0.25-0.125i\"", "\"stable\":1", "\"admissible\":1"})
+    for (const char* part :
+         {"\"run\":\"second\"", "\"label\":\"GR1\"", "\"type\":\"GR\"", "\"parameters\":{\"g\":1.25,\n\"w\":2}",
+          "\"period\":1.6", "\"signature\":\"bounce\"",
+          "\"multipliers\":[{\"real\":0.5,\n\"imaginary\":0},\n{\"real\":0.25,\n\"imaginary\":0.125}", "\"stable\":1",
+          "\"admissible\":1"})
         EXPECT_THAT(printed.out, HasSubstr(part));
 }
 

@@ -61,8 +61,7 @@ TEST_F(Plot, TakesNoTextOfAModelForACommand) {
 
 TEST_F(Plot, KeepsItsCommandsToBeDrawnAgain) {
     const std::string picture = folder / "it's_mine.svg", commands = folder / "mine.gp";
-    EXPECT_EQ(run_graze("simulate mems-switch --quantity q gap --plot " + picture + " --plot-data " + commands).code,
-              0);
+    EXPECT_EQ(run_graze("simulate mems-switch --quantity q gap --plot " + picture + " --data " + commands).code, 0);
     const std::string first = contents(picture);
     std::filesystem::remove(picture);
     const ProcessResult again = run_process({*find_program("gnuplot"), commands}, "");
@@ -73,8 +72,8 @@ TEST_F(Plot, KeepsItsCommandsToBeDrawnAgain) {
 
 TEST_F(Plot, CurvesAreBrokenWhereTheMotionJumps) {
     const std::string commands = folder / "ball.gp";
-    EXPECT_EQ(run_graze("simulate bouncing-ball --time 0.25 --quantity v --plot " + (folder / "ball.svg") +
-                        " --plot-data " + commands)
+    EXPECT_EQ(run_graze("simulate bouncing-ball --time 0.25 --quantity v --plot " + (folder / "ball.svg") + " --data " +
+                        commands)
                   .code,
               0);
     // The velocity falls along each arc and rises only in between.

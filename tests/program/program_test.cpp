@@ -10,8 +10,9 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 TEST(Program, HelpTeaches) {
-    for (const std::string line : {"--help", "check --help", "models --help", "simulate --help", "simulate -h",
-                                   "run --help", "export --help", "plot --help", "points --help", "orbit --help"}) {
+    for (const std::string line :
+         {"--help", "check --help", "models --help", "simulate --help", "simulate -h", "run --help", "export --help",
+          "plot --help", "points --help", "orbit --help", "info --help", "help --help", "completion --help"}) {
         const Printed run = run_graze(line);
         EXPECT_EQ(run.code, 0) << line;
         EXPECT_EQ(run.err, "") << line;

@@ -245,7 +245,7 @@ contacts = 3
     const testing::Printed run =
         run_graze({"run", path("wait.toml"), "--output", path("w"), "--no-pictures", "--format", "csv"});
     EXPECT_EQ(run.code, 0) << run.err;
-    EXPECT_THAT(run.out, HasSubstr("failed 1"));
+    EXPECT_THAT(run.out, HasSubstr("points_failed"));
     EXPECT_THAT(run.out, HasSubstr("no contact that ends the motion"));
     EXPECT_THAT(run.out, HasSubstr("give a time too"));
 }

@@ -84,7 +84,7 @@ along = { V0 = [1, 1.6] }
     EXPECT_GT(expect_units("points " + file + " --run branch --format json"), 1u);
     EXPECT_GT(expect_units("orbit " + file + " branch:EP1 --format json"), 4u);
     const std::string orbit = run_graze("orbit " + file + " branch:EP1 --format json").out;
-    for (const std::string part : {"\"V0\":\"V\"", "\"time_unit\":\"s\"", "\"minima\":[", "\"half_multipliers\":\""})
+    for (const std::string part : {"\"V0\":\"V\"", "\"time_unit\":\"s\"", "\"minima\":[", "\"half_multipliers\":["})
         EXPECT_THAT(orbit, ::testing::HasSubstr(part));
     EXPECT_THAT(
         run_graze({"export", file, "--sql", "SELECT V0, end_q AS place, end_q FROM points_sweep", "--format", "json"})

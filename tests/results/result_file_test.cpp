@@ -116,6 +116,37 @@ void expect_equal(const PointRecord& a, const PointRecord& b) {
     EXPECT_EQ(a.result.samples.values, b.result.samples.values);
 }
 
+TEST_F(ResultFileTest, runs_are_ordered_as_they_are_named) {
+    ResultFile file(path(), ResultFile::Access::write);
+    const auto names = [&] {
+        std::string text;
+        auto rows = file.query("SELECT number, name FROM runs ORDER BY number");
+        while (rows.next())
+            text += std::to_string(rows.integer(0)) + rows.text(1) + " ";
+        return text;
+    };
+    for (const char* name : {"c", "a", "d", "b"}) {
+        file.begin_run(run_named(name));
+        file.add_point(name, point_numbered(0));
+    }
+    file.order_runs({"a", "b", "none", "c"});
+    EXPECT_EQ(names(), "1a 2b 3c 4d ");
+    auto views = file.query("SELECT DISTINCT run FROM all_points");
+    std::string order;
+    while (views.next())
+        order += views.text(0);
+    EXPECT_EQ(order, "abcd");
+    file.begin_run(run_named("d")); // anew
+    file.order_runs({"a", "b", "c", "d"});
+    EXPECT_EQ(names(), "1a 2b 3c 4d ");
+    // Two runs may be written to in turns.
+    for (std::size_t n = 1; n < 4; ++n)
+        for (const char* name : {"a", "b"})
+            file.add_point(name, point_numbered(n));
+    EXPECT_EQ(file.point_count("a"), 4u);
+    EXPECT_EQ(file.point_count("b"), 4u);
+}
+
 TEST_F(ResultFileTest, gives_back_what_it_was_given) {
     {
         ResultFile file(path(), ResultFile::Access::write);

@@ -151,6 +151,11 @@ TEST_F(StoredRunTest, tables_come_with_units) {
     while (table.rows.next())
         ++rows;
     EXPECT_EQ(rows, 5u);
+    // A value that is called like what varies, or like a column of all samples, does not hide it.
+    std::vector<std::string> names;
+    for (std::size_t c = 0; c < table.rows.columns(); ++c)
+        names.push_back(table.rows.column_name(c));
+    EXPECT_THAT(names, ElementsAre("point", "direction", "omega", "e", "sampling", "time", "v", "omega_2", "time_2"));
     ResultTable chaotic = result_table(*file_, {.what = "points", .label = "chaotic"});
     ASSERT_TRUE(chaotic.rows.next());
     EXPECT_FALSE(chaotic.rows.next());

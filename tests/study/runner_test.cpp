@@ -70,12 +70,14 @@ std::string contents(const ResultFile& file) {
 TEST_F(RunnerTest, does_once_what_is_asked_for) {
     const Study study = parse_study(text, "s.toml");
     ResultFile file(path_, ResultFile::Access::write);
-    const auto first = run_study(study, file, {.jobs = 2, .only = {}, .interrupted = {}, .progress = {}, .orbit = {}});
+    const auto first = run_study(
+        study, file, {.jobs = 2, .one_by_one = false, .only = {}, .interrupted = {}, .progress = {}, .orbit = {}});
     ASSERT_EQ(first.size(), 2u);
     EXPECT_EQ(first[0].points, 22u);
     EXPECT_EQ(first[0].computed, 22u);
     EXPECT_EQ(first[1].computed, 9u);
-    const auto second = run_study(study, file, {.jobs = 2, .only = {}, .interrupted = {}, .progress = {}, .orbit = {}});
+    const auto second = run_study(
+        study, file, {.jobs = 2, .one_by_one = false, .only = {}, .interrupted = {}, .progress = {}, .orbit = {}});
     EXPECT_EQ(second[0].computed, 0u);
     EXPECT_EQ(second[1].computed, 0u);
     EXPECT_TRUE(second[1].complete());
@@ -110,7 +112,7 @@ TEST_F(RunnerTest, goes_on_anywhere_and_gives_the_same_bits) {
         RunnerOptions options;
         options.jobs = 1 + static_cast<int>(stop_after % 3);
         options.interrupted = [&] { return done >= stop_after; };
-        options.progress = [&](const std::string&, std::size_t, std::size_t) { ++done; };
+        options.progress = [&](const StudyProgress&) { ++done; };
         const auto reports = run_study(study, file, options);
         if (reports.back().complete() && reports.size() == 2)
             break;

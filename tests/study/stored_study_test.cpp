@@ -240,7 +240,7 @@ TEST_F(StoredStudyTest, an_interrupted_sweep_goes_on) {
         std::size_t done = 0;
         RunnerOptions options;
         options.interrupted = [&] { return done > 6; };
-        options.progress = [&](const std::string&, std::size_t, std::size_t) { ++done; };
+        options.progress = [&](const StudyProgress&) { ++done; };
         EXPECT_EQ(run_study(stored_study(file), half, options).back().outcome, RunOutcome::interrupted);
     }
     std::filesystem::remove(path("results.sqlite"));

@@ -76,6 +76,8 @@ public:
     std::optional<RunRecord> find_run(const std::string& name) const;
     /// Begins a run: replaces the one of that name. @throws InputError when it cannot be written
     void begin_run(const RunRecord& run);
+    /// Orders runs as these names are; others come behind them, in the order in which they are.
+    void order_runs(const std::vector<std::string>& names);
     /// Removes a run with all that belongs to it.
     void remove_run(const std::string& name);
     /// Adds a point to a run. Written for good within a second, or by `flush`.
@@ -138,6 +140,8 @@ public:
     void set_patience(std::chrono::milliseconds patience);
 
     const std::string& path() const;
+    /// Number of the format in which it is written.
+    int format() const;
 
 private:
     struct State;

@@ -62,6 +62,8 @@ struct StoredRun {
     ResultFile::Rows rows(const Selection& selection) const;
     /// How many points there are.
     std::size_t points() const;
+    /// How many samples, or segments of orbits, there are.
+    std::size_t samples() const;
     /// From the least to the greatest value of a quantity over all points, if there are two.
     std::optional<std::pair<double, double>> extent(const std::string& quantity) const;
     /// How far each of the run's values goes over all samples.

@@ -12,13 +12,24 @@
 
 namespace graze {
 
+/// How far a study has come.
+struct StudyProgress {
+    std::string run;                              ///< of which a point has been computed,
+    std::size_t done = 0, points = 0;             ///< and how many of its points there are now, and will be
+    std::size_t study_done = 0, study_points = 0; ///< the same of all runs but branches
+    std::size_t computed = 0;                     ///< of `study_done`, those that were not in the file before
+    /// Runs of kind orbit and continue that have not ended: nobody knows how long they take.
+    std::size_t branches_left = 0;
+};
+
 struct RunnerOptions {
-    int jobs = 1;
-    std::vector<std::string> only;     ///< names of runs, with those they start from; empty: all
+    int jobs = 1;                  ///< threads: of one run, and runs that do not start from one another side by side
+    bool one_by_one = false;       ///< runs wait for one another, though each uses all threads that it can
+    std::vector<std::string> only; ///< names of runs, with those they start from; empty: all
     std::function<bool()> interrupted; ///< called from any thread
-    /// Points of all runs done so far, and in all; of the run in progress its name. Called from one thread at a time.
-    std::function<void(const std::string& run, std::size_t done, std::size_t all)> progress;
-    /// Each orbit of a run of kind orbit or continue, as it is found.
+    /// After each point. Called from one thread at a time, as `orbit` is.
+    std::function<void(const StudyProgress& progress)> progress;
+    /// Each orbit of a run of kind orbit or continue, as it is found; those of different runs may take turns.
     std::function<void(const std::string& run, const OrbitRecord& orbit)> orbit;
 };
 
@@ -43,6 +54,8 @@ struct RunReport {
 
 /// How many points a run has.
 std::size_t points_of(const StudyRun& run);
+/// In how many chains, which can be computed side by side.
+std::size_t chains_of(const StudyRun& run);
 /// Points of a run: chains along its first axis, one for each combination of the others.
 /// @param run must outlive the plan
 /// @param system of the run's model
@@ -56,7 +69,9 @@ std::size_t direction_of(const StudyRun& run, std::size_t point);
 /// unfinished ones are gone on with (branches, which take little time, begun again), and others are done anew.
 /// The file then has all that is needed to do so again (`stored_study`). Runs that fail do not keep those from being
 /// done that do not start from them.
-/// @return reports of the runs, in their order; the last may be unfinished when it was interrupted
+/// Results, and their order in the file, do not depend on the number of threads.
+/// @return reports of the runs, in the order of the study; when it was interrupted, some may be unfinished, and those
+///         that were not begun are missing
 /// @throws InputError when the file cannot be written
 std::vector<RunReport> run_study(const Study& study, ResultFile& file, const RunnerOptions& options);
 

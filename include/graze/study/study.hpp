@@ -98,18 +98,27 @@ struct StudyPicture {
     Place place;
 };
 
+/// Values of parameters that take the place of those that a study and its models give.
+using ParameterValues = std::vector<std::pair<std::string, double>>;
+
 struct Study {
     std::string name, text, source;
     std::string file;           ///< for messages
+    ParameterValues set;        ///< with which it was read, instead of its own
     std::vector<StudyRun> runs; ///< each after those it starts from
     std::vector<StudyPicture> pictures;
 };
 
 /// Reads a study from TOML text; docs/study-format.md describes it.
 /// @param file the name to use in messages; models are looked for relative to its folder
-/// @throws InputError with the place of the first thing wrong
-Study parse_study(std::string_view text, const std::string& file);
-Study read_study(const std::string& path);
+/// @param set parameters of all models that have them, in the place of what the study says of them: expressions in the
+///        study see these values
+/// @throws InputError with the place of the first thing wrong; without a place for a parameter that no model has, or
+///         that every run varies
+Study parse_study(std::string_view text, const std::string& file, const ParameterValues& set = {});
+Study read_study(const std::string& path, const ParameterValues& set = {});
+/// Whether a TOML text is a study rather than a model: it has runs. @throws InputError when it is no TOML
+bool is_study_text(std::string_view text, const std::string& file);
 /// The files that a study is made of: itself, its models, tables of orbits.
 std::vector<std::string> input_files(const Study& study);
 

@@ -11,7 +11,8 @@ namespace graze {
 std::vector<std::string> shipped_studies();
 /// The text of one of them. @throws InputError when there is none of that name (with the nearest)
 std::string shipped_study_text(const std::string& name);
-/// The study of this name or in this file. @throws InputError when there is neither, or something is wrong with it
-Study load_study(const std::string& name_or_path);
+/// The study of this name or in this file, with values as in `parse_study`. @throws InputError when there is neither,
+/// or something is wrong with it
+Study load_study(const std::string& name_or_path, const ParameterValues& set = {});
 
 } // namespace graze

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "graze/symbolic/input_error.hpp"
+
+#include <vector>
+
+namespace graze {
+
+/// Several mistakes of one text. As an InputError it is the first of them.
+class InputErrors : public InputError {
+public:
+    /// @param all two or more
+    explicit InputErrors(std::vector<InputError> all) : InputError(all.front()), all_(std::move(all)) {}
+
+    /// In the order of their places.
+    const std::vector<InputError>& all() const { return all_; }
+
+private:
+    std::vector<InputError> all_;
+};
+
+/// Mistakes that are noted while reading goes on, for all of them to be told at once.
+class Mistakes {
+public:
+    /// Does something, and notes the mistake that it finds. @return whether it found none
+    template <class Work>
+    bool attempt(const Work& work) {
+        try {
+            work();
+            return true;
+        } catch (const InputErrors& errors) {
+            all_.insert(all_.end(), errors.all().begin(), errors.all().end());
+        } catch (const InputError& error) {
+            all_.push_back(error);
+        }
+        return false;
+    }
+    bool none() const { return all_.empty(); }
+    /// @throws InputError for the one that has been noted, or InputErrors; returns when there is none
+    void throw_noted();
+
+private:
+    std::vector<InputError> all_;
+};
+
+} // namespace graze

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "program/arguments.hpp"
+
+namespace graze {
+
+/// Declares `help` and `completion`.
+void declare_help_commands(CLI::App& app, Arguments& arguments);
+
+} // namespace graze

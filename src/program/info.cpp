@@ -1,0 +1,238 @@
+#include "graze/model/catalogue.hpp"
+#include "graze/study/study_catalogue.hpp"
+#include "graze/symbolic/text_file.hpp"
+#include "program/commands.hpp"
+#include "program/describe.hpp"
+#include "program/file_facts.hpp"
+#include "program/output_file.hpp"
+#include "program/values.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+namespace graze {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+bool is_database(const std::string& path) {
+    constexpr std::string_view signature = "SQLite format 3";
+    std::string start(signature.size(), ' ');
+    std::ifstream stream(path, std::ios::binary);
+    return stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == signature;
+}
+
+void add_text_file(Facts& facts, const std::string& path) {
+    const std::string text = read_text_file(path, "file", longest_model);
+    const bool study = is_study_text(text, path);
+    add_file_facts(facts, path, study ? "study" : "model");
+    study ? add_facts(facts, load_study(path)) : add_facts(facts, load_program_model(path));
+}
+
+/// A name may be that of a model and of a study.
+void add_shipped(Facts& facts, const std::string& name) {
+    const std::vector<std::string> studies = shipped_studies();
+    const bool study = std::find(studies.begin(), studies.end(), name) != studies.end();
+    const bool model = find_in_catalogue(name).has_value() || name == "microbeam";
+    if (!study && !model) {
+        std::vector<std::string> known = studies;
+        for (const CatalogueEntry& entry : catalogue())
+            known.push_back(entry.name);
+        std::sort(known.begin(), known.end());
+        known.erase(std::unique(known.begin(), known.end()), known.end());
+        throw InputError(fmt::format("there is no file '{}', and nothing of that name comes with graze", name),
+                         name_advice(name, known, ""));
+    }
+    add_file_facts(facts, "", model && study ? "model and study" : model ? "model" : "study");
+    if (model)
+        add_facts(facts, load_program_model(name));
+    if (study)
+        add_facts(facts, load_study(name));
+}
+
+Facts facts_of(const std::string& name) {
+    Facts facts;
+    std::error_code error;
+    const std::string results = result_path(name);
+    if (std::filesystem::is_directory(name, error) && !std::filesystem::exists(results, error))
+        throw InputError({name, 0, 0}, "there are no results in this folder",
+                         "name a folder with a results.sqlite, which graze run makes, or a file");
+    if (is_database(results)) {
+        const ResultFile file(results, ResultFile::Access::read);
+        add_file_facts(facts, results, "results");
+        add_facts(facts, file);
+    } else if (std::filesystem::exists(name, error) || is_model_path(name)) {
+        add_text_file(facts, results);
+    } else {
+        add_shipped(facts, name);
+    }
+    return facts;
+}
+
+/// "1.2 MB"
+std::string size_text(double bytes) {
+    const char* unit = "bytes";
+    for (const char* larger : {"kB", "MB", "GB"})
+        if (bytes >= 1000) {
+            bytes /= 1000;
+            unit = larger;
+        }
+    return fmt::format("{:.3g} {}", bytes, unit);
+}
+
+std::string heading_of(const Facts& facts) {
+    const std::string path = facts.text("file", "", "path");
+    std::string text = facts.text("file", "", "kind");
+    if (path.empty())
+        return fmt::format("{}, of graze {}\n", text, facts.text("file", "", "version"));
+    text = fmt::format("{}: {}, {}, written {}", path, text, size_text(facts.number("file", "", "size").value_or(0)),
+                       facts.text("file", "", "written"));
+    if (const auto format = facts.number("file", "", "format"))
+        text += fmt::format(", format {:.0f}", *format);
+    text += '\n';
+    if (const std::string problem = facts.text("file", "", "problem"); !problem.empty())
+        text += "not all of it can be used: " + problem + '\n';
+    return text;
+}
+
+/// Name, words and source of a model or study.
+std::string words_of(const Facts& facts, const std::string& item, const std::string& name) {
+    std::string text = fmt::format("\n{} {}\n", item, name);
+    for (const char* property : {"text", "source"})
+        if (const std::string words = facts.text(item, name, property); !words.empty())
+            text += wrapped((std::string_view(property) == "source" ? "Source: " : "") + words) + '\n';
+    for (const Fact& fact : facts.all())
+        if (fact.item == item && fact.name == name && fact.property.starts_with("set."))
+            text += fmt::format("with {} = {}\n", fact.property.substr(4), fact.text);
+    return text;
+}
+
+/// "3 states, 2 modes"
+std::string counts_of(const Facts& facts, const std::string& model) {
+    std::vector<std::string> counts;
+    for (const Fact& fact : facts.all())
+        if (fact.item == "model" && fact.name == model && fact.number && *fact.number > 0)
+            counts.push_back(fmt::format("{} {:.0f}", fact.property, *fact.number));
+    return fmt::format("{}\n", fmt::join(counts, ", "));
+}
+
+/// What all runs have in common is said once. @return "", or a line
+std::string common_to(const Facts& facts, const std::vector<std::string>& runs, const std::string& property,
+                      const std::string& words) {
+    std::string common;
+    for (const std::string& run : runs) {
+        const std::string here = facts.text("run", run, property);
+        if (here.empty() || (!common.empty() && here != common))
+            return "";
+        common = here;
+    }
+    return words + common;
+}
+
+std::string list_of_runs(const Facts& facts) {
+    const std::vector<std::string> runs = facts.names("run");
+    const auto known = [&](const std::string& property) {
+        return std::any_of(runs.begin(), runs.end(),
+                           [&](const std::string& run) { return !facts.text("run", run, property).empty(); });
+    };
+    const auto all_are_there = std::all_of(runs.begin(), runs.end(), [&](const std::string& run) {
+        const auto planned = facts.number("run", run, "planned");
+        return !planned || planned == facts.number("run", run, "points");
+    });
+    std::string heading = fmt::format("\n{} run{}", runs.size(), runs.size() == 1 ? "" : "s");
+    std::vector<Table::Column> columns{{"run", ""}};
+    for (const char* property :
+         {"kind", "model", "status", "points", "planned", "begun", "seconds", "version", "starts_from", "varies"}) {
+        const std::string name = property;
+        const std::string common = name == "model"     ? common_to(facts, runs, name, ", of model ")
+                                   : name == "version" ? common_to(facts, runs, name, ", by graze ")
+                                                       : "";
+        heading += common;
+        if (known(name) && common.empty() && (name != "planned" || !all_are_there))
+            columns.push_back({name, ""});
+    }
+    Table table(columns);
+    for (const std::string& run : runs)
+        for (const Table::Column& column : columns)
+            if (const auto number = facts.number("run", run, column.name))
+                table.add(*number);
+            else if (const auto texts = facts.texts("run", run, column.name); !texts.empty())
+                table.add(fmt::format("{}", fmt::join(texts, "; ")));
+            else if (column.name == "run")
+                table.add(run);
+            else
+                table.add(nothing);
+    std::ostringstream text;
+    write_table(text, table, TableFormat::table, 4, {});
+    return fmt::format("{}\n{}", heading, text.str());
+}
+
+std::string list_of(const Facts& facts, const std::string& item, const std::string& run) {
+    std::string text;
+    for (const Fact& fact : facts.all())
+        if (fact.item == item && fact.name == run)
+            text += fmt::format("  {} = {}{}\n", fact.property, fact.text, fact.unit.empty() ? "" : " " + fact.unit);
+    return text;
+}
+
+std::string text_of(const Facts& facts, bool all) {
+    std::string text = heading_of(facts);
+    for (const std::string& model : facts.names("model"))
+        text += words_of(facts, "model", model) + counts_of(facts, model);
+    for (const std::string& study : facts.names("study"))
+        text += words_of(facts, "study", study);
+    const std::vector<std::string> runs = facts.names("run"), pictures = facts.names("picture");
+    if (!runs.empty())
+        text += list_of_runs(facts);
+    if (!pictures.empty())
+        text += '\n' +
+                wrapped(fmt::format("{} picture{}: {}", pictures.size(), pictures.size() == 1 ? "" : "s",
+                                    fmt::join(pictures, ", "))) +
+                '\n';
+    for (const std::string& run : all ? runs : std::vector<std::string>())
+        text += fmt::format("\nrun {}: parameters\n{}run {}: settings\n{}", run, list_of(facts, "parameter", run), run,
+                            list_of(facts, "setting", run));
+    return text;
+}
+
+Table table_of(const Facts& facts) {
+    Table table({{"item", ""}, {"name", ""}, {"property", ""}, {"value", ""}, {"unit", ""}});
+    for (const Fact& fact : facts.all()) {
+        table.add(fact.item);
+        table.add(fact.name);
+        table.add(fact.property);
+        if (fact.number)
+            table.add(*fact.number);
+        else
+            table.add(fact.text);
+        table.add(fact.unit);
+    }
+    return table;
+}
+
+} // namespace
+
+int info_command(const InfoArguments& arguments, const Console& console) {
+    require_distinct({{"the file", arguments.file}, {"--output", arguments.output.file}});
+    const Facts facts = facts_of(arguments.file);
+    if (arguments.output.format != TableFormat::table) {
+        JsonObject heading;
+        heading.add("graze", GRAZE_VERSION);
+        heading.add("file", arguments.file);
+        deliver(table_of(facts), arguments.output, heading, console);
+    } else if (arguments.output.file.empty()) {
+        console.out << text_of(facts, arguments.all);
+    } else {
+        write_file(arguments.output.file, text_of(facts, arguments.all));
+    }
+    return exit_success;
+}
+
+} // namespace graze

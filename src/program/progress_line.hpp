@@ -1,0 +1,40 @@
+#pragma once
+
+#include "graze/results/orbit_record.hpp"
+#include "graze/study/runner.hpp"
+#include "program/program.hpp"
+#include "program/time_left.hpp"
+
+#include <chrono>
+#include <string>
+
+namespace graze {
+
+/// What the line says: which run is at which of its points, how much of the study is done, and how long the rest takes.
+/// @param left none: too little has been done to tell
+std::string progress_text(const StudyProgress& progress, const std::optional<TimeLeft::Estimate>& left);
+
+/// A line on standard error once a study takes long.
+class ProgressLine {
+public:
+    ProgressLine(const Console& console, bool wanted) : console_(&console), wanted_(wanted) {}
+    ~ProgressLine();
+    ProgressLine(const ProgressLine&) = delete;
+    ProgressLine& operator=(const ProgressLine&) = delete;
+
+    void update(const StudyProgress& progress);
+    /// Of a branch nobody knows how long it will be.
+    void update(const std::string& run, const OrbitRecord& orbit);
+
+private:
+    using Clock = std::chrono::steady_clock;
+    bool is_due() const;
+    void show(const std::string& text);
+
+    const Console* console_;
+    bool wanted_, shown_ = false;
+    TimeLeft left_;
+    Clock::time_point start_ = Clock::now(), last_ = start_;
+};
+
+} // namespace graze

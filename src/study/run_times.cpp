@@ -1,0 +1,51 @@
+#include "graze/study/run_times.hpp"
+
+#include "graze/symbolic/file_name.hpp"
+#include "study/settings_fields.hpp"
+
+#include <fmt/chrono.h>
+
+#include <ctime>
+
+namespace graze {
+
+namespace {
+
+std::string key_of(const std::string& run) {
+    return "times of " + run;
+}
+
+template <class Fields, class Times>
+void describe(Fields& fields, Times& times) {
+    fields.field("begun", times.begun);
+    fields.field("ended", times.ended);
+    fields.field("seconds", times.seconds);
+}
+
+} // namespace
+
+std::string present_time() {
+    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
+
+void note_times(ResultFile& file, const std::string& run, const RunTimes& times) {
+    SettingsWriter fields;
+    describe(fields, times);
+    file.set_note(key_of(run), fields.text());
+}
+
+std::optional<RunTimes> times_of(const ResultFile& file, const std::string& run) {
+    const auto note = file.note(key_of(run));
+    if (!note)
+        return std::nullopt;
+    const Place place{"stored times of run '" + run + "'", 0, 0};
+    const Json json = parse_json(*note, place);
+    RunTimes times;
+    const SettingsReader fields(json, nullptr, place);
+    describe(fields, times);
+    require_plain_line(times.begun, "time", place);
+    require_plain_line(times.ended, "time", place);
+    return times;
+}
+
+} // namespace graze

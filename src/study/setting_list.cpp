@@ -1,0 +1,59 @@
+#include "graze/study/setting_list.hpp"
+
+#include "study/json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace graze {
+
+namespace {
+
+/// Lists of more numbers are told by their ends.
+constexpr std::size_t longest_list = 8;
+
+void add(const std::string& name, const Json& json, std::vector<Setting>& all) {
+    const auto member = [&](const std::string& last) { return name.empty() ? last : name + "." + last; };
+    switch (json.kind) {
+    case Json::Kind::nothing:
+        return;
+    case Json::Kind::truth:
+        all.push_back({name, std::nullopt, json.truth ? "true" : "false"});
+        return;
+    case Json::Kind::number:
+        all.push_back({name, std::strtod(json.text.c_str(), nullptr), json.text});
+        return;
+    case Json::Kind::text:
+        all.push_back({name, std::nullopt, json.text});
+        return;
+    case Json::Kind::object:
+        for (std::size_t i = 0; i < json.items.size(); ++i)
+            add(member(json.names[i]), json.items[i], all);
+        return;
+    case Json::Kind::list:
+        break;
+    }
+    const std::vector<Json>& items = json.items;
+    const bool numbers =
+        std::all_of(items.begin(), items.end(), [](const Json& item) { return item.kind == Json::Kind::number; });
+    if (numbers && items.size() > longest_list) {
+        all.push_back({member("count"), static_cast<double>(items.size()), fmt::format("{}", items.size())});
+        add(member("first"), items.front(), all);
+        add(member("last"), items.back(), all);
+        return;
+    }
+    for (std::size_t i = 0; i < items.size(); ++i)
+        add(member(fmt::format("{}", i + 1)), items[i], all);
+}
+
+} // namespace
+
+std::vector<Setting> setting_list(const std::string& settings) {
+    std::vector<Setting> all;
+    add("", parse_json(settings, {"settings", 0, 0}), all);
+    return all;
+}
+
+} // namespace graze

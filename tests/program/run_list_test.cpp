@@ -1,0 +1,76 @@
+// The list that closes a study: what became of its runs, and what to do about it.
+
+#include "run_graze.hpp"
+
+#include <gmock/gmock.h>
+
+namespace graze::testing {
+
+using ::testing::HasSubstr;
+
+namespace {
+
+class RunList : public ::testing::Test {
+protected:
+    RunList() {
+        // A ball that comes to rest by ever smaller bounces, of which the model does not say what follows.
+        std::ofstream(folder / "ball.toml") << R"(
+name = "ball"
+[parameters]
+e = 0.5
+[states]
+h = 1
+v = 0
+[modes.flight]
+rates = { h = "v", v = -10 }
+watch = ["floor"]
+[events]
+floor = "h"
+[jumps.bounce]
+v = "-e*v"
+[[transitions]]
+mode = "flight"
+event = "floor"
+jump = "bounce"
+next = "flight"
+)";
+        std::ofstream(folder / "study.toml") << R"(
+name = "study"
+model = "ball.toml"
+[runs.bouncing]
+kind = "simulate"
+time = 10
+sample = { top = { maxima = "h" } }
+[runs.short]
+kind = "simulate"
+time = 0.25
+sample = { top = { maxima = "h" } }
+)";
+    }
+    Printed list(const std::string& format) const {
+        return run_graze(
+            {"run", folder / "study.toml", "--output", folder / "out", "--no-pictures", "--format", format});
+    }
+    Folder folder;
+};
+
+} // namespace
+
+TEST_F(RunList, SaysWhatToDoAboutChattering) {
+    const Printed printed = list("table");
+    EXPECT_EQ(printed.code, 0) << printed.err;
+    EXPECT_THAT(printed.out, HasSubstr("chattering 1"));
+    EXPECT_THAT(printed.out, HasSubstr("point 0: "));
+    EXPECT_THAT(printed.out, HasSubstr("give it `chatter = "));
+}
+
+TEST_F(RunList, HasACellForEachNumberInCsv) {
+    const Printed printed = list("csv");
+    EXPECT_EQ(header(printed.out), "run,kind,points,computed,seconds,status,points_chattering,points_ended,problem");
+    const std::string first = split(printed.out, '\n').at(1), second = split(printed.out, '\n').at(2);
+    EXPECT_THAT(first, HasSubstr(",done,1,0,\"point 0: "));
+    EXPECT_TRUE(second.ends_with(",done,0,1,")) << second;
+    EXPECT_TRUE(JsonCheck(list("json").out).valid());
+}
+
+} // namespace graze::testing

@@ -1,0 +1,100 @@
+#include "run_graze.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace graze::testing {
+
+using ::testing::HasSubstr;
+
+namespace {
+
+/// x' = -k x from 1: at time 1 it is exp(-k).
+class RunSet : public ::testing::Test {
+protected:
+    RunSet() {
+        std::ofstream(folder / "decay.toml") << "name = \"decay\"\n[parameters]\nk = 1\n[states]\nx = 1\n"
+                                                "[modes.m]\nrates = { x = \"-k*x\" }\n";
+        std::ofstream(folder / "study.toml") << "name = \"study\"\nmodel = \"decay.toml\"\n[runs.r]\n"
+                                                "kind = \"simulate\"\ntime = 1\nsample = { a = { maxima = \"x\" } }\n"
+                                                "[runs.swept]\nkind = \"simulate\"\ntime = 1\nvary = { k = [1, 2] }\n"
+                                                "sample = { a = { maxima = \"x\" } }\n";
+    }
+    Printed run(const std::vector<std::string>& options) const {
+        std::vector<std::string> words{"run", folder / "study.toml", "--no-pictures", "--quiet"};
+        words.insert(words.end(), options.begin(), options.end());
+        return run_graze(words);
+    }
+    double end_of(const std::string& results) const {
+        const Csv csv(run_graze({"export", folder / results, "--run", "r", "--format", "csv"}).out);
+        return csv.number(0, "end_x");
+    }
+    Folder folder;
+};
+
+} // namespace
+
+TEST_F(RunSet, TakesOtherValuesAndKeepsThem) {
+    ASSERT_EQ(run({"--output", folder / "own"}).code, 0);
+    const Printed other = run({"--output", folder / "other", "--set", "k=2*3"});
+    ASSERT_EQ(other.code, 0) << other.err;
+    // The tolerance is 1e-12 a step.
+    EXPECT_NEAR(end_of("own"), std::exp(-1.0), 1e-12);
+    EXPECT_NEAR(end_of("other"), std::exp(-6.0), 1e-12);
+    EXPECT_THAT(run_graze({"info", folder / "other"}).out, HasSubstr("with k = 6\n"));
+    EXPECT_THAT(run_graze({"info", folder / "other", "--format", "csv"}).out, HasSubstr("study,study,set.k,6,\n"));
+    // Gone on with from the results alone.
+    EXPECT_EQ(run_graze({"run", folder / "other", "--output", folder / "again", "--quiet", "--no-pictures"}).code, 0);
+    EXPECT_EQ(end_of("again"), end_of("other"));
+    EXPECT_EQ(run({"--output", folder / "again", "--set", "k=6"}).code, 0);
+}
+
+TEST_F(RunSet, ResultsOfDifferingValuesDoNotMix) {
+    ASSERT_EQ(run({"--output", folder / "a", "--set", "k=6"}).code, 0);
+    const double before = end_of("a");
+    for (const std::vector<std::string>& options :
+         {std::vector<std::string>{"--output", folder / "a"}, {"--output", folder / "a", "--set", "k=7"}}) {
+        const Printed refused = run(options);
+        EXPECT_EQ(refused.code, 2);
+        EXPECT_THAT(refused.err, HasSubstr("the results there were made with k=6"));
+        EXPECT_THAT(refused.err, HasSubstr("choose another folder by --output"));
+        EXPECT_EQ(end_of("a"), before);
+    }
+    ASSERT_EQ(run({"--output", folder / "own"}).code, 0);
+    EXPECT_THAT(run({"--output", folder / "own", "--set", "k=6"}).err, HasSubstr("the study's own values"));
+}
+
+TEST_F(RunSet, ByItselfGoesToAFolderOfItsOwn) {
+    const std::filesystem::path here = std::filesystem::current_path();
+    std::filesystem::current_path(folder / ".");
+    const Printed printed = run({"--set", "k=0.5"});
+    std::filesystem::current_path(here);
+    EXPECT_EQ(printed.code, 0) << printed.err;
+    EXPECT_NEAR(end_of("study-k=0.5"), std::exp(-0.5), 1e-12);
+}
+
+TEST_F(RunSet, RefusesWhatHasNoEffect) {
+    ASSERT_EQ(run({"--output", folder / "a"}).code, 0);
+    const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes{
+        {{"--set", "c=1"}, "--set: no model of the study has a parameter 'c'; known are: k"},
+        {{"--set", "x=1"}, "--set: 'x' is a state, not a parameter"},
+        {{"--set", "k"}, "--set: 'k' sets nothing; write k=VALUE"},
+        {{"--set", "k=1", "k=2"}, "--set: 'k' is given twice"},
+        {{"--set", "k=2*q"}, "--set k=2*q:1:5"},
+        {{"--set", "k=1/0"}, "no finite value"},
+    };
+    for (const auto& [options, message] : mistakes) {
+        const Printed printed = run(options);
+        EXPECT_EQ(printed.code, 2) << message;
+        EXPECT_THAT(printed.err, HasSubstr(message));
+        EXPECT_THAT(printed.err, HasSubstr(";"));
+        EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
+    }
+    const Printed results = run_graze({"run", folder / "a", "--set", "k=2"});
+    EXPECT_EQ(results.code, 2);
+    EXPECT_THAT(results.err, HasSubstr("name the study instead of its results"));
+}
+
+} // namespace graze::testing

@@ -1,0 +1,74 @@
+// Pictures of a study are drawn again only when that could change them.
+
+#include "run_graze.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+namespace graze::testing {
+
+using ::testing::HasSubstr;
+
+namespace {
+
+class KeptPictures : public ::testing::Test {
+protected:
+    KeptPictures() { write("title = \"one\""); }
+    void write(const std::string& more, double end = 3) const {
+        std::ofstream(folder / "model.toml") << "name = \"o\"\n[states]\nx = 1\nv = 0\n[modes.only]\n"
+                                                "rates = { x = \"v\", v = \"-x\" }\n";
+        std::ofstream(folder / "study.toml")
+            << "name = \"s\"\nmodel = \"model.toml\"\n[runs.r]\nkind = \"simulate\"\ntime = " << end
+            << "\nsample = { a = { maxima = \"x\" } }\n[pictures.p]\nkind = \"history\"\nformat = \"svg\"\nrun = "
+               "\"r\"\n"
+            << more << '\n';
+    }
+    std::string run() const {
+        const Printed printed = run_graze({"run", folder / "study.toml", "--output", folder / "out"});
+        EXPECT_EQ(printed.code, 0) << printed.err;
+        EXPECT_THAT(printed.out, HasSubstr("out/p.svg\n"));
+        return contents(picture());
+    }
+    std::filesystem::path picture() const { return folder / "out/p.svg"; }
+    /// Makes the picture look old. @return whether a run of the study leaves it so
+    bool is_kept() const {
+        const auto old = std::filesystem::last_write_time(picture()) - std::chrono::hours(1);
+        std::filesystem::last_write_time(picture(), old);
+        run();
+        return std::filesystem::last_write_time(picture()) == old;
+    }
+    Folder folder;
+};
+
+} // namespace
+
+TEST_F(KeptPictures, NothingIsDrawnTwice) {
+    const std::string first = run();
+    EXPECT_THAT(first, HasSubstr("<svg"));
+    EXPECT_TRUE(is_kept());
+    EXPECT_EQ(contents(picture()), first);
+}
+
+TEST_F(KeptPictures, WhatHasChangedIsDrawn) {
+    const std::string first = run();
+    write("title = \"two\"");
+    EXPECT_FALSE(is_kept());
+    EXPECT_TRUE(is_kept());
+    write("title = \"two\"", 4); // other results
+    EXPECT_FALSE(is_kept());
+    EXPECT_TRUE(is_kept());
+}
+
+TEST_F(KeptPictures, APictureThatIsMissingOrDiffersIsDrawn) {
+    const std::string first = run();
+    std::filesystem::remove(picture());
+    EXPECT_EQ(run(), first);
+    std::ofstream(picture()) << "something else";
+    EXPECT_EQ(run(), first);
+    std::ofstream(picture(), std::ios::app) << "<!-- more -->";
+    EXPECT_EQ(run(), first);
+    EXPECT_TRUE(is_kept());
+}
+
+} // namespace graze::testing
