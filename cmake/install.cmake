@@ -24,4 +24,6 @@ if(TARGET graze_executable)
     )
 endif()
 install(DIRECTORY models studies DESTINATION ${CMAKE_INSTALL_DATADIR}/graze FILES_MATCHING PATTERN "*.toml")
-install(FILES LICENSE README.md CHANGELOG.md TYPE DOC)
+# Pages lie to one another as they do here, so that links between them hold; and what they link to comes along.
+install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md TYPE DOC)
+install(DIRECTORY docs examples TYPE DOC)

@@ -5,6 +5,7 @@
 # What a fenced block is for stands behind its language:
 #   ```sh run            run by bash; must exit with 0
 #   ```sh run fails=N    run by bash; must exit with N
+#   ```sh run needs=WHAT    run by bash where WHAT is there, else passed over: a program, or python3:MODULE
 #   ```text output       what the block run before has printed on standard output, exactly
 #   ```toml file=NAME    written to NAME before what follows is run (any language but cpp)
 #   ```cpp file=PATH     the file PATH of the repository, whole
@@ -71,6 +72,20 @@ is_part_of() { # SNIPPET FILE
          }' "$1" "$2"
 }
 
+is_there() { # PROGRAM[:MODULE]
+    command -v "${1%%:*}" >/dev/null && { [[ $1 != *:* ]] || "${1%%:*}" -c "import ${1#*:}" 2>/dev/null; }
+}
+
+passed_over=false
+run_snippet() { # EXPECTED_STATUS: of the block at hand
+    local status=0
+    passed_over=false
+    bash -euo pipefail "$snippet" </dev/null >"$work/output" || status=$?
+    cat "$work/output"
+    [[ $status == "$1" ]] || fail "$line" "the snippet ended with $status instead of $1"
+    ran=$((ran + 1))
+}
+
 ran=0
 cd "$work/run"
 while read -r line number language purpose <&3; do
@@ -78,18 +93,25 @@ while read -r line number language purpose <&3; do
     case "$language $purpose" in
     *" ") ;;
     "unclosed fence") fail "$line" "the block that begins here never ends" ;;
+    "sh run needs="*)
+        needed=${purpose#run needs=}
+        [[ $needed =~ ^[A-Za-z0-9_.+:-]+$ ]] || fail "$line" "needs= takes a program or python3:MODULE: $purpose"
+        if ! is_there "$needed"; then
+            echo "$page:$line: passed over, since $needed is not there"
+            passed_over=true
+            continue
+        fi
+        run_snippet 0
+        ;;
     "sh run" | "sh run fails="*)
         expected=${purpose#run}
         expected=${expected# fails=}
         expected=${expected:-0}
         [[ $expected =~ ^[0-9]+$ ]] || fail "$line" "fails= needs a number: $purpose"
-        status=0
-        bash -euo pipefail "$snippet" </dev/null >"$work/output" || status=$?
-        cat "$work/output"
-        [[ $status == "$expected" ]] || fail "$line" "the snippet ended with $status instead of $expected"
-        ran=$((ran + 1))
+        run_snippet "$expected"
         ;;
     "text output")
+        [[ $passed_over == false ]] || continue
         [[ -e $work/output ]] || fail "$line" "no snippet has been run whose output this could be"
         diff -u --label documented "$snippet" --label printed "$work/output" >&2 ||
             fail "$line" "the snippet before prints something else"

@@ -24,6 +24,9 @@ foreach(file man/man1/graze.1 man/man1/graze-run.1 bash-completion/completions/g
     endif()
 endforeach()
 
+# What is installed of the documentation has no link that leads nowhere.
+must_run(bash ${CMAKE_CURRENT_LIST_DIR}/../documentation/check_links.sh ${work}/prefix/share/doc/graze)
+
 # A copy, so that no relative path can lead back into the repository.
 file(COPY ${CMAKE_CURRENT_LIST_DIR}/consumer DESTINATION ${work})
 set(flags)
@@ -36,3 +39,12 @@ must_run(
 )
 must_run(${CMAKE_COMMAND} --build ${work}/build)
 must_run(${work}/build/consumer)
+
+# The project of the documentation.
+file(COPY ${CMAKE_CURRENT_LIST_DIR}/../../examples/project DESTINATION ${work})
+must_run(
+    ${CMAKE_COMMAND} -S ${work}/project -B ${work}/project-build -G ${generator} -D CMAKE_CXX_COMPILER=${compiler} -D
+    CMAKE_PREFIX_PATH=${work}/prefix ${flags}
+)
+must_run(${CMAKE_COMMAND} --build ${work}/project-build)
+must_run(${work}/project-build/impacts)
