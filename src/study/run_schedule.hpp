@@ -9,7 +9,7 @@ namespace graze {
 
 /// What decides when a run may go.
 struct ScheduledRun {
-    std::optional<std::size_t> after; ///< an earlier run that has to end first
+    std::optional<std::size_t> after{}; ///< an earlier run that has to end first
     std::size_t threads = 1;          ///< as many as it can use
 };
 

@@ -114,7 +114,7 @@ TEST_F(Info, TellsHowAndWhenResultsWereMade) {
 TEST_F(Info, TellsOfModelsAndStudies) {
     write_model(folder / "model.toml");
     std::ofstream(folder / "two.toml") << study;
-    const std::string model = run_graze({"info", folder / "model.toml", "--format", "csv"}).out;
+    const std::string told = run_graze({"info", folder / "model.toml", "--format", "csv"}).out;
     EXPECT_EQ(fact(model, "file,,kind"), "model");
     EXPECT_EQ(fact(model, "model,rest,states"), "1");
     EXPECT_EQ(fact(model, "model,rest,parameters"), "2");
