@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 namespace graze {
@@ -25,8 +26,7 @@ public:
             changed_.wait(lock);
         }
         lock.unlock();
-        for (std::thread& thread : threads_)
-            thread.join();
+        threads_.clear();
         if (error_)
             std::rethrow_exception(error_);
     }
@@ -49,7 +49,16 @@ private:
             states_[run] = State::going;
             ++going_;
             busy_ += threads_for(run);
-            threads_.emplace_back([this, run] { work(run); });
+            try {
+                threads_.emplace_back([this, run] { work(run); });
+            } catch (const std::system_error&) { // the system gives no more of them now
+                states_[run] = State::waiting;
+                --going_;
+                busy_ -= threads_for(run);
+                if (going_ == 0)
+                    throw;
+                return;
+            }
         }
     }
     void work(std::size_t run) {
@@ -76,8 +85,8 @@ private:
     std::condition_variable changed_;
     std::vector<State> states_;
     std::size_t going_ = 0, busy_ = 0; ///< runs, and their threads
-    std::vector<std::thread> threads_;
     std::exception_ptr error_;
+    std::vector<std::jthread> threads_; ///< the last member: they use the others until they are joined
 };
 
 } // namespace
