@@ -115,12 +115,12 @@ TEST_F(Info, TellsOfModelsAndStudies) {
     write_model(folder / "model.toml");
     std::ofstream(folder / "two.toml") << study;
     const std::string told = run_graze({"info", folder / "model.toml", "--format", "csv"}).out;
-    EXPECT_EQ(fact(model, "file,,kind"), "model");
-    EXPECT_EQ(fact(model, "model,rest,states"), "1");
-    EXPECT_EQ(fact(model, "model,rest,parameters"), "2");
-    EXPECT_EQ(fact(model, "model,rest,modes"), "1");
-    EXPECT_EQ(fact(model, "model,rest,events"), "1");
-    EXPECT_EQ(fact(model, "model,rest,sections"), "1");
+    EXPECT_EQ(fact(told, "file,,kind"), "model");
+    EXPECT_EQ(fact(told, "model,rest,states"), "1");
+    EXPECT_EQ(fact(told, "model,rest,parameters"), "2");
+    EXPECT_EQ(fact(told, "model,rest,modes"), "1");
+    EXPECT_EQ(fact(told, "model,rest,events"), "1");
+    EXPECT_EQ(fact(told, "model,rest,sections"), "1");
     const std::string two = run_graze({"info", folder / "two.toml", "--format", "csv"}).out;
     EXPECT_EQ(fact(two, "file,,kind"), "study");
     EXPECT_EQ(fact(two, "run,swept,planned"), "11");
