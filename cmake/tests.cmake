@@ -66,6 +66,14 @@ if(TARGET graze_executable)
                 compiler=${CMAKE_CXX_COMPILER} -D generator=${CMAKE_GENERATOR} -D sanitizers=${GRAZE_SANITIZERS} -P
                 ${PROJECT_SOURCE_DIR}/tests/package/install_and_use.cmake
         )
+        find_program(SHLIBDEPS dpkg-shlibdeps)
+        find_program(FILE_COMMAND file)
+        find_program(FAKEROOT fakeroot)
+        if(SHLIBDEPS AND FILE_COMMAND AND FAKEROOT AND NOT GRAZE_SANITIZERS)
+            add_test(NAME package.debian COMMAND bash ${PROJECT_SOURCE_DIR}/tests/package/debian.sh
+                                                 ${PROJECT_BINARY_DIR} ${CMAKE_CXX_COMPILER} ${CMAKE_GENERATOR}
+            )
+        endif()
     endif()
     add_test(NAME demo COMMAND bash ${PROJECT_SOURCE_DIR}/examples/demo.sh ${PROJECT_BINARY_DIR}/demo)
     set_tests_properties(

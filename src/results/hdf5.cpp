@@ -3,20 +3,33 @@
 #include "graze/symbolic/input_error.hpp"
 #include "results/database.hpp"
 #include "results/point_columns.hpp"
-#include "results/schema.hpp"
+#include "results/run_query.hpp"
 
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <system_error>
+#include <utility>
 
 namespace graze {
 
 namespace {
 
-constexpr hsize_t chunk = 8192;
+/// As many as a reader should unpack for one number, and enough to be packed well.
+constexpr hsize_t bytes_of_a_chunk = 65536;
+/// In bytes. Where texts are longer, none is padded: if one text is huge, the others would be as large.
+constexpr std::size_t longest_padded_text = 65536;
+/// In bytes; of such, what chunks need besides would be more than what packing saves.
+constexpr hsize_t largest_plain_column = 512;
+constexpr unsigned deflate_level = 6; ///< zlib's own choice
+/// Half the number of entries in a node of the index of chunks. HDF5's own 32 take 2 KiB of each dataset.
+constexpr unsigned chunks_in_half_a_node = 4;
 
 /// Something of the HDF5 library that has to be closed.
 class Handle {
@@ -44,96 +57,158 @@ private:
     throw InputError(Place{path, 0, 0}, "the HDF5 file cannot be written", "make room on the disk");
 }
 
-Handle text_type(const std::string& path) {
+Handle text_type(std::size_t size, H5T_cset_t letters, const std::string& path) {
     Handle type(H5Tcopy(H5T_C_S1), H5Tclose, path);
-    H5Tset_size(type.id(), H5T_VARIABLE);
-    H5Tset_cset(type.id(), H5T_CSET_UTF8);
+    H5Tset_size(type.id(), size);
+    H5Tset_strpad(type.id(), size == H5T_VARIABLE ? H5T_STR_NULLTERM : H5T_STR_NULLPAD);
+    H5Tset_cset(type.id(), letters);
     return type;
 }
 
-void write_attribute(hid_t group, const char* name, const std::string& text, const std::string& path) {
-    const Handle type = text_type(path), space(H5Screate(H5S_SCALAR), H5Sclose, path);
-    const Handle attribute(H5Acreate2(group, name, type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, path);
+/// Of variable length, since h5py makes bytes of others, and they may be longer than an object's header.
+void write_attribute(hid_t object, const char* name, const std::string& text, const std::string& path) {
+    const Handle type = text_type(H5T_VARIABLE, H5T_CSET_UTF8, path), space(H5Screate(H5S_SCALAR), H5Sclose, path);
+    const Handle attribute(H5Acreate2(object, name, type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, path);
     const char* data = text.c_str();
     if (H5Awrite(attribute.id(), type.id(), &data) < 0)
         throw_full(path);
 }
 
+/// What is known of a column before it is written.
+struct ColumnPlan {
+    std::string name, unit;
+    ColumnType kind = ColumnType::real;
+    hsize_t rows = 0;
+    std::size_t longest = 0; ///< bytes of its longest text
+    bool ascii = true;       ///< all of its texts
+
+    bool is_variable() const { return kind == ColumnType::text && longest > longest_padded_text; }
+    /// Bytes of a cell.
+    std::size_t cell() const {
+        if (kind != ColumnType::text)
+            return sizeof(double);
+        return is_variable() ? sizeof(char*) : std::max<std::size_t>(1, longest);
+    }
+    hsize_t chunk() const {
+        const hsize_t most = std::max<hsize_t>(1, bytes_of_a_chunk / cell()), chunks = (rows + most - 1) / most;
+        return (rows + chunks - 1) / chunks; // all of nearly the same size
+    }
+    Handle type(const std::string& path) const {
+        if (kind == ColumnType::text) // of texts in UTF-8 Octave reads none
+            return text_type(is_variable() ? H5T_VARIABLE : cell(), ascii ? H5T_CSET_ASCII : H5T_CSET_UTF8, path);
+        return {H5Tcopy(kind == ColumnType::whole ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE), H5Tclose, path};
+    }
+};
+
+Handle make_dataset(hid_t group, const ColumnPlan& plan, hid_t type, const std::string& path) {
+    const Handle space(H5Screate_simple(1, &plan.rows, nullptr), H5Sclose, path);
+    const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path);
+    if (plan.rows * plan.cell() > largest_plain_column) {
+        const hsize_t chunk = plan.chunk();
+        H5Pset_chunk(properties.id(), 1, &chunk);
+        H5Pset_shuffle(properties.id());
+        H5Pset_deflate(properties.id(), deflate_level);
+    }
+    std::string name = plan.name;
+    std::replace(name.begin(), name.end(), '/', '|'); // a path in HDF5
+    Handle set(H5Dcreate2(group, name.c_str(), type, space.id(), H5P_DEFAULT, properties.id(), H5P_DEFAULT), H5Dclose,
+               path);
+    if (!plan.unit.empty())
+        write_attribute(set.id(), "units", plan.unit, path);
+    return set;
+}
+
 /// One column, written chunk by chunk.
 class Column {
 public:
-    Column(hid_t group, const std::string& name, ColumnType kind, const std::string& path)
-        : kind_(kind), path_(&path),
-          type_(kind == ColumnType::text    ? text_type(path)
-                : kind == ColumnType::whole ? Handle(H5Tcopy(H5T_NATIVE_INT64), H5Tclose, path)
-                                            : Handle(H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose, path)),
-          set_([&] {
-              const hsize_t none = 0, unlimited = H5S_UNLIMITED;
-              const Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose, path);
-              const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path);
-              H5Pset_chunk(properties.id(), 1, &chunk);
-              std::string safe = name;
-              for (char& c : safe)
-                  c = c == '/' ? '|' : c; // a path in HDF5
-              return Handle(
-                  H5Dcreate2(group, safe.c_str(), type_.id(), space.id(), H5P_DEFAULT, properties.id(), H5P_DEFAULT),
-                  H5Dclose, path);
-          }()) {}
+    Column(hid_t group, ColumnPlan plan, const std::string& path)
+        : plan_(std::move(plan)), path_(&path), type_(plan_.type(path)),
+          set_(make_dataset(group, plan_, type_.id(), path)) {}
 
     void add(const ResultFile::Rows& rows, std::size_t column) {
-        if (kind_ == ColumnType::text)
-            texts_.push_back(rows.text(column));
-        else if (kind_ == ColumnType::whole)
-            wholes_.push_back(rows.is_null(column) ? -1 : rows.integer(column));
+        if (plan_.kind == ColumnType::text)
+            add_text(rows.text(column));
+        else if (plan_.kind == ColumnType::whole)
+            add_number(rows.is_null(column) ? std::int64_t{-1} : rows.integer(column));
         else
-            reals_.push_back(rows.is_null(column) ? std::numeric_limits<double>::quiet_NaN() : rows.number(column));
-        if (++waiting_ == chunk)
+            add_number(rows.is_null(column) ? std::numeric_limits<double>::quiet_NaN() : rows.number(column));
+        if (++waiting_ == plan_.chunk())
             flush();
     }
     void flush() {
         if (waiting_ == 0)
             return;
-        const hsize_t start = size_, count = waiting_, whole = start + count;
         std::vector<const char*> pointers;
         for (const std::string& text : texts_)
             pointers.push_back(text.c_str());
-        const void* data = kind_ == ColumnType::text    ? static_cast<const void*>(pointers.data())
-                           : kind_ == ColumnType::whole ? static_cast<const void*>(wholes_.data())
-                                                        : static_cast<const void*>(reals_.data());
-        bool written = H5Dset_extent(set_.id(), &whole) >= 0;
+        const void* data = plan_.is_variable() ? static_cast<const void*>(pointers.data()) : cells_.data();
         const Handle target(H5Dget_space(set_.id()), H5Sclose, *path_),
-            source(H5Screate_simple(1, &count, nullptr), H5Sclose, *path_);
-        written = written && H5Sselect_hyperslab(target.id(), H5S_SELECT_SET, &start, nullptr, &count, nullptr) >= 0 &&
-                  H5Dwrite(set_.id(), type_.id(), source.id(), target.id(), H5P_DEFAULT, data) >= 0;
-        if (!written)
+            source(H5Screate_simple(1, &waiting_, nullptr), H5Sclose, *path_);
+        if (H5Sselect_hyperslab(target.id(), H5S_SELECT_SET, &written_, nullptr, &waiting_, nullptr) < 0 ||
+            H5Dwrite(set_.id(), type_.id(), source.id(), target.id(), H5P_DEFAULT, data) < 0)
             throw_full(*path_);
-        size_ = whole;
+        written_ += waiting_;
         waiting_ = 0;
-        reals_.clear();
-        wholes_.clear();
+        cells_.clear();
         texts_.clear();
     }
 
 private:
-    ColumnType kind_;
+    template <class Number>
+    void add_number(Number number) {
+        const auto bytes = std::bit_cast<std::array<char, sizeof number>>(number);
+        cells_.insert(cells_.end(), bytes.begin(), bytes.end());
+    }
+    void add_text(std::string text) {
+        if (plan_.is_variable()) {
+            texts_.push_back(std::move(text));
+            return;
+        }
+        text.resize(plan_.cell(), '\0');
+        cells_.insert(cells_.end(), text.begin(), text.end());
+    }
+
+    ColumnPlan plan_;
     const std::string* path_;
     Handle type_, set_;
-    hsize_t size_ = 0, waiting_ = 0;
-    std::vector<double> reals_;
-    std::vector<std::int64_t> wholes_;
+    hsize_t written_ = 0, waiting_ = 0;
+    std::vector<char> cells_; ///< of all but variable texts, as they are in the file
     std::vector<std::string> texts_;
 };
 
-/// A query's rows as a group with a dataset for each column. @param types of the columns, in their order
-void write_table(hid_t parent, const std::string& name, ResultFile::Rows rows, const std::vector<ColumnType>& types,
-                 const std::string& path) {
+/// Finds how many rows a query has, and how long its texts are.
+void measure(std::vector<ColumnPlan>& plans, const ResultFile& file, const std::string& query) {
+    std::string asked = "count(*)";
+    for (const ColumnPlan& plan : plans)
+        if (plan.kind == ColumnType::text) {
+            const std::string text = quoted_name(plan.name), bytes = fmt::format("length(CAST({} AS BLOB))", text);
+            asked += fmt::format(", max({0}), max({0} > length({1}))", bytes, text);
+        }
+    ResultFile::Rows found = file.query(fmt::format("SELECT {} FROM ({})", asked, query));
+    found.next();
+    std::size_t at = 1;
+    for (ColumnPlan& plan : plans) {
+        plan.rows = static_cast<hsize_t>(found.integer(0));
+        if (plan.kind == ColumnType::text) {
+            plan.longest = static_cast<std::size_t>(found.integer(at++));
+            plan.ascii = found.integer(at++) == 0;
+        }
+    }
+}
+
+/// A query's rows as a group with a dataset for each column. @param plans of the columns, in their order, with the
+/// names that they have in the query
+void write_table(hid_t parent, const std::string& name, const ResultFile& file, const std::string& query,
+                 std::vector<ColumnPlan> plans, const std::string& path) {
     const Handle group(H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path);
-    if (rows.columns() != types.size())
+    ResultFile::Rows rows = file.query(query);
+    if (rows.columns() != plans.size())
         throw_contradiction(path,
-                            fmt::format("table '{}' has {} columns instead of {}", name, rows.columns(), types.size()));
+                            fmt::format("table '{}' has {} columns instead of {}", name, rows.columns(), plans.size()));
+    measure(plans, file, query);
     std::vector<Column> columns;
-    for (std::size_t c = 0; c < rows.columns(); ++c)
-        columns.emplace_back(group.id(), rows.column_name(c), types[c], path);
+    for (ColumnPlan& plan : plans)
+        columns.emplace_back(group.id(), std::move(plan), path);
     while (rows.next())
         for (std::size_t c = 0; c < columns.size(); ++c)
             columns[c].add(rows, c);
@@ -141,25 +216,25 @@ void write_table(hid_t parent, const std::string& name, ResultFile::Rows rows, c
         column.flush();
 }
 
-std::vector<ColumnType> types_of(const std::vector<RunColumn>& columns) {
-    std::vector<ColumnType> types;
+std::vector<ColumnPlan> plans_of(const std::vector<RunColumn>& columns, const StoredRun& run) {
+    std::vector<ColumnPlan> plans;
     for (const RunColumn& column : columns)
-        types.push_back(column.kind.type);
-    return types;
+        plans.push_back({column.column, unit_of(column, run), column.kind.type});
+    return plans;
 }
 
-void write_details(hid_t group, const ResultFile& file, const std::string& run, const DetailTable& table,
-                   const std::string& path) {
-    std::vector<ColumnType> types{ColumnType::whole, ColumnType::whole};
+void write_details(hid_t group, const StoredRun& run, const DetailTable& table, const std::string& path) {
+    std::vector<ColumnPlan> plans{{"point", "", ColumnType::whole}, {"position", "", ColumnType::whole}};
     for (const ColumnKind& column : table.columns)
-        types.push_back(column.type);
-    write_table(group, table.name,
-                file.query(fmt::format("SELECT point, position, {} FROM {} WHERE run = {} ORDER BY point, position",
-                                       listed(table.columns), table.name, text_literal(run))),
-                types, path);
+        plans.push_back({column.name, unit_of(column.unit, run), column.type});
+    write_table(group, table.name, *run.file,
+                fmt::format("SELECT point, position, {} FROM {} WHERE run = {} ORDER BY point, position",
+                            listed(table.columns), table.name, text_literal(run.record.name)),
+                std::move(plans), path);
 }
 
-void write_run(hid_t output, const ResultFile& file, const RunRecord& run, const std::string& path) {
+void write_run(hid_t output, const StoredRun& stored, const std::string& path) {
+    const RunRecord& run = stored.record;
     const Handle group(H5Gcreate2(output, run.name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path);
     write_attribute(group.id(), "kind", run.kind, path);
     write_attribute(group.id(), "model_name", run.model_name, path);
@@ -168,16 +243,21 @@ void write_run(hid_t output, const ResultFile& file, const RunRecord& run, const
     write_attribute(group.id(), "fingerprint", run.fingerprint, path);
     write_attribute(group.id(), "version", run.version, path);
     const RunTables tables(run);
-    write_table(group.id(), run.is_branch() ? "orbits" : "points",
-                file.query("SELECT * FROM " + tables.points + " ORDER BY number"), types_of(tables.point_columns),
-                path);
-    write_table(group.id(), run.is_branch() ? "segments" : "samples",
-                file.query(fmt::format("SELECT * FROM {} ORDER BY {}", tables.samples,
-                                       run.is_branch() ? "point, segment" : "rowid")),
-                types_of(tables.sample_columns), path);
+    write_table(group.id(), run.is_branch() ? "orbits" : "points", *stored.file,
+                "SELECT * FROM " + tables.points + " ORDER BY number", plans_of(tables.point_columns, stored), path);
+    write_table(
+        group.id(), run.is_branch() ? "segments" : "samples", *stored.file,
+        fmt::format("SELECT * FROM {} ORDER BY {}", tables.samples, run.is_branch() ? "point, segment" : "rowid"),
+        plans_of(tables.sample_columns, stored), path);
     for (const DetailTable& table : detail_tables())
         if (run.is_branch() || !table.of_branches)
-            write_details(group.id(), file, run.name, table, path);
+            write_details(group.id(), stored, table, path);
+}
+
+Handle make_file(const std::string& path) {
+    const Handle properties(H5Pcreate(H5P_FILE_CREATE), H5Pclose, path);
+    H5Pset_istore_k(properties.id(), chunks_in_half_a_node);
+    return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties.id(), H5P_DEFAULT), H5Fclose, path};
 }
 
 } // namespace
@@ -190,10 +270,13 @@ void export_hdf5(const ResultFile& file, const std::vector<std::string>& runs, c
         if (!file.find_run(name))
             throw InputError(fmt::format("the result file has no run '{}'", name), "see graze points");
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // failures are told by exceptions
-    const Handle output(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, path);
+    const Handle output = make_file(path);
+    // What is measured must still be so when it is written, though a study writes meanwhile: the file is seen as it is
+    // now for as long as a query goes on.
+    ResultFile::Rows moment = file.query("SELECT 1 FROM runs");
+    moment.next();
     for (const std::string& name : runs)
-        if (const auto run = file.find_run(name))
-            write_run(output.id(), file, *run, path);
+        write_run(output.id(), StoredRun(file, name, {}), path);
     if (H5Fflush(output.id(), H5F_SCOPE_GLOBAL) < 0) // while it can still be told
         throw_full(path);
 }

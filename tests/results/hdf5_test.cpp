@@ -7,7 +7,9 @@
 #include <hdf5.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -33,20 +35,92 @@ public:
         H5Tclose(type);
         return result;
     }
-    std::vector<double> numbers() const {
+    std::size_t rows() const {
         const hid_t space = H5Dget_space(set_);
-        std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+        const auto rows = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
         H5Sclose(space);
+        return rows;
+    }
+    std::vector<double> numbers() const {
+        std::vector<double> values(rows());
         H5Dread(set_, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
         return values;
+    }
+    /// Bytes of each text where all have the same, else 0.
+    std::size_t width() const {
+        const hid_t type = H5Dget_type(set_);
+        const std::size_t width = H5Tis_variable_str(type) > 0 ? 0 : H5Tget_size(type);
+        H5Tclose(type);
+        return width;
+    }
+    H5T_cset_t letters() const {
+        const hid_t type = H5Dget_type(set_);
+        const H5T_cset_t letters = H5Tget_cset(type);
+        H5Tclose(type);
+        return letters;
+    }
+    std::vector<std::string> texts() const {
+        const hid_t type = H5Dget_type(set_);
+        std::vector<std::string> texts;
+        if (width() == 0) {
+            std::vector<char*> pointers(rows());
+            H5Dread(set_, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data());
+            for (char* pointer : pointers) {
+                texts.emplace_back(pointer);
+                H5free_memory(pointer);
+            }
+        } else {
+            std::string all(rows() * width(), '?');
+            H5Dread(set_, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data());
+            for (std::size_t r = 0; r < rows(); ++r) {
+                const std::string cell = all.substr(r * width(), width());
+                texts.push_back(cell.substr(0, cell.find('\0')));
+            }
+        }
+        H5Tclose(type);
+        return texts;
+    }
+    /// Rows of a chunk, 0 of a column that is not in chunks.
+    std::size_t chunk() const {
+        const hid_t properties = H5Dget_create_plist(set_);
+        hsize_t chunk = 0;
+        if (H5Pget_layout(properties) == H5D_CHUNKED)
+            H5Pget_chunk(properties, 1, &chunk);
+        H5Pclose(properties);
+        return static_cast<std::size_t>(chunk);
+    }
+    std::size_t stored_bytes() const { return static_cast<std::size_t>(H5Dget_storage_size(set_)); }
+    std::string units() const {
+        if (H5Aexists(set_, "units") <= 0)
+            return "none";
+        const hid_t attribute = H5Aopen(set_, "units", H5P_DEFAULT), type = H5Aget_type(attribute);
+        char* text = nullptr;
+        H5Aread(attribute, type, &text);
+        std::string units = text;
+        H5free_memory(text);
+        H5Tclose(type);
+        H5Aclose(attribute);
+        return units;
     }
 
 private:
     hid_t file_, set_;
 };
 
-/// A run with one orbit of the linear impact oscillator.
-void write_branch(const std::string& path) {
+/// A folder of its own for each test.
+class Hdf5 : public testing::Test {
+protected:
+    void SetUp() override { std::filesystem::create_directories(folder_); }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+    std::string path(const char* name) const { return (folder_ / name).string(); }
+
+    std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("graze-hdf5-" + std::to_string(getpid()));
+};
+
+/// A run of the linear impact oscillator, with its orbits as one orbit is changed by a function of its number.
+void write_branch(
+    const std::string& path, std::size_t orbits = 1,
+    const std::function<void(OrbitRecord&, std::size_t)>& change = [](OrbitRecord&, std::size_t) {}) {
     const Model model = load_model("impact-oscillator");
     RunRecord run;
     run.name = "b";
@@ -75,16 +149,19 @@ void write_branch(const std::string& path) {
     orbit.durations = {2.5};
     ResultFile file(path, ResultFile::Access::write);
     file.begin_run(run);
-    file.add_orbit("b", record);
+    for (std::size_t number = 0; number < orbits; ++number) {
+        OrbitRecord changed = record;
+        changed.number = number;
+        change(changed, number);
+        file.add_orbit("b", changed);
+    }
     file.complete_run("b");
 }
 
-TEST(Hdf5, branches_have_orbits_segments_and_multipliers) {
-    const auto folder = std::filesystem::temp_directory_path() / ("graze-hdf5-" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder);
-    const std::string path = (folder / "results.sqlite").string(), exported = (folder / "all.h5").string();
-    write_branch(path);
-    export_hdf5(ResultFile(path, ResultFile::Access::read), {"b"}, exported);
+TEST_F(Hdf5, branches_have_orbits_segments_and_multipliers) {
+    const std::string exported = path("all.h5");
+    write_branch(path("results.sqlite"));
+    export_hdf5(ResultFile(path("results.sqlite"), ResultFile::Access::read), {"b"}, exported);
     EXPECT_EQ(Column(exported, "b/orbits/label").type(), H5T_STRING);
     EXPECT_EQ(Column(exported, "b/orbits/signature").type(), H5T_STRING);
     EXPECT_EQ(Column(exported, "b/orbits/step").type(), H5T_INTEGER);
@@ -104,7 +181,68 @@ TEST(Hdf5, branches_have_orbits_segments_and_multipliers) {
     EXPECT_EQ(Column(exported, "b/minima/event").type(), H5T_STRING);
     EXPECT_EQ(Column(exported, "b/end_values/rate").numbers(), std::vector<double>{-3});
     EXPECT_EQ(Column(exported, "b/end_values/segment").type(), H5T_INTEGER);
-    std::filesystem::remove_all(folder);
+}
+
+TEST_F(Hdf5, columns_tell_their_units) {
+    const std::string exported = path("all.h5");
+    write_branch(path("results.sqlite"));
+    export_hdf5(ResultFile(path("results.sqlite"), ResultFile::Access::read), {"b"}, exported);
+    EXPECT_EQ(Column(exported, "b/orbits/speed").units(), "m/s");
+    EXPECT_EQ(Column(exported, "b/orbits/omega").units(), "none"); // of a model without units
+    EXPECT_EQ(Column(exported, "b/orbits/label").units(), "none");
+}
+
+TEST_F(Hdf5, texts_have_the_length_of_the_longest_unless_that_is_huge) {
+    const std::string exported = path("all.h5"), huge(100'000, 'x');
+    const std::vector<std::string> labels{"GR1", "", "SN12", "a"}, parts{"up", "über", "", "up"};
+    write_branch(path("results.sqlite"), labels.size(), [&](OrbitRecord& record, std::size_t number) {
+        record.label = labels[number];
+        record.part = parts[number];
+        record.point.detail = number == 2 ? huge : "short";
+    });
+    export_hdf5(ResultFile(path("results.sqlite"), ResultFile::Access::read), {"b"}, exported);
+    const Column label(exported, "b/orbits/label"), part(exported, "b/orbits/part"),
+        detail(exported, "b/orbits/detail"), symmetry(exported, "b/orbits/symmetry");
+    EXPECT_EQ(label.texts(), labels);
+    EXPECT_EQ(label.width(), 4U);
+    EXPECT_EQ(label.letters(), H5T_CSET_ASCII);
+    EXPECT_EQ(part.texts(), parts);
+    EXPECT_EQ(part.width(), 5U); // in UTF-8
+    EXPECT_EQ(part.letters(), H5T_CSET_UTF8);
+    EXPECT_TRUE(detail.texts() == (std::vector<std::string>{"short", "short", huge, "short"}));
+    EXPECT_EQ(detail.width(), 0U);
+    EXPECT_EQ(symmetry.texts(), std::vector<std::string>(4)); // nothing at all
+    EXPECT_EQ(symmetry.width(), 1U);
+}
+
+TEST_F(Hdf5, files_have_the_size_of_the_data) {
+    const std::string one = path("one.h5"), many = path("many.h5");
+    write_branch(path("one.sqlite"));
+    export_hdf5(ResultFile(path("one.sqlite"), ResultFile::Access::read), {"b"}, one);
+    EXPECT_EQ(Column(one, "b/orbits/omega").chunk(), 0U);
+    EXPECT_LT(std::filesystem::file_size(one), 60'000U); // of which names and headers are nearly all
+
+    const std::size_t orbits = 9001; // more numbers than a chunk has
+    write_branch(path("many.sqlite"), orbits, [](OrbitRecord& record, std::size_t number) {
+        record.point.monitors = {std::sqrt(static_cast<double>(number)), 0.25};
+        record.label = "L" + std::to_string(number);
+        record.point.solution.half_multipliers.clear();
+    });
+    export_hdf5(ResultFile(path("many.sqlite"), ResultFile::Access::read), {"b"}, many);
+    const Column root(many, "b/orbits/period_2"), speed(many, "b/orbits/speed"), label(many, "b/orbits/label");
+    EXPECT_EQ(root.chunk(), 4501U); // two, of nearly the same size
+    ASSERT_EQ(root.rows(), orbits);
+    const std::vector<double> roots = root.numbers();
+    const std::vector<std::string> labels = label.texts();
+    for (std::size_t number = 0; number < orbits; ++number) {
+        ASSERT_EQ(roots[number], std::sqrt(static_cast<double>(number)));
+        ASSERT_EQ(labels[number], "L" + std::to_string(number));
+    }
+    EXPECT_EQ(speed.numbers(), std::vector<double>(orbits, 0.25));
+    EXPECT_LT(speed.stored_bytes(), orbits); // one number again and again
+    EXPECT_LT(label.stored_bytes(), orbits * label.width());
+    EXPECT_EQ(Column(many, "b/half_multipliers/real").rows(), 0U);
+    EXPECT_EQ(Column(many, "b/half_multipliers/real").type(), H5T_FLOAT);
 }
 
 } // namespace

@@ -1,0 +1,26 @@
+# The Debian package: `cpack` in the build folder makes it of what is installed.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME graze)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+# As dpkg has them, whatever the umask of who makes it.
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
+                                                WORLD_EXECUTE
+)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+# A package must name somebody; who hands it on says who, by `cpack -D CPACK_DEBIAN_PACKAGE_MAINTAINER="A <a@b.c>"`.
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER "the graze authors <graze@localhost>")
+string(
+    CONCAT
+        CPACK_DEBIAN_PACKAGE_DESCRIPTION
+        "Simulates motions with impacts, switches, sticking and chatter, sweeps parameters, draws\n"
+        "basins of attraction, finds periodic orbits, stable or not, and follows them along parameters\n"
+        "through their bifurcations and grazings. The program graze, a C++ library, models and studies\n"
+        "of the literature."
+)
+# Libraries are found by what the program is linked to. What draws and what those need who link the library is not.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot, graphviz")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, libfmt-dev, libsqlite3-dev")
+include(CPack)

@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# Makes the Debian package, installs it into a root that has nothing but the libraries on which it says that it depends,
+# uses it there and from another project, and removes it again.
+# usage: debian.sh BUILD COMPILER GENERATOR; the package comes to lie in BUILD/debian
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+build=$1 compiler=$2 generator=$3
+work=$build/debian
+root=$work/root
+
+fail() {
+    echo "$*" >&2
+    exit 1
+}
+step() { echo "== $*"; }
+
+step "the package is made"
+rm -rf "$work"
+mkdir -p "$work"
+cpack --config "$build/CPackConfig.cmake" -B "$work"
+rm -rf "$work/_CPack_Packages"
+packages=("$work"/*.deb)
+package=${packages[0]}
+dpkg-deb --info "$package"
+
+step "what is in it"
+depends=$(dpkg-deb --field "$package" Depends)
+[[ $depends == *libc6* && $depends == *libfmt* && $depends == *libsqlite3* ]] || fail "it depends on $depends"
+dpkg-deb --fsys-tarfile "$package" | tar -tv >"$work/list"
+! grep -v ' root/root ' "$work/list" || fail "files belong to somebody else"
+! grep -E '^.{8}w' "$work/list" || fail "anybody may write files"
+for file in bin/graze lib/libgraze.a lib/cmake/graze/graze-config.cmake include/graze/model/model.hpp \
+    share/man/man1/graze.1 share/bash-completion/completions/graze share/graze/models/bouncing-ball.toml \
+    share/graze/studies/mems-switch.toml share/doc/graze/README.md; do
+    grep -q " ./usr/$file\$" "$work/list" || fail "/usr/$file is missing"
+done
+! grep -v -E ' \./(usr/.*)?$' "$work/list" || fail "there are files outside of /usr"
+
+# dpkg asks who it is and changes owners; fakeroot lets anybody do so in a folder of his own.
+as_root=()
+if ((EUID != 0)); then
+    as_root=(fakeroot)
+fi
+
+# The root believes that what this machine has is installed in it, and so the package's dependencies are looked at.
+step "it is installed"
+mkdir -p "$root"/var/lib/dpkg/{info,updates,triggers} "$root"/var/log
+cp /var/lib/dpkg/status "$root/var/lib/dpkg/status"
+(cd /var/lib/dpkg/info && printf '%s\0' *.list) | (cd "$root/var/lib/dpkg/info" && xargs -0 touch)
+dpkg_there() { "${as_root[@]}" env PATH="$PATH:/usr/sbin:/sbin" dpkg --root="$root" --log="$work/log" "$@"; }
+dpkg_there --install "$package"
+[[ $(dpkg-query --admindir="$root/var/lib/dpkg" -W -f='${db:Status-Status}' graze) == installed ]] ||
+    fail "it is not installed"
+find "$root/usr" ! -type d | sort >"$work/installed"
+
+step "the program runs"
+"$root/usr/bin/graze" --version
+if ((EUID == 0)); then
+    # Nothing but the program and its libraries: what it needs besides would be missing.
+    ldd "$root/usr/bin/graze" | grep -o '/[^ ]*' | while read -r library; do
+        mkdir -p "$root$(dirname "$library")"
+        cp -L "$library" "$root$library"
+    done
+    chroot "$root" /usr/bin/graze models >"$work/models"
+    grep -q bouncing-ball "$work/models" || fail "there are no models"
+    mkdir -p "$root/tmp"
+    chroot "$root" /usr/bin/graze simulate /usr/share/graze/models/bouncing-ball.toml --time 2 --format csv \
+        --output /tmp/motion.csv
+    [[ -s $root/tmp/motion.csv ]] || fail "nothing was simulated"
+fi
+
+step "another project uses the library"
+cp -r "$here/../../examples/project" "$work/project"
+cmake -S "$work/project" -B "$work/project-build" -G "$generator" -D CMAKE_CXX_COMPILER="$compiler" \
+    -D CMAKE_PREFIX_PATH="$root/usr" -D CMAKE_FIND_USE_PACKAGE_REGISTRY=OFF
+grep -q "^graze_DIR:.*=$root/usr/" "$work/project-build/CMakeCache.txt" || fail "another graze was found"
+cmake --build "$work/project-build"
+"$work/project-build/impacts"
+
+step "it is removed"
+dpkg_there --purge graze
+while read -r file; do
+    [[ ! -e $file ]] || fail "$file was left"
+done <"$work/installed"
+[[ ! -d $root/usr/share/graze && ! -d $root/usr/include/graze ]] || fail "folders were left"
+rm -rf "$root" "$work/project" "$work/project-build"
+step "the package is $package"
