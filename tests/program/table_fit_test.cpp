@@ -11,7 +11,6 @@ namespace graze::testing {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::Not;
 
 namespace {
@@ -40,7 +39,7 @@ TEST(TableFit, KeepsWhatFits) {
     const Table table = table_with({"aaaa", "bbbb", "cccc"}, "x");
     const FittedTable whole = fitted(table, 8, 16, {});
     EXPECT_THAT(names(whole.table), ElementsAre("aaaa", "bbbb", "cccc"));
-    EXPECT_THAT(whole.left_out, IsEmpty());
+    EXPECT_TRUE(whole.left_out.empty());
     const FittedTable narrow = fitted(table, 8, 15, {});
     EXPECT_THAT(names(narrow.table), ElementsAre("aaaa", "bbbb"));
     EXPECT_THAT(narrow.left_out, ElementsAre("cccc"));
