@@ -29,11 +29,24 @@ bool is_database(const std::string& path) {
     return stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == signature;
 }
 
+/// Refuses what would never end, as a pipe, and what says nothing. @param named whether by itself, not by its folder
+void require_contents(const std::string& path, bool named) {
+    std::error_code error;
+    if (!std::filesystem::exists(path, error))
+        return;
+    if (!std::filesystem::is_regular_file(path, error))
+        throw InputError({path, 0, 0}, "this is no plain file", "name a result file, a model or a study");
+    if (std::filesystem::file_size(path, error) == 0 && !error)
+        throw InputError({path, 0, 0}, named ? "the file is empty" : "nothing has been computed yet",
+                         named ? "name a result file, a model or a study" : "do the study again: graze run");
+}
+
 void add_text_file(Facts& facts, const std::string& path) {
     const std::string text = read_text_file(path, "file", longest_model);
     const bool study = is_study_text(text, path);
     add_file_facts(facts, path, study ? "study" : "model");
-    study ? add_facts(facts, load_study(path)) : add_facts(facts, load_program_model(path));
+    const std::string file = is_model_path(path) ? path : "./" + path; // not one of those that come with graze
+    study ? add_facts(facts, load_study(file)) : add_facts(facts, load_program_model(file));
 }
 
 /// A name may be that of a model and of a study.
@@ -64,6 +77,7 @@ Facts facts_of(const std::string& name) {
     if (std::filesystem::is_directory(name, error) && !std::filesystem::exists(results, error))
         throw InputError({name, 0, 0}, "there are no results in this folder",
                          "name a folder with a results.sqlite, which graze run makes, or a file");
+    require_contents(results, results == name);
     if (is_database(results)) {
         const ResultFile file(results, ResultFile::Access::read);
         add_file_facts(facts, results, "results");

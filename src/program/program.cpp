@@ -63,7 +63,8 @@ void tell(const InputErrors& errors, const Console& console) {
     for (std::size_t i = 0; i < std::min(count, most); ++i)
         console.err << "graze: " << errors.all()[i].what() << '\n';
     if (count > most)
-        console.err << "graze: and " << count - most << " mistakes more; mend these first\n";
+        console.err << "graze: and " << (count < Mistakes::most ? "" : "at least ") << count - most
+                    << " more; mend these first\n";
 }
 
 } // namespace

@@ -14,6 +14,8 @@ void Mistakes::throw_noted() {
         return std::string_view(one.what()) == other.what();
     };
     all_.erase(std::unique(all_.begin(), all_.end(), same), all_.end());
+    if (all_.size() > most)
+        all_.erase(all_.begin() + most, all_.end());
     if (all_.size() > 1)
         throw InputErrors(all_);
     if (!all_.empty())

@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
+#include <fstream>
 #include <regex>
+
+#include <sys/stat.h>
 
 namespace graze::testing {
 
@@ -109,6 +112,22 @@ TEST_F(Info, TellsHowAndWhenResultsWereMade) {
     EXPECT_THAT(text, HasSubstr("1 picture: all"));
     EXPECT_THAT(text, Not(HasSubstr("  w = 3")));
     EXPECT_THAT(run_graze({"info", results, "--all"}).out, HasSubstr("run swept: parameters\n  w = 3\n  g = 2 m\n"));
+}
+
+TEST_F(Info, RefusesWhatSaysNothing) {
+    const Folder begun;
+    const auto refused = [&](const std::string& name, const std::string& words) {
+        const Printed printed = run_graze({"info", name});
+        EXPECT_EQ(printed.code, exit_bad_input) << name;
+        EXPECT_THAT(printed.err, HasSubstr(words)) << name;
+    };
+    std::ofstream(begun / "results.sqlite");
+    refused(std::filesystem::path(begun / "results.sqlite").parent_path().string(),
+            "results.sqlite: nothing has been computed yet");
+    refused(begun / "results.sqlite", "results.sqlite: the file is empty");
+    refused("/dev/null", "/dev/null: this is no plain file");
+    ASSERT_EQ(mkfifo((begun / "pipe").c_str(), 0600), 0);
+    refused(begun / "pipe", "pipe: this is no plain file");
 }
 
 TEST_F(Info, TellsOfModelsAndStudies) {

@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/input_error.hpp"
 
+#include <cstddef>
 #include <vector>
 
 namespace graze {
@@ -22,7 +23,11 @@ private:
 /// Mistakes that are noted while reading goes on, for all of them to be told at once.
 class Mistakes {
 public:
+    /// So many are enough: each may cost a search for names that are alike.
+    static constexpr std::size_t most = 100;
+
     /// Does something, and notes the mistake that it finds. @return whether it found none
+    /// @throws InputErrors when there are as many as are wanted
     template <class Work>
     bool attempt(const Work& work) {
         try {
@@ -33,6 +38,8 @@ public:
         } catch (const InputError& error) {
             all_.push_back(error);
         }
+        if (all_.size() >= most)
+            throw_noted();
         return false;
     }
     bool none() const { return all_.empty(); }
