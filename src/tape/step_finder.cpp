@@ -154,7 +154,9 @@ Kernel StepFinder::whole_kernel(std::size_t i) const {
         return one.operation == first && i + 1 < tape_.code.size() && tape_.code[i + 1].operation == second &&
                one.right == tape_.code[i + 1].result && tape_.code[i + 1].right == one.result;
     };
-    if (tape_.degrees[one.third] > 1)
+    const bool is_function = one.operation == SeriesOperation::sin || one.operation == SeriesOperation::sinh ||
+                             one.operation == SeriesOperation::exp;
+    if (!is_function || tape_.degrees[one.third] > 1) // of others the third operand is no register
         return nullptr;
     if (is_pair(SeriesOperation::sin, SeriesOperation::cos))
         return table_.whole_sine_and_cosine;
