@@ -10,7 +10,7 @@ namespace graze {
 /// What decides when a run may go.
 struct ScheduledRun {
     std::optional<std::size_t> after{}; ///< an earlier run that has to end first
-    std::size_t threads = 1;          ///< as many as it can use
+    std::size_t threads = 1;            ///< as many as it can use
 };
 
 /// Does runs side by side: each begins, in their order, as soon as the one that it waits for has ended and one of
