@@ -1,5 +1,6 @@
 #include "graze/flow/variational_system.hpp"
 
+#include "flow/modes_with_tangents.hpp"
 #include "flow/section_function.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 #include <string>
 
@@ -20,6 +22,7 @@ class VariationalCompiler {
 public:
     VariationalCompiler(const System& system, std::span<const ParameterId> free);
 
+    /// Those of a model of its own, in which the tangent is a state like others.
     System modes();
     /// Values, derivatives and second derivatives of functions in the model's symbols.
     Function function_of(std::span<const Expression> functions);
@@ -32,8 +35,6 @@ public:
     std::size_t workspace() const { return workspace_; }
 
 private:
-    Expression new_symbol(const std::string& base);
-
     Model model_;
     std::vector<Expression> states_, known_, variables_, vector_;
     std::vector<Component> along_; ///< the vector
@@ -46,19 +47,9 @@ VariationalCompiler::VariationalCompiler(const System& system, std::span<const P
     for (const ParameterId parameter : free)
         variables_.push_back(parameters[parameter.place()]);
     for (const Expression& variable : variables_) {
-        vector_.push_back(new_symbol("along_" + std::to_string(vector_.size())));
+        vector_.push_back(new_symbol(model_, "along_" + std::to_string(vector_.size())));
         along_.emplace_back(variable, vector_.back());
     }
-}
-
-/// One whose name the model does not have.
-Expression VariationalCompiler::new_symbol(const std::string& base) {
-    std::string name = base;
-    const auto is_definition = [&](const Definition& definition) { return definition.name == name; };
-    while (model_.find_state(name) || model_.find_parameter(name) ||
-           std::any_of(model_.definitions.begin(), model_.definitions.end(), is_definition))
-        name += '_';
-    return model_.symbol(name);
 }
 
 Function VariationalCompiler::function_of(std::span<const Expression> functions) {
@@ -81,27 +72,10 @@ Function VariationalCompiler::function_of(std::span<const Expression> functions)
     return function;
 }
 
-/// A model of its own, in which the tangent is a state like others.
 System VariationalCompiler::modes() {
-    Model doubled;
-    doubled.graph = model_.graph;
-    doubled.name = model_.name;
-    for (const Expression& state : states_)
-        doubled.states.push_back({.name = state.name(), .initial = model_.number(0)});
-    for (std::size_t i = 0; i < states_.size(); ++i)
-        doubled.states.push_back({.name = vector_[i].name(), .initial = model_.number(0)});
-    const std::vector<double> values = model_.parameter_values();
-    for (const Expression& parameter : model_.parameter_symbols())
-        doubled.parameters.push_back({.name = parameter.name(), .value = values[doubled.parameters.size()]});
-    for (std::size_t i = states_.size(); i < vector_.size(); ++i)
-        doubled.parameters.push_back({.name = vector_[i].name(), .value = 0.0});
-    for (const Mode& mode : model_.modes) {
-        std::vector<Expression> rates = model_.expand(mode.rates);
-        const std::vector<Expression> tangent = differentiate_along(rates, along_);
-        rates.insert(rates.end(), tangent.begin(), tangent.end());
-        doubled.modes.push_back({.name = mode.name, .rates = std::move(rates)});
-    }
-    return doubled;
+    std::vector<std::size_t> rows(states_.size());
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    return modes_with_tangents(model_, rows, std::span(&along_, 1));
 }
 
 } // namespace

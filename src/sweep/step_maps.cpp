@@ -1,6 +1,9 @@
 #include "sweep/step_maps.hpp"
 
+#include "flow/modes_with_tangents.hpp"
 #include "graze/flow/step_check.hpp"
+#include "graze/flow/tangent_reach.hpp"
+#include "graze/flow/tangent_steps.hpp"
 #include "graze/symbolic/transform.hpp"
 
 #include <fmt/format.h>
@@ -8,8 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
-#include <utility>
 
 namespace graze {
 
@@ -54,44 +55,15 @@ std::vector<std::size_t> directions_of(const SectionMap& map) {
     return directions;
 }
 
-/// A symbol whose name the model does not have.
-Expression new_symbol(Model& model, std::string name) {
-    const auto is_definition = [&](const Definition& definition) { return definition.name == name; };
-    while (model.find_state(name) || model.find_parameter(name) ||
-           std::any_of(model.definitions.begin(), model.definitions.end(), is_definition))
-        name += '_';
-    return model.symbol(name);
-}
-
 /// The modes alone, with the matrix of derivatives as states like others.
 System with_derivatives(const System& system, const std::vector<std::size_t>& directions) {
-    Model model = system.model(), grown;
-    grown.graph = model.graph;
-    grown.name = model.name;
+    Model model = system.model();
     const std::vector<Expression> states = model.state_symbols();
-    for (const Expression& state : states)
-        grown.states.push_back({.name = state.name(), .initial = model.number(0)});
-    const std::vector<double> values = model.parameter_values();
-    for (const Expression& parameter : model.parameter_symbols())
-        grown.parameters.push_back({.name = parameter.name(), .value = values[grown.parameters.size()]});
     std::vector<std::vector<Component>> columns(directions.size());
     for (std::size_t d = 0; d < directions.size(); ++d)
-        for (const std::size_t i : directions) {
-            const Expression entry = new_symbol(model, fmt::format("along_{}_{}", i, d));
-            grown.states.push_back({.name = entry.name(), .initial = model.number(0)});
-            columns[d].emplace_back(states[i], entry);
-        }
-    for (const Mode& mode : model.modes) {
-        std::vector<Expression> rates = model.expand(mode.rates), moving;
         for (const std::size_t i : directions)
-            moving.push_back(rates[i]);
-        for (const std::vector<Component>& column : columns) {
-            const std::vector<Expression> along = differentiate_along(moving, column);
-            rates.insert(rates.end(), along.begin(), along.end());
-        }
-        grown.modes.push_back({.name = mode.name, .rates = std::move(rates)});
-    }
-    return grown;
+            columns[d].emplace_back(states[i], new_symbol(model, fmt::format("along_{}_{}", i, d)));
+    return modes_with_tangents(model, directions, columns);
 }
 
 } // namespace
