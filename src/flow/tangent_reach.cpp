@@ -96,12 +96,11 @@ double Misfit::compare(double step) const {
 
 /// A difference in units of what is allowed, where it exceeds what the ends of the step allow. @param lane of the jet
 double Misfit::excess(std::size_t i, std::size_t lane, double apart, double size, double length) const {
-    constexpr double roundoff = 1e4 * 0x1p-53;
     size = std::max(size, size_of_all(jet_.series()[i].first + lane, width_, order_, length));
     if (!floors_.empty())
         size = std::max(size, floors_[i * width_ + lane]);
     const double noise = noise_.empty() ? 0 : length * noise_[i * count_ + lane - 1],
-                 ratio = apart / ((StepCheck::allowance * tolerance_ + roundoff) * size + noise);
+                 ratio = apart / ((StepCheck::allowance * tolerance_ + TangentCheck::round_off) * size + noise);
     return std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio;
 }
 
@@ -154,10 +153,7 @@ double follow_tangents(const Jet& jet, Jet& next, std::size_t states, std::size_
                        const TangentFloors& floors, const TangentFloors& noise) {
     require_lanes(jet, states, count);
     require_room(times.size(), static_cast<std::size_t>(jet.width()), "times");
-    // What is left out falls with a high power of the step. What does not is the round-off of derivatives that have
-    // only begun to differ from zero: no shorter step would be better.
-    constexpr int most_halvings = 8;
-    constexpr double least_gain = 0.1;
+    constexpr int most_halvings = TangentCheck::most_halvings;
     Misfit misfit(jet, next, states, count, tolerance, times, sums, slopes);
     const double most = misfit.after(step);
     if (most <= 1)
@@ -179,7 +175,7 @@ double follow_tangents(const Jet& jet, Jet& next, std::size_t states, std::size_
             return part;
         if (halving == 0)
             first = here;
-        else if (halving == most_halvings && std::isfinite(here) && here > least_gain * first)
+        else if (halving == most_halvings && std::isfinite(here) && here > TangentCheck::least_gain * first)
             break;
         else if (halving == most_halvings)
             return part;

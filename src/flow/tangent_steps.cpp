@@ -8,15 +8,6 @@
 
 namespace graze {
 
-namespace {
-
-/// What derivatives are allowed of the tolerance of the states: what is cut off is far smaller than the last terms.
-constexpr double allowance = 50;
-/// Parts of a step that directions may need which are faster than the first ones.
-constexpr int most_parts = 200'000;
-
-} // namespace
-
 TangentSteps::TangentSteps(const System& system, int order, double tolerance, std::size_t directions)
     : system_(system), states_(system.states()), directions_(directions), tolerance_(allowance * tolerance),
       jets_(system, order, LaneKind::tangent), lanes_(static_cast<std::size_t>(jets_.width()) - 1), couplings_(system) {
@@ -75,6 +66,7 @@ const Jet& TangentSteps::begin(std::size_t mode, std::span<const double> state, 
     return jets_.computed(mode, seeds_);
 }
 
+/// Measured where the step begins, once it is asked for.
 const Couplings& TangentSteps::couplings_here(std::size_t mode) {
     if (measured_ == nullptr)
         measured_ = &couplings_.measured(mode, place_);
@@ -83,9 +75,9 @@ const Couplings& TangentSteps::couplings_here(std::size_t mode) {
 
 /// To what each component may be brought by the others, from where all are now.
 std::span<const double> TangentSteps::floors_of(const Jet& jet, std::size_t mode, std::size_t count, double length) {
-    couplings_here(mode);
+    const Couplings& couplings = couplings_here(mode);
     const std::size_t width = lanes_ + 1;
-    const double time = std::min(std::abs(length), measured_->response_time());
+    const double time = std::min(std::abs(length), couplings.response_time());
     const std::span<const Series> series = jet.series();
     for (std::size_t i = 0; i < states_; ++i) {
         const double* c = series[i].first;
@@ -94,7 +86,7 @@ std::span<const double> TangentSteps::floors_of(const Jet& jet, std::size_t mode
                 std::abs(c[l]) + time * (std::abs(c[width + l]) + time * std::abs(c[2 * width + l]));
     }
     // The first lane is that of the value.
-    measured_->spread(time, floors_, width, count + 1);
+    couplings.spread(time, floors_, width, count + 1);
     return floors_;
 }
 

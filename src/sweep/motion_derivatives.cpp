@@ -1,5 +1,7 @@
 #include "sweep/motion_derivatives.hpp"
 
+#include "trajectory/saltation.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -17,8 +19,8 @@ constexpr double nothing = 1e-12;
 MotionDerivatives::MotionDerivatives(const VariationalModes& modes, StepMaps& maps)
     : modes_(&modes), maps_(&maps), states_(modes.simulation().system().states()) {}
 
-void MotionDerivatives::begin(std::span<const double> parameters, std::span<const double> scale,
-                              Eigen::MatrixXd derivatives, AtMark at_mark) {
+void MotionDerivatives::begin(std::span<const double> parameters, std::span<const double> scale, Matrix derivatives,
+                              AtMark at_mark) {
     const System& system = modes_->simulation().system();
     parameters_.assign(parameters.begin(), parameters.end());
     scale_.assign(scale.begin(), scale.end());
@@ -36,7 +38,7 @@ void MotionDerivatives::begin(std::span<const double> parameters, std::span<cons
     set(std::move(derivatives));
 }
 
-void MotionDerivatives::set(Eigen::MatrixXd derivatives) {
+void MotionDerivatives::set(Matrix derivatives) {
     derivatives_ = std::move(derivatives);
     valid_ = true;
 }
@@ -152,7 +154,7 @@ void MotionDerivatives::pass_step(std::size_t number) {
     derivatives_.swap(next_);
 }
 
-/// A contact happens later by -dh / h', and what happens until then is that of the field before or after it.
+/// A contact happens later by -dh / h'.
 void MotionDerivatives::pass_contact(const Item& item) {
     const System& system = modes_->simulation().system();
     const std::span<double> before = std::span(fields_).first(states_), after = std::span(fields_).last(states_);
@@ -163,28 +165,18 @@ void MotionDerivatives::pass_contact(const Item& item) {
     jump.jacobian.evaluate(inputs_, jacobian_, work_);
     std::ranges::copy(state_at(item.numbers + states_), inputs_.begin());
     system.mode(item.mode_after).rates.evaluate(inputs_, after, work_);
-    next_.resize(derivatives_.rows(), derivatives_.cols());
-    for (Eigen::Index c = 0; c < derivatives_.cols(); ++c) {
-        auto column = derivatives_.col(c);
-        double shift = 0;
+    shift_.assign(static_cast<std::size_t>(derivatives_.cols()), 0.0);
+    for (std::size_t c = 0; c < shift_.size(); ++c) {
         for (std::size_t i = 0; i < states_; ++i)
-            shift -= gradient_[1 + i] * column[static_cast<Eigen::Index>(i)];
-        shift /= item.rate;
-        for (std::size_t i = 0; i < states_; ++i)
-            column[static_cast<Eigen::Index>(i)] += before[i] * shift;
-        auto image = next_.col(c);
-        image = column;
-        for (const std::size_t i : jump.changed)
-            image[static_cast<Eigen::Index>(i)] = 0;
-        // Parameters are the same for all neighbours.
-        for (std::size_t k = 0; k < jump.entries.size(); ++k)
-            if (jump.entries[k].column < states_ && jacobian_[k] != 0)
-                image[static_cast<Eigen::Index>(jump.entries[k].row)] +=
-                    jacobian_[k] * column[static_cast<Eigen::Index>(jump.entries[k].column)];
-        for (std::size_t i = 0; i < states_; ++i)
-            image[static_cast<Eigen::Index>(i)] -= after[i] * shift;
+            shift_[c] -= gradient_[1 + i] * derivatives_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c));
+        shift_[c] /= item.rate;
     }
-    derivatives_.swap(next_);
+    next_.resize(derivatives_.rows(), derivatives_.cols());
+    const auto numbers = [](Matrix& matrix) {
+        return std::span(matrix.data(), static_cast<std::size_t>(matrix.size()));
+    };
+    // Parameters are the same for all neighbours.
+    pass_jump({shift_, before, after, jump, jacobian_, {}}, numbers(derivatives_), numbers(next_));
 }
 
 } // namespace graze

@@ -22,6 +22,8 @@ public:
     /// @param maps to compute with, also for others in turn
     explicit MotionDerivatives(const VariationalModes& modes, StepMaps& maps);
 
+    using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
     /// A place along the motion that was marked.
     struct Mark {
         double time = 0;
@@ -32,7 +34,7 @@ public:
     using AtMark = std::function<void(const Mark& mark)>;
 
     /// @param scale of each state; @param derivatives at the beginning
-    void begin(std::span<const double> parameters, std::span<const double> scale, Eigen::MatrixXd derivatives,
+    void begin(std::span<const double> parameters, std::span<const double> scale, Matrix derivatives,
                AtMark at_mark = {});
 
     // What is seen, in this order. Nothing is computed before `carry`, unless it becomes much.
@@ -48,12 +50,12 @@ public:
     /// Carries derivatives along all that has been seen.
     void carry();
     /// Where they have been carried to.
-    const Eigen::MatrixXd& derivatives() const { return derivatives_; }
+    const Matrix& derivatives() const { return derivatives_; }
     bool valid() const { return valid_; }
     /// Whether contacts have accumulated: nothing is noted of what came behind.
     bool broken() const { return broken_; }
     /// Others instead, which are valid.
-    void set(Eigen::MatrixXd derivatives);
+    void set(Matrix derivatives);
 
 private:
     struct Item {
@@ -80,13 +82,13 @@ private:
     StepMaps* maps_;
     std::size_t states_;
     AtMark at_mark_;
-    Eigen::MatrixXd derivatives_, next_;
+    Matrix derivatives_, next_;
     bool valid_ = true, broken_ = false;
     std::vector<Item> items_;
     std::vector<Ahead> ahead_;
     std::vector<double> numbers_; ///< states
     std::vector<double> parameters_, scale_;
-    std::vector<double> inputs_, work_, fields_, gradient_, jacobian_;
+    std::vector<double> inputs_, work_, fields_, gradient_, jacobian_, shift_;
 };
 
 } // namespace graze

@@ -18,13 +18,6 @@ namespace {
 
 /// Directions up to which all of them in lanes are cheaper than one or more that a trajectory carries.
 constexpr std::size_t most_directions = 6;
-/// What derivatives are allowed of the tolerance of the states, as in TangentSteps.
-constexpr double allowance = 50;
-/// Round-off of rates that is allowed in any case.
-constexpr double roundoff = 1e4 * std::numeric_limits<double>::epsilon() / 2;
-constexpr int most_halvings = 8;
-constexpr double least_gain = 0.1; ///< of all halvings, below which what differs is round-off
-
 /// Whether the rate of a state is the same whatever the states and the mode, and no jump changes it.
 bool is_clock(const System& system, Model& model, std::size_t state) {
     Expression rate;
@@ -82,7 +75,7 @@ VariationalModes::VariationalModes(const SectionMap& map)
 StepMaps::StepMaps(const VariationalModes& modes)
     : modes_(&modes), states_(modes.simulation().system().states()), directions_(modes.directions().size()),
       map_size_(std::max<std::size_t>(directions_ * directions_, 1)),
-      tolerance_(allowance * modes.simulation().options().tolerance),
+      tolerance_(TangentSteps::allowance * modes.simulation().options().tolerance),
       jets_(modes.system(), modes.simulation().order(), LaneKind::ensemble),
       lanes_(static_cast<std::size_t>(jets_.width())), product_(map_size_),
       queues_(modes.system().model().modes.size()), seeds_((states_ + map_size_) * lanes_), sums_(seeds_.size()),
@@ -221,7 +214,7 @@ double StepMaps::misfit(const Jet& jet, const Jet& next, std::size_t lane, doubl
             apart = std::max(apart, difference);
             size = std::max(size, StepCheck::size_over(c[0], c[lanes_], sums_[at], rate, length) * scale);
         }
-        most = finite ? std::max(most, apart / ((StepCheck::allowance * tolerance_ + roundoff) * size))
+        most = finite ? std::max(most, apart / ((StepCheck::allowance * tolerance_ + TangentCheck::round_off) * size))
                       : std::numeric_limits<double>::infinity();
         if (!finite)
             break;
@@ -235,12 +228,12 @@ bool StepMaps::believe(Part& part, double misfit) const {
         return true;
     if (part.halvings == 0)
         part.first_misfit = misfit;
-    if (part.halvings < most_halvings) {
+    if (part.halvings < TangentCheck::most_halvings) {
         ++part.halvings;
         part.attempt *= 0.5;
         return false;
     }
-    if (std::isfinite(misfit) && misfit <= least_gain * part.first_misfit)
+    if (std::isfinite(misfit) && misfit <= TangentCheck::least_gain * part.first_misfit)
         return true;
     part.accepted = true;
     part.attempt = part.length;

@@ -1,5 +1,7 @@
 #include "trajectory/tangents.hpp"
 
+#include "trajectory/saltation.hpp"
+
 #include <algorithm>
 
 namespace graze {
@@ -32,9 +34,8 @@ void Tangents::coefficient(std::size_t mode, std::span<const double> state, std:
 
 void Tangents::advance(std::size_t mode, std::span<const double> state, double s, std::size_t series,
                        std::span<double> row) {
-    constexpr int most_parts = 200'000;
     // In parts, where derivatives are faster than the states.
-    for (int part = 0; part < most_parts; ++part) {
+    for (int part = 0; part < TangentSteps::most_parts; ++part) {
         steps_.begin(mode, state, matrix_);
         const double length = steps_.carry(mode, state, matrix_, s, next_, series, row);
         if (length == 0 && s != 0)
@@ -52,29 +53,11 @@ void Tangents::advance(std::size_t mode, std::span<const double> state, double s
 void Tangents::pass_jump(std::span<const double> shift, std::span<const double> field_before,
                          const System::CompiledJump& jump, std::span<const double> jacobian,
                          std::span<const double> field_after) {
-    add_product(field_before, shift);
-    for (const std::size_t i : jump.changed)
-        std::fill_n(&next_[i * directions_], directions_, 0.0);
-    for (std::size_t k = 0; k < jump.entries.size(); ++k) {
-        const double entry = jacobian[k];
-        if (entry == 0)
-            continue;
-        const auto [i, j] = jump.entries[k];
-        const double* from = j < states_ ? &matrix_[j * directions_] : &parameter_seeds_[(j - states_) * directions_];
-        for (std::size_t d = 0; d < directions_; ++d)
-            next_[i * directions_ + d] += entry * from[d];
-    }
-    for (const std::size_t i : jump.changed)
-        std::copy_n(&next_[i * directions_], directions_, &matrix_[i * directions_]);
-    for (std::size_t i = 0; i < states_; ++i)
-        for (std::size_t d = 0; d < directions_; ++d)
-            matrix_[i * directions_ + d] -= field_after[i] * shift[d];
+    graze::pass_jump({shift, field_before, field_after, jump, jacobian, parameter_seeds_}, matrix_, next_);
 }
 
 void Tangents::add_product(std::span<const double> column, std::span<const double> row) {
-    for (std::size_t i = 0; i < states_; ++i)
-        for (std::size_t d = 0; d < directions_; ++d)
-            matrix_[i * directions_ + d] += column[i] * row[d];
+    graze::add_product(matrix_, column, row);
 }
 
 } // namespace graze

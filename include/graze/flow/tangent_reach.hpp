@@ -12,6 +12,16 @@ namespace graze {
 /// sizes are too small a measure.
 using TangentFloors = std::function<std::span<const double>()>;
 
+/// How differences between slopes of derivatives' polynomials and the variational equations are judged.
+struct TangentCheck {
+    /// Of rates, which is allowed in any case.
+    static constexpr double round_off = 1e4 * 0x1p-53;
+    /// What is left out falls with a high power of the step. What does not is the round-off of derivatives that have
+    /// only begun to differ from zero: no shorter step would be better. So many halvings have to gain so much.
+    static constexpr int most_halvings = 8;
+    static constexpr double least_gain = 0.1;
+};
+
 /// How far the series of derivatives in a tangent jet may be followed: the last two terms of each must stay below a
 /// tolerance relative to its first three, as for the states themselves. A motion may be much slower than what
 /// disturbs it, such as an oscillation that follows a slow force: then steps that are right for the states are too

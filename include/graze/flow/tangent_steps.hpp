@@ -21,6 +21,11 @@ namespace graze {
 /// Matrices are row by row, [row * directions + direction].
 class TangentSteps {
 public:
+    /// What derivatives are allowed of the tolerance of the states: what is cut off is far smaller than the last terms.
+    static constexpr double allowance = 50;
+    /// Parts of a step that directions may need which are faster than the motion, or than the first ones.
+    static constexpr int most_parts = 200'000;
+
     /// @param tolerance of the states; @param directions any number of them
     TangentSteps(const System& system, int order, double tolerance, std::size_t directions);
 
@@ -39,7 +44,7 @@ public:
     /// @param after the matrix at the end; @param output row of that output's derivatives there, `row`, unless it is
     /// empty
     /// @return how far, at most `length`; 0 where a direction is so much faster than the first ones that it did not
-    /// come as far in 200,000 parts
+    /// come as far in `most_parts`
     double carry(std::size_t mode, std::span<const double> state, std::span<const double> matrix, double length,
                  std::span<double> after, std::size_t output = 0, std::span<double> row = {});
     /// Where `carry` has led to.
