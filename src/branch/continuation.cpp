@@ -173,6 +173,7 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
     const std::vector<double> begin = u;
     std::vector<double> moved, step(u.size());
     double before = 0;
+    bool quick = true;
     made_.clear();
     for (iterations = 1;; ++iterations) {
         const bool first = renewed && iterations == 1;
@@ -185,7 +186,7 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
         if (!std::isfinite(size) || std::sqrt(product(moved, moved)) > allowed)
             return false;
         if (iterations == 2)
-            pace_ = size < fast * before || size < options_.accuracy ? growth : shrinkage;
+            quick = size < fast * before || size < options_.accuracy;
         const double ratio = iterations > 1 ? size / before : 1;
         if (size * std::min(ratio, 1.0) < enough * options_.accuracy)
             break;
@@ -197,13 +198,12 @@ bool Continuation::chords(std::vector<double>& u, std::span<const double> row, d
         before = size;
         made_.push_back(step);
     }
-    if (iterations == 1)
-        pace_ = growth;
-    // Where derivatives cost so much, more corrections cost less than a shorter step.
-    if (problem_->derivatives_are_dear() && !renewed)
+    if (!problem_->derivatives_are_dear())
+        pace_ = quick ? growth : shrinkage;
+    else if (!renewed) // more corrections cost less than a shorter step
         pace_ = iterations <= few ? growth : 1;
-    else if (problem_->derivatives_are_dear() && pace_ == growth)
-        pace_ = 1; // derivatives of the last point were no longer good enough
+    else // derivatives of the last point were no longer good enough
+        pace_ = quick ? 1 : shrinkage;
     if (!problem_->evaluate(u) || !problem_->solve(row, 0, false, step_, nullptr))
         return false;
     const double last = size_of(step_);

@@ -125,21 +125,28 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
                                                                                               : Ending::undefined;
 }
 
+ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double duration, WatchedSeries& watched) {
+    require_index(mode, system_.model().modes.size(), "mode");
+    const std::size_t events = system_.mode(mode).watched.size();
+    watched.begin(events);
+    if (events == 0)
+        return run(mode, state, duration);
+    return run(mode, state, duration, [&](const Jet& jet, double time, double length) {
+        watched.note(jet);
+        watched.end_step(time, length);
+    });
+}
+
 ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double duration,
                                std::span<double> derivatives, WatchedSeries* watched) {
     require_fitting(mode, state);
     require_size(derivatives.size(), states_ * directions_, "derivatives");
+    if (directions_ == 0)
+        return watched ? run(mode, state, duration, *watched) : run(mode, state, duration);
     const std::size_t events = system_.mode(mode).watched.size();
     if (watched)
         watched->begin(events);
     const bool looks = watched && events > 0;
-    if (directions_ == 0)
-        return looks ? run(mode, state, duration,
-                           [&](const Jet& jet, double time, double length) {
-                               watched->note(jet);
-                               watched->end_step(time, length);
-                           })
-                     : run(mode, state, duration);
     if (!std::isfinite(duration))
         return Ending::undefined;
     std::fill(matrix_.begin(), matrix_.end(), 0.0);

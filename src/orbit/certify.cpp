@@ -220,7 +220,7 @@ private:
             const double duration = at_->unknowns[index(layout.duration_of(k))];
             if (!at_->pieces[k].watched.steps().empty())
                 watcher.look(at_->pieces[k].watched, begin);
-            else
+            else if (!mode.watched.empty())
                 watcher.look(followed(k, duration), begin);
             begin += duration;
         }
@@ -241,12 +241,7 @@ private:
     const WatchedSeries& followed(std::size_t k, double duration) {
         const double* start = at_->unknowns.data() + equations_->layout().start_of(k);
         std::vector<double> state(start, start + states_);
-        const std::size_t mode = equations_->mode_of(k);
-        series_.begin(system_->mode(mode).watched.size());
-        equations_->flow_at(*at_).run(mode, state, duration, [&](const Jet& jet, double time, double length) {
-            series_.note(jet);
-            series_.end_step(time, length);
-        });
+        equations_->flow_at(*at_).run(equations_->mode_of(k), state, duration, series_);
         return series_;
     }
 

@@ -40,6 +40,8 @@ public:
     /// The state after a time. @param state start, replaced by the end
     /// @throws InputError, here and below, for a mode or numbers that do not fit the system
     Ending run(std::size_t mode, std::span<double> state, double duration, const StepVisitor& visit = {});
+    /// @param watched what the mode's events do on the way
+    Ending run(std::size_t mode, std::span<double> state, double duration, WatchedSeries& watched);
     /// The same with derivatives. @param derivatives of the end at fixed time with respect to the states of the start
     /// and the free parameters, states x (starts + free) row by row
     /// @param watched what the mode's events do on the way, unless null
