@@ -53,7 +53,7 @@ struct AttractorOptions {
     double disturbance = 1e-6;
     std::size_t lyapunov_cycles = 60; ///< the last of `cycles`, over which the exponent is averaged; 0: none
     double longest_return = 0;        ///< time without a return after which a point is given up as unsettled; 0: none
-    std::vector<StateBounds> bounds;  ///< leaving them is an escape
+    std::vector<StateBounds> bounds = {}; ///< leaving them is an escape
     /// @throws InputError naming the option that is out of range
     void validate(const Model& model) const;
 };
