@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""Runs clang-tidy on all sources, several of a folder at once: what they include is parsed once and not for each.
+
+usage: tidy.py BUILD OUTPUT JOBS
+
+BUILD has compile_commands.json; what is put together goes to OUTPUT. Sources whose names collide are looked at in
+smaller parts.
+"""
+import collections
+import concurrent.futures
+import json
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MOST = 12  # sources in a batch
+
+
+def batch_text(sources):
+    """All in one; an include that an earlier source has is left out, so that none is told to be there twice."""
+    seen = set()
+    lines = []
+    for source in sources:
+        lines.append(f'#line 1 "{source}"')
+        own = set()
+        for line in pathlib.Path(source).read_text(encoding="utf-8").splitlines():
+            if line.startswith("#include"):
+                skipped = line in seen - own
+                own.add(line)
+                seen.add(line)
+                line = "" if skipped else line
+            lines.append(line)
+    return "\n".join(lines) + "\n"
+
+
+def look_at(batch, output):
+    """What clang-tidy finds, and whether that is nothing."""
+    first = batch[0]
+    source = pathlib.Path(first["file"])
+    folder = output / f"{source.parent.name}_{source.stem}_{len(batch)}"
+    if len(batch) > 1:
+        folder.mkdir(parents=True, exist_ok=True)
+        path = folder / source.name
+        path.write_text(batch_text([c["file"] for c in batch]), encoding="utf-8")
+        command = first["command"].replace(first["file"], str(path))
+        (folder / "compile_commands.json").write_text(json.dumps([dict(first, file=str(path), command=command)]))
+        words = ["clang-tidy", "--quiet", f"--config-file={ROOT}/.clang-tidy", "-p", str(folder), str(path)]
+    else:
+        words = ["clang-tidy", "--quiet", "-p", first["build"], first["file"]]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    if len(batch) > 1 and "[clang-diagnostic-error]" in done.stdout:
+        middle = len(batch) // 2
+        halves = [look_at(batch[:middle], output), look_at(batch[middle:], output)]
+        return "".join(text for text, _ in halves), all(clean for _, clean in halves)
+    return done.stdout + (done.stderr if done.returncode else ""), done.returncode == 0
+
+
+def main(build, output, jobs):
+    commands = json.loads((build / "compile_commands.json").read_text())
+    by_folder = collections.defaultdict(list)
+    for command in sorted(commands, key=lambda c: c["file"]):
+        source = pathlib.Path(command["file"])
+        # Kernels are one text, compiled for several processors.
+        if source.is_relative_to(ROOT / "src") and source.name not in ("jet_avx2.cpp", "jet_avx512.cpp"):
+            alone = source.name == "jet_baseline.cpp"
+            by_folder[source if alone else source.parent].append(dict(command, build=str(build)))
+    batches = []
+    for sources in by_folder.values():
+        parts = -(-len(sources) // MOST)
+        batches += [sources[part::parts] for part in range(parts)]
+    clean = True
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        for text, good in pool.map(lambda batch: look_at(batch, output), batches):
+            print(text, end="", flush=True)
+            clean = clean and good
+    if not batches:
+        sys.exit("there are no sources")
+    sys.exit(0 if clean else 1)
+
+
+main(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve(), int(sys.argv[3]))
