@@ -9,6 +9,7 @@ if(program_sources)
 endif()
 if(TARGET graze_program AND EXISTS ${PROJECT_SOURCE_DIR}/src/program/main.cpp)
     add_executable(graze_executable src/program/main.cpp)
+    target_include_directories(graze_executable PRIVATE src)
     target_link_libraries(graze_executable PRIVATE graze_program graze_options)
     # In a folder of its own, which can be put on the PATH without anything else.
     set_target_properties(

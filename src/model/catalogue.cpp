@@ -46,6 +46,13 @@ const std::vector<CatalogueEntry>& catalogue() {
     return entries;
 }
 
+std::vector<std::string> shipped_models() {
+    std::vector<std::string> names;
+    for (const EmbeddedModel& model : embedded_models())
+        names.emplace_back(model.name);
+    return names;
+}
+
 std::optional<CatalogueEntry> find_in_catalogue(std::string_view name) {
     for (const EmbeddedModel& model : embedded_models())
         if (model.name == name)

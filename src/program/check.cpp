@@ -83,7 +83,7 @@ std::vector<ModelWarning> motion_warnings(const Model& model) {
 } // namespace
 
 int check_command(const CheckArguments& arguments, const Console& console) {
-    const Model model = load_program_model(arguments.model);
+    const Model model = load_model(arguments.model);
     require_distinct({{"the model", is_model_path(arguments.model) ? arguments.model : ""},
                       {"--graph", arguments.graph},
                       {"--output", arguments.output.file}});
@@ -100,7 +100,7 @@ int check_command(const CheckArguments& arguments, const Console& console) {
         heading.add("model", model.name);
         deliver(describe_in_table(model), arguments.output, heading, console);
     } else if (arguments.output.file.empty()) {
-        console.out << describe(model);
+        console.out << describe(model, console.width);
     } else {
         write_file(arguments.output.file, describe(model));
     }

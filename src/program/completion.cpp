@@ -16,15 +16,6 @@ namespace graze {
 
 namespace {
 
-std::vector<std::string> shipped_models() {
-    std::vector<std::string> names;
-    for (const CatalogueEntry& entry : catalogue())
-        names.push_back(entry.name);
-    if (!find_in_catalogue("microbeam"))
-        names.emplace_back("microbeam");
-    return names;
-}
-
 std::vector<std::string> both(std::vector<std::string> one, const std::vector<std::string>& other) {
     one.insert(one.end(), other.begin(), other.end());
     std::sort(one.begin(), one.end());

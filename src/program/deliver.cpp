@@ -10,27 +10,20 @@
 
 namespace graze {
 
-namespace {
-
-/// Letters in a line, of windows on a screen and in print.
-constexpr std::size_t terminal_width = 100;
-
-} // namespace
-
 void deliver(const Table& given, const OutputArguments& output, const JsonObject& heading, const Console& console,
              const std::vector<std::string>& kept) {
     const int digits = output.shown_digits();
     FittedTable chosen;
     const bool fits = output.format == TableFormat::table && !output.all;
     if (fits)
-        chosen = fitted(given, digits, terminal_width, kept);
+        chosen = fitted(given, digits, console.width, kept);
     const Table& table = fits ? chosen.table : given;
     if (output.file.empty()) {
-        write_table(console.out, table, output.format, digits, heading);
+        write_table(console.out, table, output.format, digits, heading, fits ? console.width : 0);
         require_delivered(console);
     } else {
         std::ostringstream text;
-        write_table(text, table, output.format, digits, heading);
+        write_table(text, table, output.format, digits, heading, fits ? console.width : 0);
         write_file(output.file, text.view());
     }
     if (const std::size_t count = chosen.left_out.size(); count > 0)

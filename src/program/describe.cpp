@@ -113,20 +113,6 @@ private:
 
 } // namespace
 
-std::string wrapped(const std::string& text) {
-    constexpr std::size_t width = 100;
-    std::string result;
-    std::size_t column = 0;
-    std::istringstream words(text);
-    for (std::string word; words >> word;) {
-        const bool fits = column > 0 && column + 1 + word.size() <= width;
-        result += column == 0 ? "" : fits ? " " : "\n";
-        column = (fits ? column + 1 : 0) + word.size();
-        result += word;
-    }
-    return result;
-}
-
 std::vector<double> all_parameter_values(const Model& model) {
     std::vector<Expression> values;
     for (const Parameter& parameter : model.parameters)
@@ -171,7 +157,7 @@ Table describe_in_table(const Model& model) {
     return table;
 }
 
-std::string describe(const Model& model) {
+std::string describe(const Model& model, std::size_t width) {
     Listing listing;
     listing.heading(model.states.size(), "state (initial value)", "states (initial values)");
     const std::vector<double> states = model.initial_state();
@@ -206,7 +192,7 @@ std::string describe(const Model& model) {
         fmt::format("{}{}\n", model.name, model.time_unit.empty() ? "" : fmt::format(" (time in {})", model.time_unit));
     for (const std::string& paragraph : {model.text, model.source.empty() ? "" : "Source: " + model.source})
         if (!paragraph.empty())
-            text += wrapped(paragraph) + '\n';
+            text += wrapped(paragraph, width) + '\n';
     return text + listing.text();
 }
 

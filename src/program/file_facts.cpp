@@ -6,7 +6,6 @@
 #include "graze/study/setting_list.hpp"
 #include "graze/study/stored_study.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -116,12 +115,6 @@ void add_words(Facts& facts, const std::string& item, const std::string& name, c
     facts.add(item, name, "source", source);
 }
 
-const StudyRun* find_run(const Study& study, const std::string& name) {
-    const auto found =
-        std::find_if(study.runs.begin(), study.runs.end(), [&](const StudyRun& run) { return run.name == name; });
-    return found == study.runs.end() ? nullptr : &*found;
-}
-
 /// @param asked the run as it was asked for; may be null
 void add_stored_run(Facts& facts, const ResultFile& file, const RunRecord& record, const StudyRun* asked) {
     const std::string& run = record.name;
@@ -158,7 +151,7 @@ void add_file_facts(Facts& facts, const std::string& path, const std::string& ki
     }
     facts.add("file", "", "path", path);
     facts.add("file", "", "size", static_cast<double>(status.st_size), "bytes");
-    facts.add("file", "", "written", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(status.st_mtime)));
+    facts.add("file", "", "written", text_of(status.st_mtime));
 }
 
 void add_facts(Facts& facts, const Model& model) {
@@ -207,7 +200,7 @@ void add_facts(Facts& facts, const ResultFile& file) {
     }
     const std::vector<RunRecord> records = file.runs();
     for (const RunRecord& record : records)
-        add_stored_run(facts, file, record, study ? find_run(*study, record.name) : nullptr);
+        add_stored_run(facts, file, record, study ? study->find_run(record.name) : nullptr);
     for (const StudyRun& run : study ? study->runs : std::vector<StudyRun>())
         if (!file.find_run(run.name)) {
             facts.add("run", run.name, "kind", std::string(name_of(run.kind)));

@@ -1,11 +1,11 @@
 #include "graze/model/catalogue.hpp"
+#include "graze/results/name_advice.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "graze/symbolic/text_file.hpp"
 #include "program/commands.hpp"
 #include "program/describe.hpp"
 #include "program/file_facts.hpp"
 #include "program/output_file.hpp"
-#include "program/values.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,13 +21,6 @@ namespace graze {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
-bool is_database(const std::string& path) {
-    constexpr std::string_view signature = "SQLite format 3";
-    std::string start(signature.size(), ' ');
-    std::ifstream stream(path, std::ios::binary);
-    return stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == signature;
-}
 
 /// Refuses what would never end, as a pipe, and what says nothing. @param named whether by itself, not by its folder
 void require_contents(const std::string& path, bool named) {
@@ -46,18 +39,18 @@ void add_text_file(Facts& facts, const std::string& path) {
     const bool study = is_study_text(text, path);
     add_file_facts(facts, path, study ? "study" : "model");
     const std::string file = is_model_path(path) ? path : "./" + path; // not one of those that come with graze
-    study ? add_facts(facts, load_study(file)) : add_facts(facts, load_program_model(file));
+    study ? add_facts(facts, load_study(file)) : add_facts(facts, load_model(file));
 }
 
 /// A name may be that of a model and of a study.
 void add_shipped(Facts& facts, const std::string& name) {
     const std::vector<std::string> studies = shipped_studies();
     const bool study = std::find(studies.begin(), studies.end(), name) != studies.end();
-    const bool model = find_in_catalogue(name).has_value() || name == "microbeam";
+    const bool model = find_in_catalogue(name).has_value();
     if (!study && !model) {
         std::vector<std::string> known = studies;
-        for (const CatalogueEntry& entry : catalogue())
-            known.push_back(entry.name);
+        for (std::string& model_name : shipped_models())
+            known.push_back(std::move(model_name));
         std::sort(known.begin(), known.end());
         known.erase(std::unique(known.begin(), known.end()), known.end());
         throw InputError(fmt::format("there is no file '{}', and nothing of that name comes with graze", name),
@@ -65,7 +58,7 @@ void add_shipped(Facts& facts, const std::string& name) {
     }
     add_file_facts(facts, "", model && study ? "model and study" : model ? "model" : "study");
     if (model)
-        add_facts(facts, load_program_model(name));
+        add_facts(facts, load_model(name));
     if (study)
         add_facts(facts, load_study(name));
 }
@@ -117,11 +110,11 @@ std::string heading_of(const Facts& facts) {
 }
 
 /// Name, words and source of a model or study.
-std::string words_of(const Facts& facts, const std::string& item, const std::string& name) {
+std::string words_of(const Facts& facts, const std::string& item, const std::string& name, std::size_t width) {
     std::string text = fmt::format("\n{} {}\n", item, name);
     for (const char* property : {"text", "source"})
         if (const std::string words = facts.text(item, name, property); !words.empty())
-            text += wrapped((std::string_view(property) == "source" ? "Source: " : "") + words) + '\n';
+            text += wrapped((std::string_view(property) == "source" ? "Source: " : "") + words, width) + '\n';
     for (const Fact& fact : facts.all())
         if (fact.item == item && fact.name == name && fact.property.starts_with("set."))
             text += fmt::format("with {} = {}\n", fact.property.substr(4), fact.text);
@@ -150,7 +143,7 @@ std::string common_to(const Facts& facts, const std::vector<std::string>& runs, 
     return words + common;
 }
 
-std::string list_of_runs(const Facts& facts) {
+std::string list_of_runs(const Facts& facts, std::size_t width) {
     const std::vector<std::string> runs = facts.names("run");
     const auto known = [&](const std::string& property) {
         return std::any_of(runs.begin(), runs.end(),
@@ -184,7 +177,7 @@ std::string list_of_runs(const Facts& facts) {
             else
                 table.add(nothing);
     std::ostringstream text;
-    write_table(text, table, TableFormat::table, 4, {});
+    write_table(text, table, TableFormat::table, 4, {}, width);
     return fmt::format("{}\n{}", heading, text.str());
 }
 
@@ -196,19 +189,20 @@ std::string list_of(const Facts& facts, const std::string& item, const std::stri
     return text;
 }
 
-std::string text_of(const Facts& facts, bool all) {
+std::string text_of(const Facts& facts, bool all, std::size_t width) {
     std::string text = heading_of(facts);
     for (const std::string& model : facts.names("model"))
-        text += words_of(facts, "model", model) + counts_of(facts, model);
+        text += words_of(facts, "model", model, width) + counts_of(facts, model);
     for (const std::string& study : facts.names("study"))
-        text += words_of(facts, "study", study);
+        text += words_of(facts, "study", study, width);
     const std::vector<std::string> runs = facts.names("run"), pictures = facts.names("picture");
     if (!runs.empty())
-        text += list_of_runs(facts);
+        text += list_of_runs(facts, width);
     if (!pictures.empty())
         text += '\n' +
                 wrapped(fmt::format("{} picture{}: {}", pictures.size(), pictures.size() == 1 ? "" : "s",
-                                    fmt::join(pictures, ", "))) +
+                                    fmt::join(pictures, ", ")),
+                        width) +
                 '\n';
     for (const std::string& run : all ? runs : std::vector<std::string>())
         text += fmt::format("\nrun {}: parameters\n{}run {}: settings\n{}", run, list_of(facts, "parameter", run), run,
@@ -242,9 +236,9 @@ int info_command(const InfoArguments& arguments, const Console& console) {
         heading.add("file", arguments.file);
         deliver(table_of(facts), arguments.output, heading, console);
     } else if (arguments.output.file.empty()) {
-        console.out << text_of(facts, arguments.all);
+        console.out << text_of(facts, arguments.all, console.width);
     } else {
-        write_file(arguments.output.file, text_of(facts, arguments.all));
+        write_file(arguments.output.file, text_of(facts, arguments.all, common_line_width));
     }
     return exit_success;
 }

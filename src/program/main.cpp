@@ -1,13 +1,28 @@
-#include "program.hpp"
+#include "program/program.hpp"
 
 #include <algorithm>
 #include <iostream>
 #include <string>
+#include <sys/ioctl.h>
 #include <unistd.h>
 #include <vector>
+
+namespace {
+
+/// Of the terminal that results go to. A very narrow one is scrolled rather than filled with single words.
+std::size_t width_of_terminal() {
+    constexpr std::size_t least = 60;
+    winsize size{};
+    if (isatty(STDOUT_FILENO) != 1 || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
+        return graze::common_line_width;
+    return std::max<std::size_t>(size.ws_col, least);
+}
+
+} // namespace
 
 int main(int count, char** values) {
     std::ios::sync_with_stdio(false);
     const std::vector<std::string> arguments(values + std::min(count, 1), values + count); // none, not even a name
-    return graze::run_program(arguments, {std::cout, std::cerr, isatty(STDERR_FILENO) == 1});
+    return graze::run_program(arguments,
+                              {std::cout, std::cerr, isatty(STDERR_FILENO) == 1, nullptr, width_of_terminal()});
 }

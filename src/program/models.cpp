@@ -40,25 +40,16 @@ std::string file_text(const ModelsArguments& arguments) {
         return write_model(family_member(arguments));
     if (const auto entry = find_in_catalogue(arguments.name))
         return entry->text;
-    return write_model(load_program_model(arguments.name));
+    return write_model(load_model(arguments.name));
 }
 
 void list(const ModelsArguments& arguments, const Console& console) {
     Table table({{"name", ""}, {"summary", ""}});
-    bool has_family = false;
     for (const CatalogueEntry& entry : catalogue()) {
         table.add(entry.name);
         table.add(entry.summary);
-        has_family = has_family || entry.name == family;
     }
-    if (!has_family) {
-        const std::string text = microbeam().text;
-        table.add(family);
-        table.add(std::string_view(text).substr(0, text.find(". ")));
-    }
-    OutputArguments output = arguments.output;
-    output.all = true; // lines of words
-    deliver(table, output, {}, console);
+    deliver(table, arguments.output, {}, console);
 }
 
 } // namespace
@@ -76,9 +67,9 @@ int models_command(const ModelsArguments& arguments, const Console& console) {
     if (arguments.show) {
         console.out << file_text(arguments);
     } else if (arguments.file.empty()) {
-        const Model model = asks_for_family(arguments) ? family_member(arguments) : load_program_model(arguments.name);
+        const Model model = asks_for_family(arguments) ? family_member(arguments) : load_model(arguments.name);
         if (arguments.output.format == TableFormat::table)
-            console.out << describe(model);
+            console.out << describe(model, console.width);
         else
             deliver(describe_in_table(model), arguments.output, {}, console);
     }

@@ -23,16 +23,6 @@ namespace {
                      "choose another file or change the permissions");
 }
 
-bool is_database(const std::filesystem::path& path) {
-    constexpr std::string_view signature("SQLite format 3\0", 16);
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error))
-        return false;
-    std::string start(signature.size(), ' ');
-    std::ifstream stream(path, std::ios::binary);
-    return stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == signature;
-}
-
 /// Results of days, or what SQLite keeps beside them.
 bool belongs_to_database(const std::string& path) {
     for (const std::string_view ending : {"", "-wal", "-shm", "-journal", ".lock"})
@@ -42,6 +32,16 @@ bool belongs_to_database(const std::string& path) {
 }
 
 } // namespace
+
+bool is_database(const std::string& path) {
+    constexpr std::string_view signature("SQLite format 3\0", 16);
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+        return false;
+    std::string start(signature.size(), ' ');
+    std::ifstream stream(path, std::ios::binary);
+    return stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == signature;
+}
 
 FileReplacement::FileReplacement(const std::string& path) : path_(path) {
     std::error_code error;

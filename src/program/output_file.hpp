@@ -6,6 +6,9 @@
 
 namespace graze {
 
+/// Whether it is a file of SQLite's, such as result files.
+bool is_database(const std::string& path);
+
 /// Checks that a file can be written there, leaving nothing behind: call it before work that would be lost.
 /// @throws InputError when it cannot
 void require_writable(const std::string& path);

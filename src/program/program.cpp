@@ -72,7 +72,7 @@ void tell(const InputErrors& errors, const Console& console) {
 int run_program(std::span<const std::string> arguments, const Console& given) {
     PrintableBuffer out_buffer(given.out), err_buffer(given.err);
     std::ostream out(&out_buffer), err(&err_buffer);
-    const Console console{out, err, given.terminal, &given.err};
+    const Console console{out, err, given.terminal, &given.err, given.width};
     try {
         const int code = dispatch(arguments, console);
         require_delivered(console);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "program/wrapped_text.hpp"
+
+#include <cstddef>
 #include <ostream>
 #include <span>
 #include <string>
@@ -13,6 +16,7 @@ struct Console {
     bool terminal = false; ///< whether `err` is a terminal, on which progress can be shown
     /// The same as `err`, but what moves the cursor stays; for progress only. None: `err`.
     std::ostream* cursor = nullptr;
+    std::size_t width = common_line_width; ///< letters in a line of `out`
 
     std::ostream& progress() const { return cursor ? *cursor : err; }
 };

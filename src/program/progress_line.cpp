@@ -4,14 +4,6 @@
 
 namespace graze {
 
-namespace {
-
-using namespace std::chrono_literals;
-constexpr auto quiet_at_first = 2s;
-constexpr auto between_lines = 200ms;
-
-} // namespace
-
 std::string progress_text(const StudyProgress& progress, const std::optional<TimeLeft::Estimate>& left) {
     std::string text = fmt::format("{}: {} of {} points", progress.run, progress.done, progress.points);
     if (progress.study_points > progress.points)
@@ -25,33 +17,17 @@ std::string progress_text(const StudyProgress& progress, const std::optional<Tim
     return text;
 }
 
-ProgressLine::~ProgressLine() {
-    if (shown_)
-        console_->progress() << (console_->terminal ? "\r\033[K" : "\n") << std::flush;
-}
-
-bool ProgressLine::is_due() const {
-    const auto now = Clock::now();
-    return wanted_ && now - start_ >= quiet_at_first && now - last_ >= between_lines;
-}
-
-void ProgressLine::show(const std::string& text) {
-    last_ = Clock::now();
-    shown_ = true;
-    console_->progress() << fmt::format("\r{:<78}", text) << std::flush;
-}
-
 void ProgressLine::update(const StudyProgress& progress) {
-    if (!wanted_)
+    if (!line_.wanted())
         return;
-    left_.note(progress.computed, std::chrono::duration<double>(Clock::now() - start_).count());
-    if (is_due())
-        show(progress_text(progress, left_.of(progress.study_points - progress.study_done)));
+    left_.note(progress.computed, line_.elapsed());
+    if (line_.is_due())
+        line_.show(progress_text(progress, left_.of(progress.study_points - progress.study_done)));
 }
 
 void ProgressLine::update(const std::string& run, const OrbitRecord& orbit) {
-    if (is_due())
-        show(fmt::format("{}: {} orbits, at {:.8g}", run, orbit.number + 1, orbit.point.parameter));
+    if (line_.is_due())
+        line_.show(fmt::format("{}: {} orbits, at {:.8g}", run, orbit.number + 1, orbit.point.parameter));
 }
 
 } // namespace graze

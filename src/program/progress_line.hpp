@@ -2,10 +2,9 @@
 
 #include "graze/results/orbit_record.hpp"
 #include "graze/study/runner.hpp"
-#include "program/program.hpp"
+#include "program/status_line.hpp"
 #include "program/time_left.hpp"
 
-#include <chrono>
 #include <string>
 
 namespace graze {
@@ -17,24 +16,15 @@ std::string progress_text(const StudyProgress& progress, const std::optional<Tim
 /// A line on standard error once a study takes long.
 class ProgressLine {
 public:
-    ProgressLine(const Console& console, bool wanted) : console_(&console), wanted_(wanted) {}
-    ~ProgressLine();
-    ProgressLine(const ProgressLine&) = delete;
-    ProgressLine& operator=(const ProgressLine&) = delete;
+    ProgressLine(const Console& console, bool wanted) : line_(console, wanted) {}
 
     void update(const StudyProgress& progress);
     /// Of a branch nobody knows how long it will be.
     void update(const std::string& run, const OrbitRecord& orbit);
 
 private:
-    using Clock = std::chrono::steady_clock;
-    bool is_due() const;
-    void show(const std::string& text);
-
-    const Console* console_;
-    bool wanted_, shown_ = false;
+    StatusLine line_;
     TimeLeft left_;
-    Clock::time_point start_ = Clock::now(), last_ = start_;
 };
 
 } // namespace graze

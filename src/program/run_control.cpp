@@ -10,35 +10,21 @@ namespace graze {
 
 namespace {
 
-using namespace std::chrono_literals;
-constexpr auto quiet_at_first = 2s;
-constexpr auto between_lines = 200ms;
 constexpr int calls_between_looks = 64; ///< at the clock
 
 } // namespace
 
-Progress::Progress(const Console& console, bool wanted)
-    : console_(&console), wanted_(wanted), start_(Clock::now()), last_(start_) {}
-
-Progress::~Progress() {
-    if (shown_)
-        console_->progress() << (console_->terminal ? "\r\033[K" : "\n") << std::flush;
-}
-
 void Progress::update(std::optional<double> fraction, double time) {
-    if (!wanted_ || ++calls_ < calls_between_looks)
+    if (!line_.wanted() || ++calls_ < calls_between_looks)
         return;
     calls_ = 0;
-    const auto now = Clock::now();
-    if (now - start_ < quiet_at_first || now - last_ < between_lines)
+    if (!line_.is_due())
         return;
-    last_ = now;
-    shown_ = true;
-    const double elapsed = std::chrono::duration<double>(now - start_).count();
-    std::string line = fmt::format("\rtime {:.6g}", time);
+    const double elapsed = line_.elapsed();
+    std::string line = fmt::format("time {:.6g}", time);
     if (fraction && *fraction > 0)
         line += fmt::format(", {:.0f} %, {:.0f} s left", 100 * *fraction, elapsed * (1 - *fraction) / *fraction);
-    console_->progress() << fmt::format("{:<60}", line) << std::flush;
+    line_.show(line);
 }
 
 RunControl::RunControl(Observer& recorders, Progress& progress, std::optional<std::size_t> period_probe,

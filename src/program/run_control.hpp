@@ -1,10 +1,9 @@
 #pragma once
 
 #include "graze/trajectory/observer.hpp"
-#include "program/program.hpp"
 #include "program/run_length.hpp"
+#include "program/status_line.hpp"
 
-#include <chrono>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -14,21 +13,14 @@ namespace graze {
 /// A line on standard error about how far a long run has come and how long it will take.
 class Progress {
 public:
-    Progress(const Console& console, bool wanted);
-    ~Progress();
-    Progress(const Progress&) = delete;
-    Progress& operator=(const Progress&) = delete;
+    Progress(const Console& console, bool wanted) : line_(console, wanted) {}
 
     /// @param fraction done so far; empty when the end is not known
     void update(std::optional<double> fraction, double time);
 
 private:
-    using Clock = std::chrono::steady_clock;
-    const Console* console_;
-    bool wanted_;
-    bool shown_ = false;
+    StatusLine line_;
     int calls_ = 0;
-    Clock::time_point start_, last_;
 };
 
 /// Decides when a leg of a run is over, and lets recorders see the leg that is to be shown.

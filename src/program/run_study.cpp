@@ -111,12 +111,13 @@ void add_report(Table& table, const RunReport& report) {
     table.add(status_of(report));
 }
 
-const std::vector<Table::Column> report_columns{{"run", ""},      {"kind", ""},     {"points", ""},
-                                                {"computed", ""}, {"seconds", "s"}, {"status", ""}};
+std::vector<Table::Column> report_columns() {
+    return {{"run", ""}, {"kind", ""}, {"points", ""}, {"computed", ""}, {"seconds", "s"}, {"status", ""}};
+}
 
 /// For people: "periodic 1330, chaotic 270", and "up: ..."
 Table table_of(const std::vector<RunReport>& reports, const ResultFile& file) {
-    std::vector<Table::Column> columns = report_columns;
+    std::vector<Table::Column> columns = report_columns();
     columns.insert(columns.end(), {{"labels", ""}, {"ended", ""}});
     Table table(columns);
     for (const RunReport& report : reports) {
@@ -145,7 +146,7 @@ Table cells_of(const std::vector<RunReport>& reports, const ResultFile& file) {
             if (std::find(labels.begin(), labels.end(), one.first) == labels.end())
                 labels.push_back(one.first);
     }
-    std::vector<Table::Column> columns = report_columns;
+    std::vector<Table::Column> columns = report_columns();
     for (std::string label : labels) {
         std::replace(label.begin(), label.end(), ' ', '_');
         columns.push_back({"points_" + label, ""});
@@ -199,9 +200,7 @@ int list_studies(const RunArguments& arguments, const Console& console) {
         table.add(static_cast<double>(study.runs.size()));
         table.add(study.text);
     }
-    OutputArguments output = arguments.output;
-    output.all = true; // lines of words
-    deliver(table, output, {}, console);
+    deliver(table, arguments.output, {}, console);
     return exit_success;
 }
 
@@ -317,8 +316,11 @@ int run_command(const RunArguments& arguments, const Console& console) {
         OutputArguments output = arguments.output;
         const bool for_people = output.format == TableFormat::table;
         output.digits = for_people ? 6 : 17;
-        output.all = true;
-        deliver(for_people ? table_of(reports, file) : cells_of(reports, file), output, {}, console);
+        const Table table = for_people ? table_of(reports, file) : cells_of(reports, file);
+        std::vector<std::string> every;
+        for (const Table::Column& column : table.columns())
+            every.push_back(column.name);
+        deliver(table, output, {}, console, every);
     }
     const bool failed = tell_failures(reports, console);
     if (std::any_of(reports.begin(), reports.end(),

@@ -22,7 +22,7 @@ namespace graze {
 namespace {
 
 Model prepared_model(const SimulateArguments& arguments) {
-    Model model = load_program_model(arguments.model);
+    Model model = load_model(arguments.model);
     set_parameters(model, arguments.set);
     set_initial_state(model, arguments.from);
     if (!arguments.mode.empty())

@@ -31,9 +31,8 @@ void StepLines::begin(const StudyRun& run, const std::string& part) {
 }
 
 void StepLines::show(const std::string& name, const OrbitRecord& record) {
-    const auto run =
-        std::find_if(study_->runs.begin(), study_->runs.end(), [&](const StudyRun& one) { return one.name == name; });
-    if (run == study_->runs.end())
+    const StudyRun* const run = study_->find_run(name);
+    if (!run)
         return;
     const bool starts = record.point.step == 0; // two parts may have the same name
     if (run_ != name || part_ != record.part || starts)

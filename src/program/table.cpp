@@ -1,12 +1,14 @@
 #include "program/table.hpp"
 
 #include "graze/symbolic/printable.hpp"
+#include "program/wrapped_text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace graze {
 
@@ -51,11 +53,6 @@ std::string cell_text(const Table& table, std::size_t row, std::size_t column, i
     return table.is_missing(row, column) ? "" : number_text(table.number(row, column), digits);
 }
 
-/// Characters, not bytes, of UTF-8.
-std::size_t width_of(const std::string& text) {
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
-}
-
 std::string padded(const std::string& text, std::size_t width, bool right) {
     const std::string blanks(width - std::min(width, width_of(text)), ' ');
     return right ? blanks + text : text + blanks;
@@ -98,8 +95,11 @@ std::string shown_cell(const Table& table, std::size_t row, std::size_t column, 
     return printable_line(cell_text(table, row, column, digits));
 }
 
-void write_aligned(std::ostream& out, const Table& table, int digits) {
+/// @param longest line, 0: any. The last column, where it is one of texts, is broken into as many lines as it needs.
+void write_aligned(std::ostream& out, const Table& table, int digits, std::size_t longest) {
     const std::size_t columns = table.columns().size();
+    if (columns == 0)
+        return void(out << '\n');
     const std::vector<std::size_t> widths = column_widths(table, digits);
     std::vector<bool> right(columns, true);
     bool units = false;
@@ -108,10 +108,16 @@ void write_aligned(std::ostream& out, const Table& table, int digits) {
         for (std::size_t row = 0; row < table.rows(); ++row)
             right[column] = right[column] && !table.is_text(row, column);
     }
+    const std::size_t last = std::accumulate(widths.begin(), widths.end(), gap * columns) - widths.back() - gap;
+    const bool breaks = !right.back() && last + least_text <= longest && last + widths.back() > longest;
     const auto write_line = [&](const auto& text_of) {
         std::string line;
-        for (std::size_t column = 0; column < columns; ++column)
-            line += (column > 0 ? "  " : "") + padded(text_of(column), widths[column], right[column]);
+        for (std::size_t column = 0; column < columns; ++column) {
+            const std::string& text = text_of(column);
+            line += (column > 0 ? std::string(gap, ' ') : "") + (breaks && column + 1 == columns
+                                                                     ? wrapped(text, longest, last)
+                                                                     : padded(text, widths[column], right[column]));
+        }
         line.erase(line.find_last_not_of(' ') + 1);
         out << line << '\n';
     };
@@ -162,10 +168,11 @@ std::vector<std::size_t> column_widths(const Table& table, int digits) {
     return widths;
 }
 
-void write_table(std::ostream& out, const Table& table, TableFormat format, int digits, const JsonObject& heading) {
+void write_table(std::ostream& out, const Table& table, TableFormat format, int digits, const JsonObject& heading,
+                 std::size_t longest) {
     switch (format) {
     case TableFormat::table:
-        return write_aligned(out, table, digits);
+        return write_aligned(out, table, digits, longest);
     case TableFormat::csv:
         return write_csv(out, table, digits);
     case TableFormat::json:

@@ -10,8 +10,6 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t gap = 2; ///< between columns
-
 /// Columns of results that people look at last, the least of them first.
 constexpr std::array<std::string_view, 27> last_looked_at{
     "durations",    "low",           "high",       "tangent", "iterations",  "step",     "chain",
@@ -45,8 +43,10 @@ std::size_t next_to_go(const Table& table, const std::vector<std::size_t>& shown
 } // namespace
 
 FittedTable fitted(const Table& table, int digits, std::size_t width, const std::vector<std::string>& kept) {
-    const std::vector<std::size_t> widths = column_widths(table, digits);
+    std::vector<std::size_t> widths = column_widths(table, digits);
     const std::size_t columns = table.columns().size();
+    if (columns > 0 && table.rows() > 0 && table.is_text(0, columns - 1)) // it can be broken
+        widths.back() = std::min(widths.back(), least_text);
     std::vector<bool> stays(columns);
     std::vector<std::size_t> shown;
     std::size_t needed = 0;

@@ -1,7 +1,5 @@
 #include "program/values.hpp"
 
-#include "graze/model/catalogue.hpp"
-#include "graze/model/microbeam.hpp"
 #include "graze/model/named_value.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/parser.hpp"
@@ -40,12 +38,6 @@ Assignment parse_assignment(const std::string& item, const std::string& option) 
 }
 
 } // namespace
-
-Model load_program_model(const std::string& name_or_path) {
-    if (name_or_path == "microbeam" && !find_in_catalogue(name_or_path))
-        return microbeam();
-    return load_model(name_or_path);
-}
 
 std::vector<std::string> split_list(const std::vector<std::string>& arguments) {
     std::vector<std::string> items;

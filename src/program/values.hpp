@@ -10,9 +10,6 @@
 
 namespace graze {
 
-/// A model by the name under which it is shipped, or from a file. @throws InputError
-Model load_program_model(const std::string& name_or_path);
-
 /// Splits lists such as "a, b" "c"; blanks around items are dropped, empty items too.
 std::vector<std::string> split_list(const std::vector<std::string>& arguments);
 

@@ -5,8 +5,6 @@
 
 #include <fmt/chrono.h>
 
-#include <ctime>
-
 namespace graze {
 
 namespace {
@@ -24,8 +22,12 @@ void describe(Fields& fields, Times& times) {
 
 } // namespace
 
+std::string text_of(std::time_t moment) {
+    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(moment));
+}
+
 std::string present_time() {
-    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+    return text_of(std::time(nullptr));
 }
 
 void note_times(ResultFile& file, const std::string& run, const RunTimes& times) {

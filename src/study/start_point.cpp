@@ -35,9 +35,8 @@ std::size_t number_of(const StartFrom& start) {
 } // namespace
 
 const StudyRun& run_named(const Study& study, const std::string& name) {
-    const auto found =
-        std::find_if(study.runs.begin(), study.runs.end(), [&](const StudyRun& run) { return run.name == name; });
-    if (found == study.runs.end())
+    const StudyRun* const found = study.find_run(name);
+    if (!found)
         throw InputError(fmt::format("the study has no run '{}'", name), "name one of its runs");
     return *found;
 }

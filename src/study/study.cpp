@@ -12,6 +12,11 @@
 
 namespace graze {
 
+const StudyRun* Study::find_run(const std::string& run) const {
+    const auto found = std::find_if(runs.begin(), runs.end(), [&](const StudyRun& one) { return one.name == run; });
+    return found == runs.end() ? nullptr : &*found;
+}
+
 std::string_view name_of(RunKind kind) {
     switch (kind) {
     case RunKind::simulate:

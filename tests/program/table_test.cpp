@@ -56,6 +56,22 @@ TEST(Table, CsvQuotesAndLeavesMissingCellsEmpty) {
     EXPECT_EQ(small_table().incomplete_columns(), std::vector<std::string>{"x"});
 }
 
+TEST(Table, TextsInTheLastColumnAreBrokenToFitLines) {
+    Table table({{"name", ""}, {"what it does", ""}});
+    table.add("one");
+    table.add("some words that are longer than a line of so few letters");
+    const auto lines = [&](std::size_t longest) {
+        std::ostringstream out;
+        write_table(out, table, TableFormat::table, 6, {}, longest);
+        return out.str();
+    };
+    EXPECT_EQ(lines(0), "name  what it does\none   some words that are longer than a line of so few letters\n");
+    EXPECT_EQ(lines(40), "name  what it does\n"
+                         "one   some words that are longer than a\n"
+                         "      line of so few letters\n");
+    EXPECT_EQ(lines(20), lines(0)) << "there is no room for words";
+}
+
 TEST(Table, JsonIsJson) {
     const std::string text = written(small_table(), TableFormat::json, 3);
     EXPECT_TRUE(JsonCheck(text).valid()) << text;

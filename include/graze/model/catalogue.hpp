@@ -18,6 +18,8 @@ struct CatalogueEntry {
 
 /// The shipped models, built into the library (the files of models/), in alphabetical order.
 const std::vector<CatalogueEntry>& catalogue();
+/// Their names.
+std::vector<std::string> shipped_models();
 std::optional<CatalogueEntry> find_in_catalogue(std::string_view name);
 
 /// Whether this is the path of a model file: it contains a slash or ends in ".toml". Other names are in the catalogue.

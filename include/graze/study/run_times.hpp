@@ -2,6 +2,7 @@
 
 #include "graze/results/result_file.hpp"
 
+#include <ctime>
 #include <optional>
 #include <string>
 
@@ -13,7 +14,8 @@ struct RunTimes {
     double seconds = 0;       ///< of work, of all attempts that went on with one another
 };
 
-/// This moment, as RunTimes has it.
+/// A moment as RunTimes has it; the present one.
+std::string text_of(std::time_t moment);
 std::string present_time();
 /// Keeps them in a result file.
 void note_times(ResultFile& file, const std::string& run, const RunTimes& times);

@@ -107,6 +107,9 @@ struct Study {
     ParameterValues set;        ///< with which it was read, instead of its own
     std::vector<StudyRun> runs; ///< each after those it starts from
     std::vector<StudyPicture> pictures;
+
+    /// Null when there is none of that name.
+    const StudyRun* find_run(const std::string& run) const;
 };
 
 /// Reads a study from TOML text; docs/study-format.md describes it.
