@@ -40,6 +40,26 @@ std::vector<std::vector<std::size_t>> dependences_of(const Tape& tape) {
     return all;
 }
 
+/// Of each register as a polynomial in the states; infinite unless it is one.
+std::vector<double> degrees_in_states(const Tape& tape) {
+    std::vector<double> degrees(tape.registers, infinity);
+    std::fill_n(degrees.begin(), tape.states, 1.0);
+    for (const Instruction& instruction : tape.code) {
+        double degree = infinity;
+        if (instruction.operation == SeriesOperation::linear_combination) {
+            degree = 0;
+            for (std::uint32_t t = instruction.left; t != instruction.right; ++t)
+                degree = std::max(degree, degrees[tape.terms[t].series]);
+        } else if (instruction.operation == SeriesOperation::multiply) {
+            degree = degrees[instruction.left] + degrees[instruction.right];
+        } else if (instruction.operation == SeriesOperation::square) {
+            degree = 2 * degrees[instruction.left];
+        }
+        degrees[instruction.result] = degree;
+    }
+    return degrees;
+}
+
 /// Strongly connected components (Tarjan 1972), by a stack of its own: chains of states may be long.
 class Components {
 public:
@@ -149,6 +169,44 @@ void Couplings::find_entries(const Tape& tape) {
     }
     row_starts_.push_back(entries_.size());
     vanishing_.assign(entries_.size(), false);
+    find_constants(tape);
+}
+
+/// Entries that are the same everywhere: of states that a rate has as terms of its sum and nowhere else in it.
+void Couplings::find_constants(const Tape& tape) {
+    constexpr double highest_degree = 4;
+    const std::vector<std::vector<std::size_t>> dependences = dependences_of(tape);
+    const std::vector<double> degrees = degrees_in_states(tape);
+    std::vector<const Instruction*> sums(tape.registers, nullptr);
+    for (const Instruction& instruction : tape.code)
+        if (instruction.operation == SeriesOperation::linear_combination)
+            sums[instruction.result] = &instruction;
+    steady_.assign(states_, false);
+    std::vector<bool> in_sum(states_), elsewhere(states_);
+    for (std::size_t i = 0; i < states_; ++i) {
+        const std::uint32_t rate = tape.rates[i].index;
+        if (tape.rates[i].constant || !(degrees[rate] <= highest_degree))
+            continue;
+        std::fill(in_sum.begin(), in_sum.end(), false);
+        std::fill(elsewhere.begin(), elsewhere.end(), false);
+        const auto note = [&](std::uint32_t from) {
+            if (from < states_)
+                in_sum[from] = true;
+            else
+                for (const std::size_t state : dependences[from])
+                    elsewhere[state] = true;
+        };
+        if (sums[rate])
+            for (std::uint32_t t = sums[rate]->left; t != sums[rate]->right; ++t)
+                note(tape.terms[t].series);
+        else
+            note(rate);
+        for (std::size_t e = row_starts_[i]; e < row_starts_[i + 1]; ++e) {
+            Entry& entry = entries_[e];
+            entry.constant = in_sum[entry.column] && !elsewhere[entry.column];
+            steady_[i] = steady_[i] || (entry.constant && entry.column != i);
+        }
+    }
 }
 
 /// Columns of one colour have no row in common. Each takes the first colour that is free.
@@ -261,12 +319,13 @@ double Couplings::largest_row() const {
     return most;
 }
 
-void Couplings::spread(double time, std::span<double> sizes, std::size_t width, std::size_t lanes) const {
+void Couplings::spread(double time, std::span<double> sizes, std::size_t width, std::size_t lanes,
+                       Through through) const {
     require_size(sizes.size(), states_ * width, "sizes of states");
     require_index(lanes, width + 1, "number of lanes");
     const auto pull = [&](std::size_t e) {
         const Entry& entry = entries_[e];
-        return entry.strength > 0 && entry.row != entry.column &&
+        return entry.strength > 0 && entry.row != entry.column && (through == Through::all || entry.constant) &&
                raise(&sizes[entry.row * width], &sizes[entry.column * width], time * entry.strength, lanes);
     };
     // States are mostly counted along what they are the states of: in turn up and down. What has been passed is raised

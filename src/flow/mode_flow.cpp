@@ -42,7 +42,7 @@ ModeFlow::ModeFlow(const System& system, double tolerance, int order, std::vecto
                    std::optional<std::vector<std::size_t>> starts)
     : system_(system), free_(std::move(free)), starts_(starts_of(system, std::move(starts))), states_(system.states()),
       directions_(starts_.size() + free_.size()), step_size_(order_of(tolerance, order), tolerance),
-      step_check_(system, order_of(tolerance, order), tolerance),
+      step_check_(system, order_of(tolerance, order), tolerance), late_states_(system),
       single_(system, order_of(tolerance, order), LaneKind::single),
       tangents_(system, single_.order(), tolerance, directions_) {
     for (const ParameterId parameter : free_)
@@ -70,6 +70,7 @@ void ModeFlow::set_parameters(std::span<const double> parameters) {
     std::copy(parameters.begin(), parameters.end(), parameters_.begin());
     single_.set_parameters(parameters_);
     step_check_.set_parameters(parameters_);
+    late_states_.set_parameters(parameters_);
     tangents_.set_parameters(parameters_, parameter_seeds_);
 }
 
@@ -83,12 +84,15 @@ double ModeFlow::step_of(std::size_t mode, const Jet& jet, double remaining, boo
         step = step_size_(series, first_share * std::abs(remaining));
     if (std::isnan(step))
         return step;
+    if (!system_.mode(mode).has_roots)
+        step = late_states_.step(step_size_, mode, series, step, previous_);
     const bool leap = !(step <= longest_leap * previous_) && !system_.mode(mode).polynomial;
     const bool bounded = step < std::numeric_limits<double>::infinity();
     guarded_.assign(static_cast<std::size_t>(jet.width()), std::numeric_limits<double>::infinity());
     guarded_[0] = std::min(step, std::abs(remaining));
     jet.guard_steps(guarded_);
-    const double longest = std::abs(step_check_.longest(mode, series, std::copysign(guarded_[0], remaining), leap));
+    const double longest =
+        std::abs(step_check_.longest(mode, series, std::copysign(guarded_[0], remaining), leap, late_states_.floors()));
     if (longest < std::min(step, std::abs(remaining)))
         previous_ = longest;
     else if (bounded)
@@ -103,6 +107,7 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
     Jet& jet = single_(mode);
     double time = 0, remaining = duration;
     previous_ = 0;
+    late_states_.begin();
     for (std::size_t count = 0; remaining != 0; ++count) {
         if (count >= most_steps)
             return Ending::too_long;
@@ -154,6 +159,7 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
         matrix_[starts_[d] * directions_ + d] = 1;
     double time = 0, remaining = duration;
     previous_ = 0;
+    late_states_.begin();
     for (std::size_t count = 0; remaining != 0; ++count) {
         if (count >= most_steps)
             return Ending::too_long;

@@ -26,9 +26,9 @@ constexpr double longest_leap = 2;
 Trajectory::Trajectory(const Simulation& simulation, std::span<const double> parameters, Observer& observer)
     : simulation_(simulation), observer_(&observer), parameters_(parameters.begin(), parameters.end()),
       step_size_(simulation.order(), simulation.options().tolerance),
-      step_check_(simulation.system(), simulation.order(), simulation.options().tolerance), roots_(simulation.order()),
-      states_(simulation.system().states()), order_(simulation.order()),
-      longest_allowed_(simulation.options().largest_step) {
+      step_check_(simulation.system(), simulation.order(), simulation.options().tolerance),
+      late_states_(simulation.system()), roots_(simulation.order()), states_(simulation.system().states()),
+      order_(simulation.order()), longest_allowed_(simulation.options().largest_step) {
     const System& compiled = simulation.system();
     require_size(parameters_.size(), compiled.parameters(), "independent parameters");
     std::size_t most_watched = 0;
@@ -49,6 +49,7 @@ Trajectory::Trajectory(const Simulation& simulation, std::span<const double> par
     holds_.resize(histories_.size());
     uncertain_.resize(inputs_.size());
     step_check_.set_parameters(parameters_);
+    late_states_.set_parameters(parameters_);
     periods_.resize(states_);
     compiled.periods().evaluate(parameters_, periods_, work_);
     for (std::size_t i = 0; i < states_; ++i)
@@ -92,6 +93,7 @@ void Trajectory::start(std::span<const double> state, std::size_t mode, double t
     end_time_ = end_time;
     previous_step_ = largest_step_ = believed_ = descent_start_ = 0;
     floored_ = false;
+    late_states_.begin();
     arc_start_ = true;
     branch_ahead_ = states_;
     stuck_ = false;
@@ -212,6 +214,8 @@ double Trajectory::propose(const Jet& jet, double step, std::size_t lane) {
     leap_ = !(step <= longest_leap * previous_step_) && !std::isnan(step) && !compiled_mode_->polynomial;
     if ((leap_ || unlimited) && !floored_)
         step = step_size_(series_, previous_step_);
+    if (!floored_ && !compiled_mode_->has_roots)
+        step = late_states_.step(step_size_, mode_, series_, step, previous_step_);
     const double remaining = (end_time_ - time_) - time_low_;
     proposed_ = !std::isinf(step) ? step : std::isinf(remaining) ? 1.0 : std::max(remaining, 1.0);
     if (believed_ > 0)
@@ -247,13 +251,16 @@ double Trajectory::limited_by_floors(double step) {
     return floored_ ? step_size_.with_floors(series_, previous_step_, floors_) : step;
 }
 
+/// Sizes below which nothing need be known over this step; none for most.
+std::span<const double> Trajectory::floors() const {
+    return floored_ ? std::span<const double>(floors_) : late_states_.floors();
+}
+
 /// Shortens a step until polynomials and model agree at its end, and within as well if it is a leap. Returns false if
 /// they do so nowhere.
 bool Trajectory::check_step(double& step, const Outlook& outlook, std::size_t lane) {
     const bool agrees = outlook.agrees(lane) && !leap_ && step == outlook.length(lane);
-    const double longest =
-        agrees ? step
-               : step_check_.longest(mode_, series_, step, leap_, floored_ ? floors_ : std::span<const double>{});
+    const double longest = agrees ? step : step_check_.longest(mode_, series_, step, leap_, floors());
     if (longest == step) {
         if (believed_ > 0)
             believed_ = proposed_ < believed_ ? 0 : 2 * proposed_;

@@ -36,16 +36,24 @@ public:
     /// Raises sizes of states until no coupling, over a time, makes any larger: s_i >= time |J_ij| s_j for all i, j.
     /// @param time at most the response time
     /// @param sizes [state * width + lane]; @param lanes the first ones, that matter
-    void spread(double time, std::span<double> sizes, std::size_t width, std::size_t lanes) const;
+    /// @param through all couplings, or those alone that are the same at all places
+    enum class Through { all, constant };
+    void spread(double time, std::span<double> sizes, std::size_t width, std::size_t lanes,
+                Through through = Through::all) const;
+    /// Whether something acts on a state through a coupling that is the same at all places, and its rate is a
+    /// polynomial of low degree in the states: nothing that is small may become large within a small part of a step.
+    bool is_pushed_steadily(std::size_t state) const { return steady_[state]; }
 
 private:
     struct Entry {
         std::size_t row, column;
         double strength = 0;
-        bool returns = false; ///< whether its row's state acts on its column's again
+        bool returns = false;  ///< whether its row's state acts on its column's again
+        bool constant = false; ///< of a state whose rate is a polynomial of low degree
     };
 
     void find_entries(const Tape& tape);
+    void find_constants(const Tape& tape);
     void find_colours();
     void find_cycles();
     void balance();
@@ -58,6 +66,7 @@ private:
     std::vector<std::vector<std::size_t>> columns_; ///< entries of each
     std::vector<std::size_t> colours_;              ///< of columns
     std::size_t colour_count_ = 0;
+    std::vector<bool> steady_;    ///< states
     std::vector<bool> vanishing_; ///< entries that were zero when cycles were found
     std::vector<double> units_;   ///< in which rows and columns are about as large
     std::vector<double> seeds_, parameter_lanes_;

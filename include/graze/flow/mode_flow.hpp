@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/flow/late_states.hpp"
 #include "graze/flow/mode_jets.hpp"
 #include "graze/flow/step_check.hpp"
 #include "graze/flow/step_size.hpp"
@@ -60,6 +61,7 @@ private:
     std::size_t states_, directions_;
     StepSize step_size_;
     StepCheck step_check_;
+    LateStates late_states_;
     ModeJets single_;
     TangentSteps tangents_;
     std::vector<double> parameters_, parameter_seeds_, sums_, guarded_;

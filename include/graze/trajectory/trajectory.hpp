@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/flow/late_states.hpp"
 #include "graze/flow/roots.hpp"
 #include "graze/flow/step_check.hpp"
 #include "graze/flow/step_size.hpp"
@@ -129,6 +130,7 @@ private:
     // One step (trajectory.cpp)
     void find_series(const Jet& jet, std::size_t lane);
     double limited_by_floors(double step);
+    std::span<const double> floors() const;
     double shortest_step() const;
     bool check_step(double& step, const Outlook& outlook, std::size_t lane);
     void move_along(double step, bool last, const Outlook& outlook, std::size_t lane);
@@ -205,6 +207,7 @@ private:
     std::vector<double> parameters_;
     StepSize step_size_;
     StepCheck step_check_;
+    LateStates late_states_;
     RootFinder roots_;
     std::unique_ptr<ProbeTracker> probes_;
     std::unique_ptr<Tangents> tangents_;
