@@ -1,4 +1,5 @@
 #include "graze/model/catalogue.hpp"
+#include "graze/model/microbeam.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "graze/symbolic/text_file.hpp"
 #include "program/commands.hpp"
@@ -53,7 +54,7 @@ void add_text_file(Facts& facts, const std::string& path) {
 void add_shipped(Facts& facts, const std::string& name) {
     const std::vector<std::string> studies = shipped_studies();
     const bool study = std::find(studies.begin(), studies.end(), name) != studies.end();
-    const bool model = find_in_catalogue(name).has_value() || name == "microbeam";
+    const bool model = find_in_catalogue(name).has_value() || name == "microbeam" || microbeam_modes(name).has_value();
     if (!study && !model) {
         std::vector<std::string> known = studies;
         for (const CatalogueEntry& entry : catalogue())
