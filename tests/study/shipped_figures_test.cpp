@@ -15,6 +15,7 @@
 #include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace graze {
 namespace {
@@ -22,8 +23,9 @@ namespace {
 /// Some runs of a shipped study, done.
 class ShippedResults {
 public:
-    explicit ShippedResults(const std::string& name)
-        : study(load_study(name)),
+    explicit ShippedResults(const std::string& name) : ShippedResults(load_study(name)) {}
+    explicit ShippedResults(Study made)
+        : study(std::move(made)),
           path_((std::filesystem::temp_directory_path() / ("graze-figures-" + std::to_string(getpid()) + ".sqlite"))
                     .string()) {
         std::filesystem::remove(path_);
@@ -295,6 +297,40 @@ TEST(ShippedFiguresSlow, nine_modes_up_to_their_fold) {
         EXPECT_TRUE(record.stable);
         EXPECT_GT(record.point.monitors.at(0), 0.007);
     }
+}
+
+/// Fig. 5.14 (d), of a sweep that is only as long as the figure needs.
+TEST(ShippedFigures, motions_on_both_sides_of_the_onset_at_7_Hz) {
+    const std::string whole = "from = 3.0, to = 5.5", part = "from = 3.66, to = 3.68";
+    std::string text = shipped_study_text("electromagnetic-testbed");
+    ASSERT_NE(text.find(whole), std::string::npos);
+    text.replace(text.find(whole), whole.size(), part);
+    ShippedResults results(parse_study(text, "electromagnetic-testbed"));
+    results.run({"before_onset_7Hz", "after_onset_7Hz", "no_impact_7Hz"});
+    EXPECT_NEAR(results.point("no_impact_7Hz", "GR1").parameter, 3.675357252066, 1e-10);
+    // Half a period on, the motion without impacts is its own image: the current changes sign, the velocity does not.
+    auto before = StoredRun(results.file(), "before_onset_7Hz", {}).rows({.samples = true, .values = {"v", "I"}});
+    std::vector<double> velocities, currents;
+    while (before.next()) {
+        velocities.push_back(before.number(0));
+        currents.push_back(before.number(1));
+    }
+    ASSERT_EQ(velocities.size(), 400u);
+    for (std::size_t i = 0; i < 200; ++i) {
+        EXPECT_NEAR(velocities[i], velocities[i + 200], 1e-8) << i;
+        EXPECT_NEAR(currents[i], -currents[i + 200], 1e-8) << i;
+    }
+    const StoredRun after(results.file(), "after_onset_7Hz", {});
+    auto phases = after.rows({.samples = true, .values = {"v"}, .samplings = {"phases"}});
+    std::size_t count = 0;
+    double least = 1, greatest = -1; // of velocities at one phase, which vary from period to period
+    while (phases.next())
+        if (count++ % 100 == 0) {
+            least = std::min(least, phases.number(0));
+            greatest = std::max(greatest, phases.number(0));
+        }
+    EXPECT_EQ(count, 4000u);
+    EXPECT_GT(greatest - least, 0.01);
 }
 
 } // namespace
