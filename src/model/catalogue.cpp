@@ -1,5 +1,6 @@
 #include "graze/model/catalogue.hpp"
 
+#include "graze/model/microbeam.hpp"
 #include "graze/model/model_file.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "model/catalogue_data.hpp"
@@ -69,6 +70,11 @@ Model load_model(const std::string& name_or_path) {
         return read_model(name_or_path);
     if (const auto entry = find_in_catalogue(name_or_path))
         return parse_model(entry->text, name_or_path);
+    if (const auto modes = microbeam_modes(name_or_path)) {
+        MicrobeamOptions options;
+        options.modes = *modes;
+        return microbeam(options);
+    }
     std::vector<std::string> names;
     for (const EmbeddedModel& model : embedded_models())
         names.emplace_back(model.name);

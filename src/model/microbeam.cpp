@@ -4,6 +4,7 @@
 #include "graze/symbolic/transform.hpp"
 #include "model/microbeam_quadrature.hpp"
 
+#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -345,6 +346,17 @@ private:
 Model microbeam(const MicrobeamOptions& options) {
     require_sensible(options);
     return MicrobeamBuilder(options).build();
+}
+
+std::optional<int> microbeam_modes(std::string_view model_name) {
+    constexpr std::string_view family = "microbeam-";
+    if (!model_name.starts_with(family) || model_name.substr(family.size()).starts_with('0'))
+        return std::nullopt;
+    const char* const end = model_name.data() + model_name.size();
+    int modes = 0;
+    const auto read = std::from_chars(model_name.data() + family.size(), end, modes);
+    // One mode makes the member that is called by the family's own name.
+    return read.ec == std::errc() && read.ptr == end && modes > 1 ? std::optional(modes) : std::nullopt;
 }
 
 } // namespace graze

@@ -1,4 +1,5 @@
 #include "graze/model/catalogue.hpp"
+#include "graze/model/microbeam.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "graze/symbolic/text_file.hpp"
@@ -46,7 +47,7 @@ void add_text_file(Facts& facts, const std::string& path) {
 void add_shipped(Facts& facts, const std::string& name) {
     const std::vector<std::string> studies = shipped_studies();
     const bool study = std::find(studies.begin(), studies.end(), name) != studies.end();
-    const bool model = find_in_catalogue(name).has_value();
+    const bool model = find_in_catalogue(name).has_value() || microbeam_modes(name).has_value();
     if (!study && !model) {
         std::vector<std::string> known = studies;
         for (std::string& model_name : shipped_models())

@@ -8,6 +8,7 @@
 #include "program/progress_line.hpp"
 #include "program/step_lines.hpp"
 #include "program/study_pictures.hpp"
+#include "program/study_tables.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -329,11 +330,13 @@ int run_command(const RunArguments& arguments, const Console& console) {
         return exit_interrupted;
     }
     if (!arguments.no_pictures && arguments.only.empty()) {
+        const WrittenTables tables = write_study_tables(study, file, folder, console);
         const DrawnPictures drawn = draw_study_pictures(study, file, folder, console);
-        for (const std::string& path : drawn.paths)
-            if (!arguments.quiet && arguments.output.format == TableFormat::table)
-                console.out << path << '\n';
-        if (!drawn.complete)
+        for (const auto* paths : {&tables.paths, &drawn.paths})
+            for (const std::string& path : *paths)
+                if (!arguments.quiet && arguments.output.format == TableFormat::table)
+                    console.out << path << '\n';
+        if (!tables.complete || !drawn.complete)
             return exit_bad_input;
     }
     return failed ? exit_irregular : exit_success;

@@ -91,7 +91,7 @@ DrawnPictures draw_study_pictures(const Study& study, ResultFile& file, const st
                                   const Console& console) {
     const std::vector<std::string> inputs = input_files(study);
     std::vector<StudyPicture> pictures = study.pictures;
-    if (pictures.empty())
+    if (pictures.empty() && study.tables.empty())
         for (const StudyRun& run : study.runs)
             if (const auto record = file.find_run(run.name); record && file.point_count(run.name) > 0)
                 pictures.push_back(default_picture(*record));

@@ -15,9 +15,9 @@ struct DrawnPictures {
     bool complete = true;           ///< false: something could not be drawn
 };
 
-/// Draws all pictures of a study into a folder, or one for each run if it has none; tables beside them. Pictures that
-/// cannot be drawn are warned of: the results are there. Nothing is written outside of the folder. The result file
-/// remembers what was drawn: a picture of the same, whose files are as they were written, is kept.
+/// Draws all pictures of a study into a folder, or one for each run if it asks for nothing; tables beside them.
+/// Pictures that cannot be drawn are warned of: the results are there. Nothing is written outside of the folder. The
+/// result file remembers what was drawn: a picture of the same, whose files are as they were written, is kept.
 DrawnPictures draw_study_pictures(const Study& study, ResultFile& file, const std::string& folder,
                                   const Console& console);
 

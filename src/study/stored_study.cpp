@@ -41,6 +41,26 @@ void describe_picture(Fields& fields, Picture& picture) {
     fields.field("format", picture.format);
 }
 
+template <class Fields, class Columns>
+void describe_columns(Fields& fields, std::string_view name, Columns& columns) {
+    fields.list(name, columns, [](auto& one, auto& column) {
+        one.field("name", column.name);
+        one.field("value", column.value);
+    });
+}
+
+template <class Fields, class Table>
+void describe_table(Fields& fields, Table& table) {
+    fields.field("name", table.name);
+    fields.field("text", table.text);
+    fields.field("runs", table.runs);
+    describe_columns(fields, "columns", table.columns);
+    describe_columns(fields, "ratios", table.ratios);
+    fields.field("points", table.points);
+    fields.field("samples", table.samplings);
+    fields.field("directions", table.directions);
+}
+
 template <class Fields, class One>
 void describe_study(Fields& fields, One& study) {
     fields.field("name", study.name);
@@ -52,6 +72,8 @@ void describe_study(Fields& fields, One& study) {
             one.field("value", parameter.second);
         });
     fields.list("pictures", study.pictures, [](auto& one, auto& picture) { describe_picture(one, picture); });
+    if (fields.has("tables", !study.tables.empty()))
+        fields.list("tables", study.tables, [](auto& one, auto& table) { describe_table(one, table); });
 }
 
 /// A run that may not have been begun when the program ended.
@@ -105,6 +127,18 @@ void check(StudyPicture& picture, const Place& place) {
     const std::vector<std::string> formats = picture_formats();
     if (std::find(formats.begin(), formats.end(), picture.format) == formats.end())
         throw InputError(place, fmt::format("pictures cannot be '{}'", picture.format), study_name_remedy("", formats));
+}
+
+void check(StudyTable& table, const Place& place) {
+    table.place = place;
+    require_file_name(table.name, "name of a table", place);
+    for (const auto* texts : {&table.points, &table.samplings, &table.directions})
+        for (const std::string& text : *texts)
+            require_plain_line(text, "text of a table", place);
+    for (const auto* columns : {&table.columns, &table.ratios})
+        for (const StudyTable::Column& column : *columns)
+            for (const std::string* text : {&column.name, &column.value})
+                require_plain_line(*text, "column of a table", place);
 }
 
 } // namespace
@@ -175,11 +209,15 @@ Study stored_study(const ResultFile& file) {
             runs.push_back(run_of(run, place));
     study.runs = in_order(std::move(runs));
     const auto is_there = [&](const std::string& name) { return is_in(study.runs, name); };
-    std::erase_if(study.pictures, [&](const StudyPicture& picture) {
-        return picture.runs.empty() || !std::all_of(picture.runs.begin(), picture.runs.end(), is_there);
-    });
+    const auto is_of_others = [&](const auto& one) {
+        return one.runs.empty() || !std::all_of(one.runs.begin(), one.runs.end(), is_there);
+    };
+    std::erase_if(study.pictures, is_of_others);
+    std::erase_if(study.tables, is_of_others);
     for (StudyPicture& picture : study.pictures)
         check(picture, place);
+    for (StudyTable& table : study.tables)
+        check(table, place);
     return study;
 }
 

@@ -192,9 +192,9 @@ Study parse_study(std::string_view text, const std::string& file, const Paramete
     StudyDefaults defaults;
     defaults.given = set;
     Place name_place;
-    std::optional<TomlEntry> runs, pictures;
+    std::optional<TomlEntry> runs, pictures, tables;
     for (const TomlEntry& entry :
-         toml.entries(root, "", {"name", "text", "source", "model", "set", "values", "runs", "pictures"})) {
+         toml.entries(root, "", {"name", "text", "source", "model", "set", "values", "runs", "pictures", "tables"})) {
         if (entry.name == "name")
             study.name = toml.string(entry), name_place = toml.place(*entry.node);
         else if (entry.name == "text")
@@ -209,7 +209,7 @@ Study parse_study(std::string_view text, const std::string& file, const Paramete
         else if (entry.name == "values")
             defaults.values = entry;
         else
-            (entry.name == "runs" ? runs : pictures) = entry;
+            (entry.name == "runs" ? runs : entry.name == "pictures" ? pictures : tables) = entry;
     }
     if (study.name.empty())
         throw InputError(Place{file, 1, 1}, "the study has no name", "give name = \"...\" in its first line");
@@ -240,6 +240,10 @@ Study parse_study(std::string_view text, const std::string& file, const Paramete
         for (const TomlEntry& entry : toml.entries(toml.table(*pictures), "pictures"))
             study.pictures.push_back(read_picture(reader, entry));
     check_pictures(study);
+    if (tables)
+        for (const TomlEntry& entry : toml.entries(toml.table(*tables), "tables"))
+            study.tables.push_back(read_table(reader, entry));
+    check_tables(study);
     return study;
 }
 

@@ -51,6 +51,9 @@ using RunKeys = std::map<std::string, TomlEntry>;
 /// @param keys receives those of the run, for checks that need other runs
 StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const StudyDefaults& defaults, RunKeys& keys);
 StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry);
+StudyTable read_table(const StudyReader& reader, const TomlEntry& entry);
+/// @throws InputError for a table that does not go with the study's runs, or whose file a picture writes
+void check_tables(const Study& study);
 /// Each run after the one that it starts from, otherwise in their order.
 /// @throws InputError for a run that starts from one that is not there, or from itself
 std::vector<StudyRun> in_order(std::vector<StudyRun> runs);

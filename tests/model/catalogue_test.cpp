@@ -67,6 +67,12 @@ TEST(Catalogue, LoadsByNameOrPath) {
     const std::string name = catalogue().front().name;
     EXPECT_EQ(load_model(GRAZE_SOURCE_DIR "/models/" + name + ".toml").name, name);
     EXPECT_FALSE(find_in_catalogue("nothing-like-it"));
+    EXPECT_EQ(load_model("microbeam-3").name, "microbeam-3");
+    EXPECT_EQ(load_model("microbeam-12").states.size(), 25u);
+    for (const char* none : {"microbeam-", "microbeam-0", "microbeam-1", "microbeam-03", "microbeam-3x", "microbeam--3",
+                             "microbeam-3.0", "microbeam-99999999999"})
+        EXPECT_NE(message(none).find("there is no shipped model"), std::string::npos) << none;
+    EXPECT_NE(message("microbeam-201").find("the number of modes is 201"), std::string::npos);
     std::string wrong = name;
     wrong.back() = '_';
     EXPECT_NE(message(wrong).find("there is no shipped model '" + wrong + "'; did you mean '" + name + "'?"),

@@ -25,7 +25,7 @@ std::optional<CatalogueEntry> find_in_catalogue(std::string_view name);
 /// Whether this is the path of a model file: it contains a slash or ends in ".toml". Other names are in the catalogue.
 bool is_model_path(std::string_view name_or_path);
 
-/// The model of this name or in this file.
+/// The model of this name or in this file. "microbeam-9" is the member of the microbeam's family with nine modes.
 /// @throws InputError when there is neither (with the nearest name)
 Model load_model(const std::string& name_or_path);
 

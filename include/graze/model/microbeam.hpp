@@ -2,7 +2,9 @@
 
 #include "graze/model/model.hpp"
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace graze {
@@ -40,5 +42,8 @@ struct MicrobeamOptions {
 /// The microbeam of chapter 3 with N modes: modes of motion (pulse on or off) x (free or in contact).
 /// @throws InputError for options that make no sense
 Model microbeam(const MicrobeamOptions& options = {});
+/// The number of modes in the name of a member of this family: 9 in "microbeam-9". None in other names, "microbeam"
+/// among them.
+std::optional<int> microbeam_modes(std::string_view model_name);
 
 } // namespace graze

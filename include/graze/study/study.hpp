@@ -98,6 +98,22 @@ struct StudyPicture {
     Place place;
 };
 
+/// A table made from runs, in a file of its own: a row for each special point of a branch, for each sample of another
+/// run, or for each of its points if only they are asked for.
+struct StudyTable {
+    struct Column {
+        std::string name;
+        std::string value; ///< what a run calls it, or an expression of SQL in such names
+    };
+    std::string name, text;
+    std::vector<std::string> runs; ///< one below the other
+    std::vector<Column> columns; ///< behind the run's name, if there are several, and the point's label, if it has one
+    std::vector<Column> ratios;  ///< how the distances between rows go on: `value` names the column
+    std::vector<std::string> points; ///< of branches: only these types, such as "GR", or labels, such as "GR1"
+    std::vector<std::string> samplings, directions; ///< only these; empty: all
+    Place place;
+};
+
 /// Values of parameters that take the place of those that a study and its models give.
 using ParameterValues = std::vector<std::pair<std::string, double>>;
 
@@ -107,6 +123,7 @@ struct Study {
     ParameterValues set;        ///< with which it was read, instead of its own
     std::vector<StudyRun> runs; ///< each after those it starts from
     std::vector<StudyPicture> pictures;
+    std::vector<StudyTable> tables;
 
     /// Null when there is none of that name.
     const StudyRun* find_run(const std::string& run) const;

@@ -1,0 +1,154 @@
+#include "graze/study/study_table.hpp"
+
+#include "graze/results/stored_run.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+namespace graze {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+using Cell = std::variant<double, std::string>;
+
+Cell cell_of(const ResultFile::Rows& rows, std::size_t column) {
+    if (rows.is_text(column))
+        return rows.text(column);
+    if (rows.is_null(column))
+        return nothing;
+    const double value = rows.number(column);
+    if (std::isinf(value))
+        return std::string(value > 0 ? "inf" : "-inf");
+    return value;
+}
+
+/// Whether an expression has this name in it.
+bool mentions(const std::string& expression, const std::string& name) {
+    const auto is_of_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+    for (std::size_t at = expression.find(name); at != std::string::npos; at = expression.find(name, at + 1)) {
+        const std::size_t end = at + name.size();
+        if ((at == 0 || !is_of_name(expression[at - 1])) && (end == expression.size() || !is_of_name(expression[end])))
+            return true;
+    }
+    return false;
+}
+
+class TableMaker {
+public:
+    TableMaker(const StudyTable& asked, const ResultFile& file) : asked_(&asked) {
+        for (const std::string& name : asked.runs)
+            runs_.emplace_back(file, name, asked.place);
+        for (const StoredRun& run : runs_)
+            branches_ = branches_ || run.record.is_branch();
+        heading_ = (runs_.size() > 1 ? 1u : 0u) + (branches_ ? 1u : 0u);
+    }
+
+    Table make() {
+        for (const StoredRun& run : runs_)
+            add_rows(run);
+        Table table(columns());
+        for (std::size_t r = 0; r < rows_.size(); ++r) {
+            for (const Cell& cell : rows_[r])
+                if (const double* number = std::get_if<double>(&cell))
+                    table.add(*number);
+                else
+                    table.add(std::get<std::string>(cell));
+            for (const StudyTable::Column& ratio : asked_->ratios)
+                table.add(ratio_at(r, ratio.value));
+        }
+        return table;
+    }
+
+private:
+    std::vector<Table::Column> columns() const {
+        std::vector<Table::Column> columns;
+        if (runs_.size() > 1)
+            columns.push_back({"run", ""});
+        if (branches_)
+            columns.push_back({"label", ""});
+        for (const StudyTable::Column& column : asked_->columns)
+            columns.push_back({column.name, runs_.front().unit(column.value)});
+        for (const StudyTable::Column& ratio : asked_->ratios)
+            columns.push_back({ratio.name, ""});
+        return columns;
+    }
+    bool is_asked_for(const std::string& type, const std::string& label) const {
+        const std::vector<std::string>& points = asked_->points;
+        if (points.empty())
+            return !label.empty();
+        return std::any_of(points.begin(), points.end(),
+                           [&](const std::string& point) { return point == type || point == label; });
+    }
+    /// Whether a column is of what was sampled, rather than of points.
+    bool takes_samples(const StoredRun& run) const {
+        if (run.record.is_branch())
+            return false;
+        const std::vector<std::string> values = run.value_names();
+        return std::any_of(values.begin(), values.end(), [&](const std::string& value) {
+            return std::any_of(asked_->columns.begin(), asked_->columns.end(),
+                               [&](const StudyTable::Column& column) { return mentions(column.value, value); });
+        });
+    }
+    void add_rows(const StoredRun& run) {
+        const std::vector<std::string> of_branches{"type", "label"};
+        Selection selection;
+        selection.samples = takes_samples(run);
+        if (branches_)
+            selection.columns = of_branches;
+        for (const StudyTable::Column& column : asked_->columns)
+            selection.quantities.push_back(column.value);
+        selection.directions = asked_->directions;
+        selection.samplings = asked_->samplings;
+        auto rows = read(run, selection);
+        while (rows.next()) {
+            if (branches_ && !is_asked_for(rows.text(0), rows.text(1)))
+                continue;
+            std::vector<Cell>& row = rows_.emplace_back();
+            if (runs_.size() > 1)
+                row.emplace_back(run.record.name);
+            if (branches_)
+                row.emplace_back(rows.text(1));
+            for (std::size_t c = selection.columns.size(); c < rows.columns(); ++c)
+                row.push_back(cell_of(rows, c));
+        }
+    }
+    /// What is wrong with an expression is told with the place of the table.
+    ResultFile::Rows read(const StoredRun& run, const Selection& selection) const {
+        try {
+            return run.rows(selection);
+        } catch (const InputError& error) {
+            throw InputError(asked_->place, "run '" + run.record.name + "': " + error.problem(), error.remedy());
+        }
+    }
+    double number(std::size_t row, std::size_t column) const {
+        const double* value = row < rows_.size() ? std::get_if<double>(&rows_[row][column]) : nullptr;
+        return value ? *value : nothing;
+    }
+    double ratio_at(std::size_t row, const std::string& name) const {
+        std::size_t column = heading_;
+        while (asked_->columns[column - heading_].name != name)
+            ++column;
+        const double before = number(row + 1, column) - number(row, column);
+        return before == 0 ? nothing : (number(row + 2, column) - number(row + 1, column)) / before;
+    }
+
+    const StudyTable* asked_;
+    std::vector<StoredRun> runs_;
+    bool branches_ = false;
+    std::size_t heading_ = 0; ///< columns before those that are asked for
+    std::vector<std::vector<Cell>> rows_;
+};
+
+} // namespace
+
+Table make_table(const StudyTable& table, const ResultFile& file) {
+    return TableMaker(table, file).make();
+}
+
+} // namespace graze

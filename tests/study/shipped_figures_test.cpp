@@ -1,0 +1,337 @@
+// What the shipped studies show of figures and tables of the dissertation, against values that were computed
+// independently, and against what is printed.
+
+#include "graze/results/stored_run.hpp"
+#include "graze/study/runner.hpp"
+#include "graze/study/study_catalogue.hpp"
+#include "graze/study/study_table.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace graze {
+namespace {
+
+/// Some runs of a shipped study, done.
+class ShippedResults {
+public:
+    explicit ShippedResults(const std::string& name) : ShippedResults(load_study(name)) {}
+    explicit ShippedResults(Study made)
+        : study(std::move(made)),
+          path_((std::filesystem::temp_directory_path() / ("graze-figures-" + std::to_string(getpid()) + ".sqlite"))
+                    .string()) {
+        std::filesystem::remove(path_);
+        file_.emplace(path_, ResultFile::Access::write);
+    }
+    ~ShippedResults() {
+        file_.reset();
+        std::filesystem::remove(path_);
+    }
+    ShippedResults(const ShippedResults&) = delete;
+    ShippedResults& operator=(const ShippedResults&) = delete;
+
+    /// With the runs that they start from.
+    void run(const std::vector<std::string>& names) {
+        RunnerOptions options;
+        options.only = names;
+        for (const RunReport& report : run_study(study, *file_, options))
+            EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
+    }
+    const ResultFile& file() const { return *file_; }
+    const StudyTable& table(const std::string& name) const {
+        const auto found = std::find_if(study.tables.begin(), study.tables.end(),
+                                        [&](const StudyTable& table) { return table.name == name; });
+        return found == study.tables.end() ? throw std::out_of_range(name) : *found;
+    }
+    SpecialPoint point(const std::string& run, const std::string& label) const {
+        for (const OrbitRecord& record : file_->orbits(run, true))
+            if (record.label == label)
+                return record.point;
+        throw std::out_of_range(run + ":" + label);
+    }
+    double monitor(const std::string& run, const std::string& name) const {
+        auto rows = StoredRun(*file_, run, {}).rows({.quantities = {name}});
+        return rows.next() ? rows.number(0) : throw std::out_of_range(run);
+    }
+
+    const Study study;
+
+private:
+    std::string path_;
+    std::optional<ResultFile> file_;
+};
+
+/// Rows run, label, omega, V, lambda. @param computed voltages of all grazings @param printed those in the text, with
+/// ratios of them
+void expect_ladder(const ShippedResults& results, const std::string& name, const std::vector<double>& computed,
+                   const std::vector<double>& printed, const std::vector<double>& ratios) {
+    const Table table = make_table(results.table(name), results.file());
+    ASSERT_GE(table.rows(), computed.size());
+    for (std::size_t i = 0; i < computed.size(); ++i) {
+        EXPECT_NEAR(table.number(i, 3), computed[i], 1e-12) << name << ' ' << i;
+        EXPECT_NEAR(table.number(i, 3), printed[i], 1e-4) << name << ' ' << i; // one is cut off, not rounded
+    }
+    for (std::size_t i = 0; i + 2 < computed.size(); ++i) {
+        const double first = computed[i + 1] - computed[i], second = computed[i + 2] - computed[i + 1];
+        EXPECT_NEAR(table.number(i, 4), second / first, 4e-12 / first) << name << ' ' << i;
+    }
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+        // They were printed of voltages with more digits, or of those with four.
+        const double first = computed[i + 1] - computed[i];
+        EXPECT_NEAR(table.number(i, 4), ratios[i], 1e-4 * (1 + ratios[i]) / first) << name << ' ' << i;
+    }
+    for (std::size_t row = table.rows() - 2; row < table.rows(); ++row)
+        EXPECT_TRUE(table.is_missing(row, 4));
+}
+
+TEST(ShippedFigures, ladders_of_grazings_of_the_microactuator) {
+    ShippedResults results("microactuator");
+    results.run({"five_impacts", "fast_seven_impacts"});
+    const std::vector<double> computed{0.5876212422746997, 0.7304755333366196, 0.8095127614194632, 0.8558788675649937,
+                                       0.8819580628177297};
+    expect_ladder(results, "grazings", computed, {.5876, .7305, .8095, .8559, .8819}, {.5528, .5873, .5603});
+    expect_ladder(results, "grazings-fast",
+                  {.52745995765981, .66636423118007, .74940362005310, .79897011651099, .82715666925300, .84240315127881,
+                   .85032000894172, .85431167398464},
+                  {.5275, .6664, .7494, .7990, .8271, .8424, .8503, .8543}, {.5978, .5968, .5686, .5417, .5191, .5038});
+    // Fig. 2.7: G-4 has six segments, G-5 eight; the front is touched by the longest one while the frame sticks.
+    for (const auto& [run, impacts] : {std::pair("three_impacts", 3u), std::pair("four_impacts", 4u)}) {
+        const SpecialPoint point = results.point(run, "GR1");
+        EXPECT_EQ(point.solution.orbit.segments(), 2 * impacts);
+        EXPECT_EQ(results.study.runs.front().model.events[point.event].name, "front");
+        EXPECT_NEAR(point.parameter, computed[impacts], 1e-12);
+        EXPECT_FALSE(point.at_end);
+    }
+}
+
+/// The clamped beam's mode i in terms of its middle: even or odd functions, in which nothing cancels.
+class Mode {
+public:
+    explicit Mode(int i) : even_(i % 2 == 1) {
+        // tan(k/2) = -tanh(k/2) or tanh(k/2), which together are cos(k) cosh(k) = 1; by bisection.
+        const long double pi = std::numbers::pi_v<long double>;
+        long double low = (static_cast<long double>(i) + 0.25L) * pi, high = low + 0.5L * pi;
+        const auto residual = [&](long double k) {
+            return std::sin(k / 2) + (even_ ? 1 : -1) * std::tanh(k / 2) * std::cos(k / 2);
+        };
+        for (int step = 0; step < 100; ++step) {
+            const long double middle = (low + high) / 2;
+            ((residual(low) > 0) == (residual(middle) > 0) ? low : high) = middle;
+        }
+        k_ = low;
+    }
+    long double frequency() const { return k_ * k_; }
+    /// At a distance from the middle.
+    long double shape(long double s) const {
+        return even_ ? std::cos(k_ * s) / std::cos(k_ / 2) - std::cosh(k_ * s) / std::cosh(k_ / 2)
+                     : std::sin(k_ * s) / std::sin(k_ / 2) - std::sinh(k_ * s) / std::sinh(k_ / 2);
+    }
+    long double slope(long double s) const {
+        return k_ * (even_ ? -std::sin(k_ * s) / std::cos(k_ / 2) - std::sinh(k_ * s) / std::cosh(k_ / 2)
+                           : std::cos(k_ * s) / std::sin(k_ / 2) - std::cosh(k_ * s) / std::sinh(k_ / 2));
+    }
+
+private:
+    bool even_;
+    long double k_ = 0;
+};
+
+/// Over the beam, by Simpson's rule.
+template <class Integrand>
+long double integral(Integrand integrand) {
+    constexpr int intervals = 20000;
+    long double sum = 0;
+    for (int i = 0; i <= intervals; ++i) {
+        const long double weight = i == 0 || i == intervals ? 1 : i % 2 == 1 ? 4 : 2;
+        sum += weight * integrand(static_cast<long double>(i) / intervals - 0.5L);
+    }
+    return sum / (3 * intervals);
+}
+
+TEST(ShippedFigures, modal_frequencies_and_slopes_of_the_microbeam) {
+    ShippedResults results("microbeam-modes");
+    results.run({});
+    const Table table = make_table(results.table("table-3-1"), results.file());
+    ASSERT_EQ(table.rows(), 9u);
+    const double computed[] = {22.37328544806, 61.67282286792, 120.9033917271, 199.8594481272, 298.5555352982,
+                               416.9907858354, 555.1652475668, 713.0789179784, 890.7317971983};
+    const double printed[] = {22.4, 61.7, 121, 200, 299, 417, 555, 713, 891};
+    std::vector<Mode> modes;
+    std::vector<long double> sizes;
+    for (int i = 1; i <= 9; ++i) {
+        const Mode mode(i);
+        modes.push_back(mode);
+        sizes.push_back(std::sqrt(integral([&](long double s) { return mode.shape(s) * mode.shape(s); })));
+    }
+    for (std::size_t i = 0; i < 9; ++i) {
+        EXPECT_EQ(table.text(i, 0), "mode_" + std::to_string(i + 1));
+        // Of motions that were integrated to 1e-12; computed values have thirteen digits, printed ones three.
+        const double frequency = table.number(i, 1);
+        EXPECT_NEAR(frequency, computed[i], 1e-12 * frequency) << i;
+        EXPECT_NEAR(frequency, static_cast<double>(modes[i].frequency()), 1e-12 * frequency) << i;
+        EXPECT_NEAR(frequency, printed[i], frequency < 100 ? 0.05 : 0.5) << i;
+        for (std::size_t j = 0; j < 9; ++j) {
+            const long double product = integral([&](long double s) { return modes[i].slope(s) * modes[j].slope(s); });
+            // The sign of a mode's shape is free: here all are positive at x = 1/2 - 0, or rise there.
+            EXPECT_NEAR(std::abs(table.number(i, 2 + j)), std::abs(static_cast<double>(product / sizes[i] / sizes[j])),
+                        1e-9)
+                << i << ' ' << j;
+        }
+    }
+    const struct {
+        std::size_t i, j;
+        double printed, tolerance;
+    } products[] = {{1, 1, 12.3, .05},   {1, 3, -9.73, .005}, {1, 5, -7.62, .005}, {1, 7, -6.11, .005},
+                    {1, 9, -5.07, .005}, {2, 2, 46.1, .051},  {2, 4, -17.1, .05},  {2, 6, -15.2, .05},
+                    {2, 8, -13.1, .05},  {3, 3, 98.9, .05},   {3, 5, -24.3, .051}, {3, 7, -23.0, .05},
+                    {3, 9, -20.9, .05},  {4, 4, 172, .5},     {4, 6, -31.3, .05},  {4, 8, -30.6, .05},
+                    {5, 5, 264, .5},     {5, 7, -38.0, .05},  {5, 9, -38.0, .05},  {6, 6, 376, .5},
+                    {6, 8, -44.7, .05},  {7, 7, 508, .5},     {7, 9, -51.2, .05},  {8, 8, 660, .5},
+                    {9, 9, 831, .5}}; // 836 there
+    for (const auto& product : products) {
+        EXPECT_NEAR(table.number(product.i - 1, 1 + product.j), product.printed, product.tolerance)
+            << product.i << ' ' << product.j;
+        EXPECT_NEAR(table.number(product.j - 1, 1 + product.i), product.printed, product.tolerance);
+    }
+    const double tenth[][3] = {{1, 1, 12.302618622966},
+                               {1, 3, -9.7307922131},
+                               {3, 3, 98.9048014025},
+                               {5, 5, 263.997980736},
+                               {9, 9, 831.041536780}};
+    for (const auto& [i, j, value] : tenth)
+        EXPECT_NEAR(table.number(static_cast<std::size_t>(i) - 1, 1 + static_cast<std::size_t>(j)), value, 1e-9);
+}
+
+TEST(ShippedFigures, orbits_and_branches_of_the_microbeam) {
+    ShippedResults results("microbeam");
+    results.run({"grazing", "high_penetration", "contact", "no_stop", "one_mode_contact", "one_mode_high_penetration"});
+    EXPECT_NEAR(results.point("no_contact", "GR1").parameter, 0.030040810557599, 1e-13);
+    EXPECT_NEAR(results.point("contact", "SN1").parameter, 0.032825650930776, 1e-13);
+    EXPECT_NEAR(results.point("contact", "SN2").parameter, 0.022532683475758, 1e-13);
+    EXPECT_NEAR(results.point("no_stop", "SN1").parameter, 0.036662363851355, 1e-13);
+    // Fig. 3.3: one orbit touches the stop, the other is on the branch beyond the folds.
+    EXPECT_NEAR(results.monitor("grazing", "V"), 0.030040810557599, 1e-13);
+    EXPECT_EQ(results.point("grazing", "EP1").solution.orbit.segments(), 2u);
+    EXPECT_EQ(results.point("high_penetration", "EP1").solution.orbit.segments(), 4u);
+    // Fig. 3.6: the stop is touched at the same voltage however stiff it is, and the fold follows closely.
+    const double grazing = results.point("one_mode_no_contact", "GR1").parameter;
+    EXPECT_NEAR(grazing, 0.030040810557599, 1e-13);
+    const double fold = results.point("one_mode_contact", "SN1").parameter;
+    EXPECT_GT(fold, grazing);
+    EXPECT_LT(fold, 1.01 * grazing);
+    EXPECT_LT(fold, results.point("contact", "SN1").parameter);
+    for (const OrbitRecord& record : results.file().orbits("one_mode_contact", false))
+        EXPECT_LE(record.point.parameter, fold * (1 + 1e-12));
+}
+
+/// Fig. 3.5: a sweep and the equations of the orbit agree on the speed at which the stop is met.
+TEST(ShippedFigures, contact_speed_of_the_microbeam) {
+    ShippedResults results("microbeam");
+    results.run({"penetration", "high_penetration"});
+    const StoredRun sweep(results.file(), "penetration", {});
+    auto samples = sweep.rows({.samples = true,
+                               .columns = {"direction"},
+                               .quantities = {"V"},
+                               .values = {"contact_speed"},
+                               .samplings = {"touch"}});
+    double first = 1, last_down = 1, at_033 = 0, before_jump = 0, after_jump = 0;
+    while (samples.next()) {
+        const double voltage = samples.number(1), speed = samples.number(2);
+        EXPECT_GT(speed, 0);
+        if (samples.text(0) == "up") {
+            first = std::min(first, voltage);
+            if (voltage < 0.0328256)
+                before_jump = std::max(before_jump, speed);
+            else
+                after_jump = after_jump == 0 ? speed : std::min(after_jump, speed);
+            if (std::abs(voltage - 0.033) < 1e-9)
+                at_033 = speed;
+        } else {
+            last_down = std::min(last_down, voltage);
+        }
+    }
+    EXPECT_NEAR(first, 0.03005, 1e-12);     // the first step beyond 0.030040810557599
+    EXPECT_NEAR(last_down, 0.02255, 1e-12); // the last one above 0.022532683475758
+    EXPECT_GT(after_jump, 3 * before_jump);
+    const StoredRun orbit(results.file(), "high_penetration", {});
+    auto segments = orbit.rows({.samples = true, .columns = {"ending", "approach_speed"}});
+    double approach = 0;
+    while (segments.next())
+        if (segments.text(0).find("touch") != std::string::npos)
+            approach = segments.number(1);
+    // Newton's method ends at 1e-10 of the orbit's size in either.
+    EXPECT_NEAR(std::abs(approach), at_033, 1e-8);
+}
+
+TEST(ShippedFigures, nine_modes_against_a_stiff_stop) {
+    ShippedResults results("microbeam");
+    results.run({"one_mode", "nine_modes"});
+    const Table table = make_table(results.table("modal-amplitudes"), results.file());
+    ASSERT_EQ(table.rows(), 1u);
+    const double percent[] = {11.21, 2.28, .525, .182}, digit[] = {.01, .01, .001, .001};
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_NEAR(table.number(0, 4 + i), percent[i], digit[i] / 2);
+    const double one = std::max(results.monitor("one_mode", "highest_q1"), -results.monitor("one_mode", "lowest_q1"));
+    EXPECT_NEAR(one / table.number(0, 3), 1, 0.05);
+}
+
+TEST(ShippedFiguresSlow, nine_modes_up_to_their_fold) {
+    ShippedResults results("microbeam");
+    results.run({"nine_modes_contact", "nine_modes_high_penetration"});
+    const SpecialPoint grazing = results.point("nine_modes_no_contact", "GR1");
+    const double fold = results.point("nine_modes_contact", "SN1").parameter;
+    EXPECT_NEAR(grazing.parameter, 0.03, 5e-5);    // as printed, to one digit
+    EXPECT_NEAR(grazing.monitors.at(0), 0, 1e-12); // the penetration
+    EXPECT_GT(fold, grazing.parameter);
+    EXPECT_LT(fold, 1.01 * grazing.parameter);
+    // Beside both a branch of high penetration, which stays on all of the figure.
+    for (const OrbitRecord& record : results.file().orbits("nine_modes_high_penetration", false)) {
+        EXPECT_TRUE(record.stable);
+        EXPECT_GT(record.point.monitors.at(0), 0.007);
+    }
+}
+
+/// Fig. 5.14 (d), of a sweep that is only as long as the figure needs.
+TEST(ShippedFigures, motions_on_both_sides_of_the_onset_at_7_Hz) {
+    const std::string whole = "from = 3.0, to = 5.5", part = "from = 3.66, to = 3.68";
+    std::string text = shipped_study_text("electromagnetic-testbed");
+    ASSERT_NE(text.find(whole), std::string::npos);
+    text.replace(text.find(whole), whole.size(), part);
+    ShippedResults results(parse_study(text, "electromagnetic-testbed"));
+    results.run({"before_onset_7Hz", "after_onset_7Hz", "no_impact_7Hz"});
+    EXPECT_NEAR(results.point("no_impact_7Hz", "GR1").parameter, 3.675357252066, 1e-10);
+    // Half a period on, the motion without impacts is its own image: the current changes sign, the velocity does not.
+    auto before = StoredRun(results.file(), "before_onset_7Hz", {}).rows({.samples = true, .values = {"v", "I"}});
+    std::vector<double> velocities, currents;
+    while (before.next()) {
+        velocities.push_back(before.number(0));
+        currents.push_back(before.number(1));
+    }
+    ASSERT_EQ(velocities.size(), 400u);
+    for (std::size_t i = 0; i < 200; ++i) {
+        EXPECT_NEAR(velocities[i], velocities[i + 200], 1e-8) << i;
+        EXPECT_NEAR(currents[i], -currents[i + 200], 1e-8) << i;
+    }
+    const StoredRun after(results.file(), "after_onset_7Hz", {});
+    auto phases = after.rows({.samples = true, .values = {"v"}, .samplings = {"phases"}});
+    std::size_t count = 0;
+    double least = 1, greatest = -1; // of velocities at one phase, which vary from period to period
+    while (phases.next())
+        if (count++ % 100 == 0) {
+            least = std::min(least, phases.number(0));
+            greatest = std::max(greatest, phases.number(0));
+        }
+    EXPECT_EQ(count, 4000u);
+    EXPECT_GT(greatest - least, 0.01);
+}
+
+} // namespace
+} // namespace graze
