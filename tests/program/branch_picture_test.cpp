@@ -76,8 +76,8 @@ TEST_F(BranchPicture, SpecialPointsAreMarkedAndLabelled) {
     EXPECT_EQ(texts, (std::vector<std::string>{"GR1", "PD1", "SN1"}));
     const Figure figure{"", 1, {panel}};
     const std::string script = figure_script(figure, "svg", "out.svg");
-    for (const char* text : {"set label \"SN1\" at first 2,0.25", "set label \"GR1\"", "set label \"PD1\"",
-                             "title \"unphysical\"", "title \"unstable\""})
+    for (const char* text : {"set label \"SN1\" at screen", "set label \"GR1\"", "set label \"PD1\"",
+                             "set label \"unphysical\"", "set label \"unstable\""})
         EXPECT_THAT(script, HasSubstr(text));
     EXPECT_THAT(script, Not(HasSubstr("EP1")));
 }
