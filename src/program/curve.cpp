@@ -62,6 +62,15 @@ double slope_between(double length, double slope, double next_length, double nex
     return (one + other) / (one / slope + other / next_slope);
 }
 
+/// The same at an end: that of the parabola through three points, unless it turns the wrong way.
+double slope_at_end(double length, double slope, double next_length, double next_slope) {
+    const double parabola = ((2 * length + next_length) * slope - length * next_slope) / (length + next_length);
+    if (parabola * slope <= 0)
+        return 0;
+    constexpr double steepest = 3; // beyond, the cubic would overshoot (Fritsch and Carlson 1980)
+    return slope * next_slope < 0 && std::abs(parabola) > steepest * std::abs(slope) ? steepest * slope : parabola;
+}
+
 /// A piece of a curve without corners, all of whose points lie farther along than the one before.
 void add_smoothed(Polyline& result, std::span<const PlanePoint> line, std::span<const double> along) {
     constexpr int parts = 8; // of each interval
@@ -73,6 +82,15 @@ void add_smoothed(Polyline& result, std::span<const PlanePoint> line, std::span<
     }
     slopes[0] = chords[0];
     slopes[count - 1] = chords[count - 2];
+    if (count > 2) {
+        const auto at_end = [&](std::size_t i, std::size_t k, double length, double next) {
+            return PlanePoint{slope_at_end(length, chords[i].x, next, chords[k].x),
+                              slope_at_end(length, chords[i].y, next, chords[k].y)};
+        };
+        slopes[0] = at_end(0, 1, along[1] - along[0], along[2] - along[1]);
+        slopes[count - 1] =
+            at_end(count - 2, count - 3, along[count - 1] - along[count - 2], along[count - 2] - along[count - 3]);
+    }
     for (std::size_t i = 1; i + 1 < count; ++i) {
         const double length = along[i] - along[i - 1], next = along[i + 1] - along[i];
         slopes[i] = {slope_between(length, chords[i - 1].x, next, chords[i].x),

@@ -17,7 +17,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <set>
 #include <unordered_set>
+#include <utility>
 
 namespace graze {
 
@@ -272,35 +275,58 @@ private:
                " lc rgb variable";
     }
 
-    /// Dots of all series, of those that nobody could tell apart only one, in an order as if by chance: where colours
-    /// lie on one another each is seen.
+    struct Dot {
+        std::uint64_t square; ///< about as large as a dot
+        std::uint64_t order;
+        bool on_top;
+        PlanePoint at;
+        std::size_t series;
+    };
+
+    /// Of each square the dots of one series come last: which one is as if by chance, so that where series lie on one
+    /// another each is seen, however many dots it has.
+    static void mingle(std::vector<Dot>& dots) {
+        std::map<std::uint64_t, std::set<std::size_t>> present;
+        for (const Dot& dot : dots)
+            present[dot.square].insert(dot.series);
+        for (Dot& dot : dots) {
+            const std::set<std::size_t>& there = present[dot.square];
+            const auto top = static_cast<std::ptrdiff_t>(mixed(dot.square) % there.size());
+            dot.on_top = *std::next(there.begin(), top) == dot.series;
+        }
+        std::stable_sort(dots.begin(), dots.end(), [](const Dot& a, const Dot& b) {
+            return std::pair(a.on_top, a.order) < std::pair(b.on_top, b.order);
+        });
+    }
+
+    /// Dots of all series, of those that nobody could tell apart only one.
     static std::string mingled_dots(const FigurePanel& panel, const PanelLayout& layout) {
-        struct Dot {
-            std::uint64_t order;
-            PlanePoint at;
-            std::uint32_t colour;
-        };
+        constexpr double dot_size = 1.2; // points
         std::vector<Dot> dots;
+        const auto cell = [](double column, double row) {
+            return static_cast<std::uint64_t>(column) << 32 | static_cast<std::uint64_t>(row);
+        };
         for (std::size_t s = 0; s < panel.series.size(); ++s) {
             const FigureSeries& series = panel.series[s];
             if (series.style != FigureSeries::Style::dots)
                 continue;
             std::unordered_set<std::uint64_t> taken;
             for (const PlanePoint& point : series.points) {
-                if (!is_drawn(point, panel))
+                const double x = layout.x.share(point.x), y = layout.y.share(point.y);
+                if (!is_drawn(point, panel) || !(x >= 0 && x <= 1 && y >= 0 && y <= 1))
                     continue;
-                const double column = layout.x.share(point.x) / grain, row = layout.y.share(point.y) / grain;
-                if (!(column >= 0 && column <= 1 / grain && row >= 0 && row <= 1 / grain))
-                    continue;
-                const std::uint64_t cell = static_cast<std::uint64_t>(column) << 32 | static_cast<std::uint64_t>(row);
-                if (taken.insert(cell).second)
-                    dots.push_back({mixed(cell * 31 + s), point, colour_number(series.colour)});
+                const std::uint64_t place = cell(x / grain, y / grain);
+                const std::uint64_t square =
+                    cell(x * layout.frame.width() / dot_size, y * layout.frame.height() / dot_size);
+                if (taken.insert(place).second)
+                    dots.push_back({square, mixed(place * 31 + s), false, point, s});
             }
         }
-        std::stable_sort(dots.begin(), dots.end(), [](const Dot& a, const Dot& b) { return a.order < b.order; });
+        mingle(dots);
         std::string text;
         for (const Dot& dot : dots)
-            text += fmt::format("{:.7g} {:.7g} {}\n", dot.at.x, dot.at.y, dot.colour);
+            text +=
+                fmt::format("{:.7g} {:.7g} {}\n", dot.at.x, dot.at.y, colour_number(panel.series[dot.series].colour));
         return text;
     }
 

@@ -17,7 +17,7 @@ constexpr double roomy_margin = 0.08, usual_margin = 0.03;
 /// A range that is narrower, compared to its values, is drawn as a constant.
 constexpr double resolved = 1e-9;
 constexpr int least_power = -3, greatest_power = 5; ///< between which numbers are written in full
-constexpr int most_tics = 8;
+constexpr int most_tics = 6;
 
 struct Extent {
     double least = std::numeric_limits<double>::infinity(), greatest = -std::numeric_limits<double>::infinity();
@@ -103,7 +103,7 @@ void write_linear(PanelAxis& axis, int wanted) {
     const double tic = axis_for(axis.low, axis.high, wanted, 0).tic;
     axis.tics.clear();
     for (double count = std::ceil(axis.low / tic - slack); count * tic <= axis.high + slack * tic; ++count)
-        axis.tics.push_back({count * tic, number(count * tic, tic, axis.power)});
+        axis.tics.push_back({count * tic + 0.0, number(count * tic, tic, axis.power)});
 }
 
 /// Every so many decades.
@@ -157,8 +157,11 @@ PanelAxis panel_axis(const FigurePanel& panel, bool horizontal, double length, d
     for (int wanted = most_tics; wanted > 1; --wanted) {
         write_linear(axis, wanted);
         if (fits(axis, horizontal, length, font))
-            break;
+            return axis;
     }
+    while (axis.tics.size() > 1 && !fits(axis, horizontal, length, font)) // long numbers on a short axis
+        for (std::size_t i = 1; i < axis.tics.size(); ++i)
+            axis.tics.erase(axis.tics.begin() + static_cast<std::ptrdiff_t>(i));
     return axis;
 }
 

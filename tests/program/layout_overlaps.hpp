@@ -47,7 +47,7 @@ inline std::vector<std::string> overlaps_of(const FigureLayout& page) {
         if (!paper.holds(boxes[i].box))
             found.push_back(boxes[i].name + " sticks out of the page");
         for (std::size_t k = i + 1; k < boxes.size(); ++k)
-            if (boxes[i].box.meets(boxes[k].box))
+            if (boxes[i].box.meets(boxes[k].box.grown(-1e-6))) // rows of a legend touch
                 found.push_back(boxes[i].name + " lies on " + boxes[k].name);
     }
     for (const PanelLayout& panel : page.panels)
