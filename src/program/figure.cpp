@@ -176,8 +176,8 @@ private:
                                     : entry.style == Style::cells   ? 5
                                                                     : 7,
                                     (entry.style == Style::cells ? 1.4 : 1) * symbol_, colour);
-            text += fmt::format("set label \"{}\" at {} right {}\n", terminal_.text(rich(entry.title)),
-                                at({entry.box.right, y}), terminal_.font_text(legend_font(page_.font)));
+            text += fmt::format("set label \"{}\" at {} left {}\n", terminal_.text(rich(entry.title)),
+                                at({entry.title_left, y}), terminal_.font_text(legend_font(page_.font)));
         }
         return text;
     }
@@ -354,7 +354,7 @@ std::string without_ending(const std::string& path) {
 }
 
 /// LaTeX's text names the file with the lines, which is to stand beside it under the picture's name.
-void take_latex(const FileReplacement& file, const std::string& path) {
+void take_latex(const FileReplacement& file, const std::string& path, double font) {
     const std::string drawn = without_ending(file.temporary_path());
     const std::string lines = contents_of(drawn + ".pdf");
     std::error_code error;
@@ -364,6 +364,9 @@ void take_latex(const FileReplacement& file, const std::string& path) {
     for (std::size_t found = text.find(drawn); found != std::string::npos;
          found = text.find(drawn, found + name.size()))
         text.replace(found, drawn.size(), name);
+    const std::string begin = "\\begingroup";
+    if (const std::size_t found = text.find(begin); found != std::string::npos)
+        text.insert(found + begin.size(), fmt::format("\\fontsize{{{:g}}}{{{:g}}}\\selectfont", font, 1.2 * font));
     write_file(without_ending(path) + ".pdf", lines);
     file.write(text);
 }
@@ -407,7 +410,7 @@ void draw_figure(const Figure& figure, const std::string& path, const std::strin
                          "keep its commands by --data FILE and run gnuplot FILE");
     require_whole_picture(file.temporary_path(), ending, path);
     if (ending == "tex")
-        take_latex(file, path);
+        take_latex(file, path, layout_of(figure).font);
     file.commit();
 }
 

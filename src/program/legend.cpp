@@ -89,6 +89,7 @@ double place_legend(std::vector<LegendEntry>& entries, double left, double top, 
         const double y = top - row_height * size * static_cast<double>(i / columns + 1);
         Box& box = entries[i].box;
         box = {x, y, x + box.width(), y + box.height()};
+        entries[i].title_left = x + entries[i].sample + (entries[i].sampled ? gap * size : 0);
     }
     return row_height * size * static_cast<double>(rows);
 }

@@ -17,6 +17,7 @@ struct LegendEntry {
     bool sampled = true; ///< a sample of the style stands before the title
     Box box{};           ///< on the page, with the sample
     double sample = 0;   ///< width of the sample
+    double title_left = 0;
 };
 
 /// What a panel's legend says: each title once, and of very many the first few and how many more there are.
