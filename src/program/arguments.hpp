@@ -74,8 +74,8 @@ struct ExportArguments {
 };
 
 struct PlotArguments {
-    std::string file, kind, x, title, x_range, y_range, fit, group, output, data;
-    std::vector<std::string> runs, y, samples, directions, at, points, logarithmic;
+    std::string file, kind, x, title, x_range, y_range, fit, group, output, data, x_label, size, font;
+    std::vector<std::string> runs, y, samples, directions, at, points, logarithmic, names, y_labels;
     bool successive = false;
 };
 

@@ -220,7 +220,8 @@ Choices choices_for(const CLI::App& app, const CLI::App& command, const Declared
                                : std::vector<std::string>{"table", "csv", "json"},
                 false};
     if (starts("KIND"))
-        return {{"bifurcation", "branch", "basin", "spectrum", "history", "portrait", "regression", "scatter"}, false};
+        return {{"bifurcation", "branch", "basin", "map", "spectrum", "history", "portrait", "regression", "scatter"},
+                false};
     if (starts("RULE"))
         return {{"simpson", "gauss"}, false};
     if (starts("WAY"))

@@ -52,6 +52,90 @@ Polyline simplified(std::span<const PlanePoint> line, double width, double heigh
     return result;
 }
 
+namespace {
+
+/// Of a coordinate at a point between two intervals with these lengths and slopes: zero at extrema.
+double slope_between(double length, double slope, double next_length, double next_slope) {
+    if (slope * next_slope <= 0)
+        return 0;
+    const double one = 2 * next_length + length, other = next_length + 2 * length;
+    return (one + other) / (one / slope + other / next_slope);
+}
+
+/// The same at an end: that of the parabola through three points, unless it turns the wrong way.
+double slope_at_end(double length, double slope, double next_length, double next_slope) {
+    const double parabola = ((2 * length + next_length) * slope - length * next_slope) / (length + next_length);
+    if (parabola * slope <= 0)
+        return 0;
+    constexpr double steepest = 3; // beyond, the cubic would overshoot (Fritsch and Carlson 1980)
+    return slope * next_slope < 0 && std::abs(parabola) > steepest * std::abs(slope) ? steepest * slope : parabola;
+}
+
+/// A piece of a curve without corners, all of whose points lie farther along than the one before.
+void add_smoothed(Polyline& result, std::span<const PlanePoint> line, std::span<const double> along) {
+    constexpr int parts = 8; // of each interval
+    const std::size_t count = line.size();
+    std::vector<PlanePoint> chords(count), slopes(count);
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+        const double length = along[i + 1] - along[i];
+        chords[i] = {(line[i + 1].x - line[i].x) / length, (line[i + 1].y - line[i].y) / length};
+    }
+    slopes[0] = chords[0];
+    slopes[count - 1] = chords[count - 2];
+    if (count > 2) {
+        const auto at_end = [&](std::size_t i, std::size_t k, double length, double next) {
+            return PlanePoint{slope_at_end(length, chords[i].x, next, chords[k].x),
+                              slope_at_end(length, chords[i].y, next, chords[k].y)};
+        };
+        slopes[0] = at_end(0, 1, along[1] - along[0], along[2] - along[1]);
+        slopes[count - 1] =
+            at_end(count - 2, count - 3, along[count - 1] - along[count - 2], along[count - 2] - along[count - 3]);
+    }
+    for (std::size_t i = 1; i + 1 < count; ++i) {
+        const double length = along[i] - along[i - 1], next = along[i + 1] - along[i];
+        slopes[i] = {slope_between(length, chords[i - 1].x, next, chords[i].x),
+                     slope_between(length, chords[i - 1].y, next, chords[i].y)};
+    }
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+        const double length = along[i + 1] - along[i];
+        for (int part = 1; part <= parts; ++part) {
+            const double t = static_cast<double>(part) / parts, u = 1 - t;
+            const auto cubic = [&](double PlanePoint::*c) {
+                return u * u * (1 + 2 * t) * line[i].*c + t * t * (1 + 2 * u) * line[i + 1].*c +
+                       length * t * u * (u * slopes[i].*c - t * slopes[i + 1].*c);
+            };
+            result.push_back(part == parts ? line[i + 1] : PlanePoint{cubic(&PlanePoint::x), cubic(&PlanePoint::y)});
+        }
+    }
+}
+
+} // namespace
+
+Polyline smoothed(std::span<const PlanePoint> line, std::span<const double> along,
+                  std::span<const std::size_t> corners) {
+    if (line.empty() || along.size() != line.size())
+        return {line.begin(), line.end()};
+    const auto is_whole = [&](std::size_t i) { // the interval behind a point
+        return std::isfinite(line[i].x) && std::isfinite(line[i].y) && std::isfinite(line[i + 1].x) &&
+               std::isfinite(line[i + 1].y) && along[i + 1] > along[i];
+    };
+    Polyline result{line[0]};
+    for (std::size_t first = 0; first + 1 < line.size();) {
+        std::size_t last = first + 1;
+        if (!is_whole(first)) {
+            result.push_back(line[last]);
+            first = last;
+            continue;
+        }
+        while (last + 1 < line.size() && is_whole(last) &&
+               std::find(corners.begin(), corners.end(), last) == corners.end())
+            ++last;
+        add_smoothed(result, line.subspan(first, last - first + 1), along.subspan(first, last - first + 1));
+        first = last;
+    }
+    return result;
+}
+
 Axis axis_for(double least, double greatest, int tics, double margin) {
     if (!(least <= greatest))
         return {};

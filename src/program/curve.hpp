@@ -14,6 +14,13 @@ using Polyline = std::vector<PlanePoint>;
 /// @param width, height what the two axes span; distances are in terms of them
 Polyline simplified(std::span<const PlanePoint> line, double width, double height, double distance);
 
+/// More points between those that are given, along cubics that keep the direction at each of them and go beyond none
+/// (Fritsch and Butland 1984). Where there is a corner, and between points that are not farther along, lines stay
+/// straight or begin anew.
+/// @param along how far along the curve each point is; @param corners indices of points
+Polyline smoothed(std::span<const PlanePoint> line, std::span<const double> along,
+                  std::span<const std::size_t> corners);
+
 /// Limits and tic distance of an axis.
 struct Axis {
     double low = 0, high = 1, tic = 0.5;

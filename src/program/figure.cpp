@@ -2,8 +2,8 @@
 
 #include "graze/symbolic/input_error.hpp"
 #include "program/curve.hpp"
+#include "program/figure_layout.hpp"
 #include "program/gnuplot_text.hpp"
-#include "program/label_places.hpp"
 #include "program/output_file.hpp"
 #include "program/picture.hpp"
 #include "program/process.hpp"
@@ -14,211 +14,387 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
 #include <unordered_set>
+#include <utility>
 
 namespace graze {
 
 namespace {
 
-// Pixels at 96 per inch.
-constexpr double panel_width = 470, panel_height = 300, title_height = 34;
-constexpr double dots_per_inch = 200;
+constexpr double dots_per_inch = 200, points_per_inch = 72, svg_per_inch = 96;
 /// Dots closer than this share of a panel are one.
 constexpr double grain = 1.0 / 2000;
-constexpr std::array<const char*, 8> palette{"#1f4e9c", "#c8232c", "#2a8c4a", "#d98200",
-                                             "#7b3fa0", "#1797a6", "#8a5a32", "#606060"};
+/// That of Okabe and Ito (2008), whose colours the colour-blind tell apart too; brown and grey in the place of yellow
+/// and black.
+constexpr std::array<std::uint32_t, 8> palette{0x0072b2, 0xd55e00, 0x009e73, 0xe69f00,
+                                               0xcc79a7, 0x56b4e9, 0x7f4f24, 0x606060};
+constexpr std::uint32_t light_grey = 0xb0b0b0;
 
-bool is_drawn(const PlanePoint& point, const FigurePanel& panel) {
-    return std::isfinite(point.x) && std::isfinite(point.y) && (!panel.logarithmic_x || point.x > 0) &&
-           (!panel.logarithmic_y || point.y > 0);
+std::uint32_t colour_number(std::size_t colour) {
+    if (colour == FigureSeries::grey)
+        return light_grey;
+    return colour == FigureSeries::black ? 0 : palette[colour % palette.size()];
 }
 
-struct Extent {
-    double least = std::numeric_limits<double>::infinity(), greatest = -std::numeric_limits<double>::infinity();
-    void add(double value) {
-        least = std::min(least, value);
-        greatest = std::max(greatest, value);
-    }
-    double span() const { return greatest > least ? greatest - least : 1; }
+/// What differs between the kinds of files.
+struct Terminal {
+    std::string command;
+    double point = 1;   ///< gnuplot's size of a symbol with a diameter of 4.5 points
+    double letters = 1; ///< the font's size, for a point
+    std::string font;   ///< its name
+    bool latex = false;
+
+    std::string text(const RichText& rich) const { return latex ? latex_markup(rich) : gnuplot_markup(rich); }
+    std::string font_text(double size) const { return fmt::format("font '{},{:.4g}'", font, size * letters); }
 };
 
-/// Of those dots that nobody could tell apart only one.
-std::vector<PlanePoint> thinned(const FigureSeries& series, const FigurePanel& panel) {
-    const auto scale = [](double value, bool logarithmic) { return logarithmic ? std::log(value) : value; };
-    Extent x, y;
-    for (const PlanePoint& point : series.points)
-        if (is_drawn(point, panel)) {
-            x.add(scale(point.x, panel.logarithmic_x));
-            y.add(scale(point.y, panel.logarithmic_y));
-        }
-    std::unordered_set<std::uint64_t> taken;
-    std::vector<PlanePoint> result;
-    for (const PlanePoint& point : series.points) {
-        if (!is_drawn(point, panel))
-            continue;
-        const double column = (scale(point.x, panel.logarithmic_x) - x.least) / (x.span() * grain);
-        const double row = (scale(point.y, panel.logarithmic_y) - y.least) / (y.span() * grain);
-        const std::uint64_t cell = static_cast<std::uint64_t>(column) << 32 | static_cast<std::uint64_t>(row);
-        if (taken.insert(cell).second)
-            result.push_back(point);
-    }
-    return result;
-}
-
-std::string style_text(const FigureSeries& series, bool crowded) {
-    const char* colour = colour_text(series.colour);
-    switch (series.style) {
-    case FigureSeries::Style::dots:
-        return crowded ? fmt::format("with dots lc rgb '{}'", colour)
-                       : fmt::format("with points pt 7 ps 0.15 lc rgb '{}'", colour);
-    case FigureSeries::Style::circles:
-        return fmt::format("with points pt 6 ps 0.8 lw 1.4 lc rgb '{}'", colour);
-    case FigureSeries::Style::line:
-        return fmt::format("with lines lw 1.3 lc rgb '{}'", colour);
-    case FigureSeries::Style::dashed:
-        return fmt::format("with lines lw 1.3 dt (7,4) lc rgb '{}'", colour);
-    case FigureSeries::Style::dotted:
-        return fmt::format("with lines lw 0.9 dt 3 lc rgb '{}'", colour);
-    case FigureSeries::Style::symbols:
-        return fmt::format("with points pt {} ps 0.8 lw 1.2 lc rgb '{}'", series.symbol, colour);
-    case FigureSeries::Style::impulses:
-        return fmt::format("with linespoints pt 7 ps 0.4 lw 1.1 lc rgb '{}'", colour);
-    }
-    return "";
-}
-
-std::string range_text(const std::optional<std::pair<double, double>>& range) {
-    return range ? fmt::format("[{}:{}]", number_text(range->first), number_text(range->second)) : "[*:*]";
-}
-
-/// Fewer tics than usual where their labels are so long that they would run into one another.
-std::string tics_text(const FigurePanel& panel) {
-    Extent extent;
-    if (panel.x_range) {
-        extent.add(panel.x_range->first);
-        extent.add(panel.x_range->second);
+Terminal terminal_of(const Figure& figure, const FigureLayout& page, const std::string& ending) {
+    Terminal terminal;
+    require_quotable(figure.style.font);
+    terminal.font = figure.style.font.empty() ? "sans" : figure.style.font;
+    const double width = page.width / points_per_inch, height = page.height / points_per_inch;
+    if (ending == "png") {
+        const double scale = dots_per_inch / svg_per_inch;
+        terminal.command =
+            fmt::format("pngcairo noenhanced size {:.0f},{:.0f} fontscale {:.4g} linewidth {:.4g} pointscale {:.4g}",
+                        width * dots_per_inch, height * dots_per_inch, scale, scale, scale);
+    } else if (ending == "pdf") {
+        terminal.point = 0.75;
+        terminal.command =
+            fmt::format("pdfcairo enhanced size {:.4f}in,{:.4f}in fontscale 0.75 linewidth 1.5", width, height);
+    } else if (ending == "tex") {
+        terminal.point = 0.75;
+        terminal.latex = true;
+        terminal.font = figure.style.font;
+        terminal.command = fmt::format("cairolatex pdf input size {:.4f}in,{:.4f}in linewidth 1.5", width, height);
     } else {
-        for (const FigureSeries& series : panel.series)
-            for (const PlanePoint& point : series.points)
-                if (is_drawn(point, panel))
-                    extent.add(point.x);
+        terminal.letters = svg_per_inch / points_per_inch;
+        terminal.point = 7.2 / (page.font * terminal.letters);
+        terminal.command = fmt::format("svg enhanced size {:.0f},{:.0f} background rgb 'white'", width * svg_per_inch,
+                                       height * svg_per_inch);
     }
-    if (panel.logarithmic_x || !(extent.least < extent.greatest))
-        return "set xtics autofreq\n";
-    constexpr int usual = 8, few = 4;
-    constexpr std::size_t room = 54; // letters
-    const Axis axis = axis_for(extent.least, extent.greatest, usual, 0);
-    std::size_t letters = 0;
-    for (double count = std::ceil(axis.low / axis.tic); count * axis.tic <= axis.high; ++count)
-        letters += fmt::format("{:g}", count * axis.tic).size() + 1;
-    if (letters <= room)
-        return "set xtics autofreq\n";
-    return fmt::format("set xtics {:g}\n", axis_for(extent.least, extent.greatest, few, 0).tic);
+    terminal.command += ' ' + terminal.font_text(page.font);
+    return terminal;
 }
 
-std::string data_text(const FigureSeries& series, const FigurePanel& panel, bool& crowded) {
-    const bool dots = series.style == FigureSeries::Style::dots;
-    const std::vector<PlanePoint> points = dots ? thinned(series, panel) : series.points;
-    constexpr std::size_t crowd = 20000;
-    const int digits = dots ? 7 : 10; // lines are also drawn of narrow ranges
-    crowded = points.size() > crowd;
-    std::string text;
-    for (const PlanePoint& point : points)
-        text += is_drawn(point, panel) ? fmt::format("{:.{}g} {:.{}g}\n", point.x, digits, point.y, digits)
-                                       : std::string("\n");
-    return text;
-}
+/// Writes one figure in the language of gnuplot.
+class FigureScript {
+public:
+    FigureScript(const Figure& figure, const std::string& ending)
+        : figure_(&figure), page_(layout_of(figure)), terminal_(terminal_of(figure, page_, ending)),
+          symbol_(terminal_.point * mark_size(page_.font) / 4.5) {}
 
-std::string panel_commands(const FigurePanel& panel) {
-    std::string text = fmt::format("set title \"{}\"\n", plain(panel.title));
-    text += fmt::format("set xlabel \"{}\"\nset ylabel \"{}\"\n", with_unit(name_text(panel.x_label), panel.x_unit),
-                        with_unit(name_text(panel.y_label), panel.y_unit));
-    text += panel.logarithmic_x ? "set logscale x\nset format x '10^{%T}'\n" : "unset logscale x\nset format x '%g'\n";
-    text += panel.logarithmic_y ? "set logscale y\nset format y '10^{%T}'\n" : "unset logscale y\nset format y '%g'\n";
-    text += tics_text(panel);
-    text += fmt::format("set offsets graph {0},graph {0},graph {1},graph {1}\n", panel.roomy_x ? roomy_margin : 0.0,
-                        panel.roomy ? roomy_margin : 0.0);
-    text += fmt::format("set xrange {}\nset yrange {}\n", range_text(panel.x_range), range_text(panel.y_range));
-    text += panel.key_inside ? "set key inside bottom right vertical Left reverse\n"
-                             : "set key outside bottom center horizontal noreverse\n";
-    // Long enough for dashes to be seen.
-    const bool styles = std::any_of(panel.series.begin(), panel.series.end(),
-                                    [](const FigureSeries& series) { return series.only_in_legend; });
-    text += fmt::format("set key samplen {}\n", styles ? 3 : 1);
-    text += "unset arrow\nunset label\n";
-    for (const double mark : panel.marks)
-        text += fmt::format("set arrow from first {0},graph 0 to first {0},graph 1 nohead lw 0.5 dt 3 lc rgb "
-                            "'#808080'\n",
-                            fmt::format("{:.10g}", mark));
-    text += label_commands(panel);
-    std::string plots, data;
-    for (std::size_t s = 0; s < panel.series.size(); ++s) {
-        const FigureSeries& series = panel.series[s];
-        bool crowded = false;
-        if (series.only_in_legend) {
-            plots += fmt::format("{}NaN {} title \"{}\"", plots.empty() ? "" : ", ", style_text(series, false),
-                                 plain(series.title));
-            continue;
+    std::string text(const std::string& output) {
+        std::string text = "set terminal " + terminal_.command + '\n';
+        if (!terminal_.latex)
+            text += "set termoption enhanced\n";
+        text += "set output " + quoted_path(output) + "\nset encoding utf8\n";
+        text += "set tics out nomirror scale 0.6,0.35\nset border lw 0.8\nunset key\nset multiplot\n";
+        for (std::size_t p = 0; p < figure_->panels.size(); ++p) {
+            text += "unset arrow\nunset label\n";
+            if (p == 0) {
+                for (const PlacedText& line : page_.title)
+                    text += text_command(line);
+                text += legend_commands(page_.legend);
+            }
+            text += panel_commands(figure_->panels[p], page_.panels[p]);
         }
-        const std::string points = data_text(series, panel, crowded);
-        if (points.find_first_not_of('\n') == std::string::npos)
-            continue;
-        // Inline data: what gnuplot calls blocks takes it quadratic time to read.
-        data += points + "e\n";
-        // In a legend a tiny dot would not be seen.
-        const std::string title = series.title.empty() ? "notitle" : fmt::format("title \"{}\"", plain(series.title));
-        const bool tiny = series.style == FigureSeries::Style::dots && !series.title.empty();
-        plots += fmt::format("{}{} {} {}", plots.empty() ? "" : ", ", "'-'", style_text(series, crowded),
-                             tiny ? "notitle" : title);
-        if (tiny)
-            plots += fmt::format(", NaN with points pt 7 ps 0.7 lc rgb '{}' {}", colour_text(series.colour), title);
+        return text + "unset multiplot\nset output\n";
     }
-    if (data.empty())
-        return text + "set label 99 'no data' at graph 0.5,0.5 center\nset xrange [0:1]\nset yrange [0:1]\n"
-                      "plot NaN notitle\nunset label 99\n";
-    return text + "plot " + plots + "\n" + data;
+
+private:
+    std::string at(const PlanePoint& point) const {
+        return fmt::format("screen {:.6f},{:.6f}", point.x / page_.width, point.y / page_.height);
+    }
+
+    std::string text_command(const PlacedText& placed) const {
+        using Align = PlacedText::Align;
+        const char* align = placed.align == Align::left ? "left" : placed.align == Align::centre ? "center" : "right";
+        return fmt::format("set label \"{}\" at {} {}{} {}\n", terminal_.text(placed.text), at(placed.at), align,
+                           placed.upright ? " rotate by 90" : "", terminal_.font_text(placed.size));
+    }
+
+    std::string line_text(const FigureSeries::Style style) const {
+        switch (style) {
+        case FigureSeries::Style::dashed:
+            return "lw 1.3 dt (7,4)";
+        case FigureSeries::Style::dotted:
+            return "lw 0.9 dt 3";
+        case FigureSeries::Style::impulses:
+            return "lw 1.1";
+        default:
+            return "lw 1.3";
+        }
+    }
+
+    std::string style_text(const FigureSeries& series) const {
+        const std::string colour = fmt::format("lc rgb '{}'", colour_text(series.colour));
+        switch (series.style) {
+        case FigureSeries::Style::dots:
+            return fmt::format("with points pt 7 ps {:.3g} {}", 0.17 * symbol_, colour);
+        case FigureSeries::Style::circles:
+            return fmt::format("with points pt 6 ps {:.3g} lw 1.2 {}", circle_size(series.colour), colour);
+        case FigureSeries::Style::symbols:
+            return fmt::format("with points pt {} ps {:.3g} lw 1.2 {}", series.symbol, symbol_, colour);
+        case FigureSeries::Style::impulses:
+            return fmt::format("with linespoints pt 7 ps {:.3g} lw 1.1 {}", 0.5 * symbol_, colour);
+        case FigureSeries::Style::cells:
+            return fmt::format("with boxxyerror fs solid 1 noborder {}", colour);
+        default:
+            return fmt::format("with lines {} {}", line_text(series.style), colour);
+        }
+    }
+
+    /// Circles of different colours may lie in one place, where each is to be seen.
+    double circle_size(std::size_t colour) const {
+        constexpr double wider = 0.4;
+        return symbol_ * (1 + wider * static_cast<double>(colour % 3));
+    }
+
+    /// A sample of each style, and what it is.
+    std::string legend_commands(const std::vector<LegendEntry>& legend) const {
+        using Style = FigureSeries::Style;
+        std::string text;
+        for (const LegendEntry& entry : legend) {
+            const double y = (entry.box.low + entry.box.high) / 2, right = entry.box.left + entry.sample;
+            const PlanePoint middle{(entry.box.left + right) / 2, y};
+            const bool line = entry.style == Style::line || entry.style == Style::dashed ||
+                              entry.style == Style::dotted || entry.style == Style::impulses;
+            const std::string colour = colour_text(entry.colour);
+            if (entry.sampled && line)
+                text += fmt::format("set arrow from {} to {} nohead {} lc rgb '{}'\n", at({entry.box.left, y}),
+                                    at({right, y}), line_text(entry.style), colour);
+            else if (entry.sampled)
+                text += fmt::format("set label \"\" at {} point pt {} ps {:.3g} lw 1.2 lc rgb '{}'\n", at(middle),
+                                    entry.style == Style::symbols   ? entry.symbol
+                                    : entry.style == Style::circles ? 6
+                                    : entry.style == Style::cells   ? 5
+                                                                    : 7,
+                                    (entry.style == Style::cells ? 1.4 : 1) * symbol_, colour);
+            text += fmt::format("set label \"{}\" at {} left {}\n", terminal_.text(rich(entry.title)),
+                                at({entry.title_left, y}), terminal_.font_text(legend_font(page_.font)));
+        }
+        return text;
+    }
+
+    std::string label_commands(const LabelPlaces& places) const {
+        std::string text;
+        for (const PlacedLabel& label : places.labels) {
+            const PlanePoint middle{(label.box.left + label.box.right) / 2, (label.box.low + label.box.high) / 2};
+            text +=
+                fmt::format("set label \"{}\" at {} center {} tc rgb '{}' front\n", terminal_.text(rich(label.text)),
+                            at(middle), terminal_.font_text(label_font(page_.font)), colour_text(label.colour));
+            if (label.led)
+                text += fmt::format("set arrow from {} to {} nohead lw 0.5 lc rgb '#606060' front\n",
+                                    at(label.leader_start), at(label.leader_end));
+        }
+        return text;
+    }
+
+    static std::string axis_commands(const char* name, const PanelAxis& axis) {
+        std::string tics;
+        for (const PanelAxis::Tic& tic : axis.tics)
+            tics += fmt::format("{}\"\" {:.12g}", tics.empty() ? "" : ", ", tic.value);
+        for (const double minor : axis.minor)
+            tics += fmt::format("{}\"\" {:.12g} 1", tics.empty() ? "" : ", ", minor);
+        return fmt::format("{1}set logscale {0}\nset {0}range [{2:.12g}:{3:.12g}]\nset {0}tics ({4})\n", name,
+                           axis.logarithmic ? "" : "un", axis.low, axis.high, tics);
+    }
+
+    std::string panel_commands(const FigurePanel& panel, const PanelLayout& layout) const {
+        const Box& frame = layout.frame;
+        std::string text = fmt::format("set lmargin at screen {:.6f}\nset rmargin at screen {:.6f}\nset bmargin at "
+                                       "screen {:.6f}\nset tmargin at screen {:.6f}\n",
+                                       frame.left / page_.width, frame.right / page_.width, frame.low / page_.height,
+                                       frame.high / page_.height);
+        text += axis_commands("x", layout.x) + axis_commands("y", layout.y);
+        for (const PlacedText& placed : layout.texts)
+            text += text_command(placed);
+        text += legend_commands(layout.legend);
+        for (const double mark : panel.marks)
+            text += fmt::format("set arrow from first {0:.10g},graph 0 to first {0:.10g},graph 1 nohead lw 0.5 dt 3 lc "
+                                "rgb '#808080'\n",
+                                mark);
+        text += label_commands(layout.labels);
+        const std::string plots = plot_commands(panel, layout);
+        if (!plots.empty())
+            return text + plots;
+        return text + fmt::format("set label \"no data\" at {} center\nplot 1/0 notitle\n",
+                                  at({(frame.left + frame.right) / 2, (frame.low + frame.high) / 2}));
+    }
+
+    std::string plot_commands(const FigurePanel& panel, const PanelLayout& layout) const {
+        std::string plots, data;
+        // Inline data: what gnuplot calls blocks takes it quadratic time to read.
+        const auto add = [&](const std::string& points, const std::string& style) {
+            if (points.find_first_not_of('\n') == std::string::npos)
+                return;
+            data += points + "e\n";
+            plots += fmt::format("{}'-' {} notitle", plots.empty() ? "" : ", ", style);
+        };
+        const bool cells = std::any_of(panel.series.begin(), panel.series.end(),
+                                       [](const FigureSeries& series) { return !series.cells.empty(); });
+        bool dots = false;
+        for (const FigureSeries& series : panel.series) {
+            if (series.style == FigureSeries::Style::dots) {
+                if (!dots)
+                    add(mingled_dots(panel, layout), dots_style(panel));
+                dots = true;
+                continue;
+            }
+            if (cells && series.style == FigureSeries::Style::symbols) // seen on any colour
+                add(data_text(series, panel), fmt::format("with points pt 7 ps {:.3g} lc rgb 'white'", 2 * symbol_));
+            add(data_text(series, panel), style_text(series));
+        }
+        return data.empty() ? "" : "plot " + plots + '\n' + data;
+    }
+
+    static std::string data_text(const FigureSeries& series, const FigurePanel& panel) {
+        std::string text;
+        for (const PlaneBox& cell : series.cells)
+            text += fmt::format("{:.10g} {:.10g} {:.10g} {:.10g} {:.10g} {:.10g}\n", (cell.left + cell.right) / 2,
+                                (cell.low + cell.high) / 2, cell.left, cell.right, cell.low, cell.high);
+        const Polyline points = smoothed(series.points, series.along, series.corners);
+        for (const PlanePoint& point : points)
+            text += is_drawn(point, panel) ? fmt::format("{:.10g} {:.10g}\n", point.x, point.y) : std::string("\n");
+        return text;
+    }
+
+    static constexpr std::size_t crowd = 20000;
+
+    std::string dots_style(const FigurePanel& panel) const {
+        std::size_t points = 0;
+        for (const FigureSeries& series : panel.series)
+            points += series.style == FigureSeries::Style::dots ? series.points.size() : 0;
+        return (points > crowd ? std::string("with dots") : fmt::format("with points pt 7 ps {:.3g}", 0.17 * symbol_)) +
+               " lc rgb variable";
+    }
+
+    struct Dot {
+        std::uint64_t square; ///< about as large as a dot
+        std::uint64_t order;
+        bool on_top;
+        PlanePoint at;
+        std::size_t series;
+    };
+
+    /// Of each square the dots of one series come last: which one is as if by chance, so that where series lie on one
+    /// another each is seen, however many dots it has.
+    static void mingle(std::vector<Dot>& dots) {
+        std::map<std::uint64_t, std::set<std::size_t>> present;
+        for (const Dot& dot : dots)
+            present[dot.square].insert(dot.series);
+        for (Dot& dot : dots) {
+            const std::set<std::size_t>& there = present[dot.square];
+            const auto top = static_cast<std::ptrdiff_t>(mixed(dot.square) % there.size());
+            dot.on_top = *std::next(there.begin(), top) == dot.series;
+        }
+        std::stable_sort(dots.begin(), dots.end(), [](const Dot& a, const Dot& b) {
+            return std::pair(a.on_top, a.order) < std::pair(b.on_top, b.order);
+        });
+    }
+
+    /// Dots of all series, of those that nobody could tell apart only one.
+    static std::string mingled_dots(const FigurePanel& panel, const PanelLayout& layout) {
+        constexpr double dot_size = 1.2; // points
+        std::vector<Dot> dots;
+        const auto cell = [](double column, double row) {
+            return static_cast<std::uint64_t>(column) << 32 | static_cast<std::uint64_t>(row);
+        };
+        for (std::size_t s = 0; s < panel.series.size(); ++s) {
+            const FigureSeries& series = panel.series[s];
+            if (series.style != FigureSeries::Style::dots)
+                continue;
+            std::unordered_set<std::uint64_t> taken;
+            for (const PlanePoint& point : series.points) {
+                const double x = layout.x.share(point.x), y = layout.y.share(point.y);
+                if (!is_drawn(point, panel) || !(x >= 0 && x <= 1 && y >= 0 && y <= 1))
+                    continue;
+                const std::uint64_t place = cell(x / grain, y / grain);
+                const std::uint64_t square =
+                    cell(x * layout.frame.width() / dot_size, y * layout.frame.height() / dot_size);
+                if (taken.insert(place).second)
+                    dots.push_back({square, mixed(place * 31 + s), false, point, s});
+            }
+        }
+        mingle(dots);
+        std::string text;
+        for (const Dot& dot : dots)
+            text +=
+                fmt::format("{:.7g} {:.7g} {}\n", dot.at.x, dot.at.y, colour_number(panel.series[dot.series].colour));
+        return text;
+    }
+
+    /// SplitMix64 (Steele, Lea and Flood 2014).
+    static std::uint64_t mixed(std::uint64_t value) {
+        value += 0x9e3779b97f4a7c15u;
+        value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9u;
+        value = (value ^ (value >> 27)) * 0x94d049bb133111ebu;
+        return value ^ (value >> 31);
+    }
+
+    const Figure* figure_;
+    FigureLayout page_;
+    Terminal terminal_;
+    double symbol_; ///< gnuplot's size of symbols
+};
+
+std::string contents_of(const std::string& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::string without_ending(const std::string& path) {
+    return path.substr(0, path.rfind('.'));
+}
+
+/// LaTeX's text names the file with the lines, which is to stand beside it under the picture's name.
+void take_latex(const FileReplacement& file, const std::string& path, double font) {
+    const std::string drawn = without_ending(file.temporary_path());
+    const std::string lines = contents_of(drawn + ".pdf");
+    std::error_code error;
+    std::filesystem::remove(drawn + ".pdf", error);
+    std::string text = contents_of(file.temporary_path());
+    const std::string name = std::filesystem::path(without_ending(path)).filename().string();
+    for (std::size_t found = text.find(drawn); found != std::string::npos;
+         found = text.find(drawn, found + name.size()))
+        text.replace(found, drawn.size(), name);
+    const std::string begin = "\\begingroup";
+    if (const std::size_t found = text.find(begin); found != std::string::npos)
+        text.insert(found + begin.size(), fmt::format("\\fontsize{{{:g}}}{{{:g}}}\\selectfont", font, 1.2 * font));
+    write_file(without_ending(path) + ".pdf", lines);
+    file.write(text);
 }
 
 } // namespace
 
 const char* colour_text(std::size_t colour) {
+    static const auto texts = [] {
+        std::array<std::string, palette.size()> result;
+        std::transform(palette.begin(), palette.end(), result.begin(),
+                       [](std::uint32_t number) { return fmt::format("#{:06x}", number); });
+        return result;
+    }();
     if (colour == FigureSeries::grey)
         return "#b0b0b0";
-    return colour == FigureSeries::black ? "#000000" : palette[colour % palette.size()];
+    return colour == FigureSeries::black ? "#000000" : texts[colour % texts.size()].c_str();
 }
 
 std::string figure_script(const Figure& figure, const std::string& ending, const std::string& output) {
-    const std::size_t across = std::max<std::size_t>(1, std::min(figure.columns, figure.panels.size()));
-    const std::size_t down = std::max<std::size_t>(1, (figure.panels.size() + across - 1) / across);
-    const double width = panel_width * static_cast<double>(across) + (across == 1 ? 170 : 0);
-    const double height = panel_height * static_cast<double>(down) + (figure.title.empty() ? 0 : title_height);
-    std::string text;
-    if (ending == "png")
-        text = fmt::format("set terminal pngcairo noenhanced size {:.0f},{:.0f} fontscale {:.4g} linewidth {:.4g} "
-                           "pointscale {:.4g} font 'sans,10'\nset termoption enhanced\n",
-                           width * dots_per_inch / 96, height * dots_per_inch / 96, dots_per_inch / 96,
-                           dots_per_inch / 96, dots_per_inch / 96);
-    else if (ending == "pdf")
-        text = fmt::format("set terminal pdfcairo enhanced size {:.4g}in,{:.4g}in font 'sans,10'\n", width / 96,
-                           height / 96);
-    else
-        text = fmt::format("set terminal svg enhanced size {:.0f},{:.0f} font 'sans,12' background rgb 'white'\n",
-                           width, height);
-    text += "set output " + quoted_path(output) + "\nset encoding utf8\n";
-    std::string commands;
-    for (const FigurePanel& panel : figure.panels)
-        commands += panel_commands(panel);
-    text += "set tics out nomirror\nset border lw 0.8\nset key outside bottom center horizontal nobox samplen 1 "
-            "spacing 1.1\n";
-    text += fmt::format("set multiplot layout {},{}", down, across);
-    if (!figure.title.empty())
-        text += fmt::format(" title \"{}\"", plain(figure.title));
-    return text + "\n" + commands + "unset multiplot\nset output\n";
+    return FigureScript(figure, ending).text(output);
+}
+
+std::vector<std::string> figure_endings() {
+    return {"svg", "png", "pdf", "tex"};
 }
 
 void draw_figure(const Figure& figure, const std::string& path, const std::string& data_path) {
-    const std::string ending = picture_ending(path, "--output", {"svg", "png", "pdf"});
+    const std::string ending = picture_ending(path, "--output", figure_endings());
     const std::string gnuplot =
         require_drawing_program("gnuplot", "install gnuplot (Debian: apt-get install gnuplot-nox)");
     require_distinct({{"the picture", path}, {"--data", data_path}});
@@ -233,6 +409,8 @@ void draw_figure(const Figure& figure, const std::string& path, const std::strin
         throw InputError(fmt::format("gnuplot could not draw '{}': {}", path, one_line(result.output)),
                          "keep its commands by --data FILE and run gnuplot FILE");
     require_whole_picture(file.temporary_path(), ending, path);
+    if (ending == "tex")
+        take_latex(file, path, layout_of(figure).font);
     file.commit();
 }
 

@@ -7,6 +7,9 @@ namespace graze {
 // All text that comes from a model, study, result file or command line and goes to gnuplot goes through here. Gnuplot
 // can run a shell: what cannot be quoted is refused.
 
+/// A line that ends within quotes ends a command, and what stands on the next one is obeyed.
+/// @throws InputError for control characters
+void require_quotable(const std::string& text);
 /// For double quotes: what gnuplot's enhanced text would take for markup, and what it would have a shell run, is taken
 /// as it stands. @throws InputError for control characters
 std::string plain(const std::string& text);

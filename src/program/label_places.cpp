@@ -1,160 +1,292 @@
 #include "program/label_places.hpp"
 
-#include "program/gnuplot_text.hpp"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 namespace graze {
 
 namespace {
 
-// All lengths are parts of the width and height of the area that is drawn in, which is about 380 by 190 pixels large.
-constexpr double letter_width = 6.0 / 380, letter_height = 13.0 / 190;
-constexpr double symbol_width = 8.0 / 380, symbol_height = 8.0 / 190;
+// In heights of a label.
+constexpr double letters_beyond = 0.25, gap_at_mark = 0.1;
+constexpr std::array<double, 7> distances{0, 0.5, 1.1, 1.8, 2.8, 4, 5.5};
+constexpr double led_from = 0.3; ///< distance from which on a line is needed to see what belongs together
+constexpr std::size_t directions = 16;
 
-struct Box {
-    double left, right, low, high;
-    bool meets(const Box& other) const {
-        return left < other.right && other.left < right && low < other.high && other.low < high;
-    }
-    bool holds(const PlanePoint& point) const {
-        return left < point.x && point.x < right && low < point.y && point.y < high;
-    }
-};
+constexpr double cost_of_distance = 3, cost_of_curve = 8, cost_of_crossing = 0.5, cost_of_side = 0.3;
+constexpr std::size_t most_labels = 30, most_in_one = 3;
+constexpr double room_of_label = 8; ///< area of a panel for each label, in areas of labels with four letters
 
-Box box_around(const PlanePoint& centre, double width, double height) {
-    return {centre.x - width / 2, centre.x + width / 2, centre.y - height / 2, centre.y + height / 2};
+double length_of(const PlanePoint& vector) {
+    return std::hypot(vector.x, vector.y);
 }
 
-/// Where something lies on an axis: 0 at its beginning, 1 at its end.
-class Scale {
+/// Whether a line between two points runs through a box (Liang and Barsky 1984).
+bool crosses(const PlanePoint& from, const PlanePoint& to, const Box& box) {
+    double first = 0, last = 1;
+    const auto clip = [&](double start, double step, double low, double high) {
+        if (step == 0)
+            return start >= low && start <= high;
+        const double one = (low - start) / step, other = (high - start) / step;
+        first = std::max(first, std::min(one, other));
+        last = std::min(last, std::max(one, other));
+        return first <= last;
+    };
+    return clip(from.x, to.x - from.x, box.left, box.right) && clip(from.y, to.y - from.y, box.low, box.high);
+}
+
+bool lines_cross(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d) {
+    const auto side = [](const PlanePoint& p, const PlanePoint& q, const PlanePoint& r) {
+        return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+    };
+    return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+}
+
+/// Where curves run: small squares of a panel, with sums over rectangles of them.
+class CurveMap {
 public:
-    Scale(const FigurePanel& panel, bool horizontal)
-        : logarithmic_(horizontal ? panel.logarithmic_x : panel.logarithmic_y) {
-        if (const auto& range = horizontal ? panel.x_range : panel.y_range) {
-            add(range->first);
-            add(range->second);
-        } else {
-            for (const FigureSeries& series : panel.series)
-                for (const PlanePoint& point : series.points)
-                    add(horizontal ? point.x : point.y);
-            if ((horizontal ? panel.roomy_x : panel.roomy) && least_ < greatest_) {
-                const double margin = roomy_margin * (greatest_ - least_);
-                least_ -= margin;
-                greatest_ += margin;
-            }
+    explicit CurveMap(const Box& frame)
+        : frame_(frame), columns_(static_cast<std::size_t>(frame.width() / side) + 2),
+          rows_(static_cast<std::size_t>(frame.height() / side) + 2), cells_(columns_ * rows_, 0) {}
+
+    void add(const PlanePoint& point) {
+        if (frame_.holds(point))
+            cells_[index(column(point.x), row(point.y))] = 1;
+    }
+    void add_line(const PlanePoint& from, const PlanePoint& to) {
+        if (!crosses(from, to, frame_))
+            return;
+        const double length = std::min(length_of({to.x - from.x, to.y - from.y}), 1e5);
+        const auto steps = static_cast<std::size_t>(length / (0.5 * side)) + 1;
+        for (std::size_t i = 0; i <= steps; ++i) {
+            const double part = static_cast<double>(i) / static_cast<double>(steps);
+            add({from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)});
         }
     }
-    double operator()(double value) const {
-        constexpr double resolved = 1e-9; // what differs by less is drawn as a constant
-        const double span = greatest_ - least_;
-        return span > resolved * std::max(std::abs(least_), std::abs(greatest_)) ? (transformed(value) - least_) / span
-                                                                                 : 0.5;
+    void finish() {
+        sums_.assign((columns_ + 1) * (rows_ + 1), 0);
+        for (std::size_t r = 0; r < rows_; ++r)
+            for (std::size_t c = 0; c < columns_; ++c)
+                sums_[(r + 1) * (columns_ + 1) + c + 1] =
+                    cells_[index(c, r)] + sum(c, r + 1) + sum(c + 1, r) - sum(c, r);
     }
+    /// How much of a box has curves, from 0 to 1.
+    double share(const Box& box) const {
+        const std::size_t left = column(box.left), right = column(box.right) + 1, low = row(box.low),
+                          high = row(box.high) + 1;
+        const int found = sum(right, high) - sum(left, high) - sum(right, low) + sum(left, low);
+        return static_cast<double>(found) / static_cast<double>((right - left) * (high - low));
+    }
+    bool is_taken(const PlanePoint& point) const { return cells_[index(column(point.x), row(point.y))] != 0; }
 
 private:
-    double transformed(double value) const { return logarithmic_ ? std::log(value) : value; }
-    void add(double value) {
-        const double place = transformed(value);
-        if (!std::isfinite(place))
-            return;
-        least_ = std::min(least_, place);
-        greatest_ = std::max(greatest_, place);
+    static constexpr double side = 2; ///< of a square, in points
+    std::size_t column(double x) const {
+        return static_cast<std::size_t>(std::clamp((x - frame_.left) / side, 0.0, static_cast<double>(columns_ - 1)));
     }
-    bool logarithmic_;
-    double least_ = std::numeric_limits<double>::infinity(), greatest_ = -std::numeric_limits<double>::infinity();
+    std::size_t row(double y) const {
+        return static_cast<std::size_t>(std::clamp((y - frame_.low) / side, 0.0, static_cast<double>(rows_ - 1)));
+    }
+    std::size_t index(std::size_t column, std::size_t row) const { return row * columns_ + column; }
+    int sum(std::size_t column, std::size_t row) const { return sums_[row * (columns_ + 1) + column]; }
+
+    Box frame_;
+    std::size_t columns_, rows_;
+    std::vector<int> cells_, sums_;
 };
 
-/// Finds room for one label after the other.
-class LabelPlaces {
+/// Labels of one place.
+struct Wanted {
+    std::vector<std::string> texts;
+    std::size_t colour = 0;
+    int rank = 0;
+    PlanePoint point{};
+};
+
+std::string text_of(const Wanted& wanted) {
+    std::string text = wanted.texts.front();
+    for (std::size_t i = 1; i < std::min(most_in_one, wanted.texts.size()); ++i)
+        text += ", " + wanted.texts[i];
+    return text + (wanted.texts.size() > most_in_one ? ", …" : "");
+}
+
+class LabelSearch {
 public:
-    explicit LabelPlaces(const FigurePanel& panel) : x_(panel, true), y_(panel, false) {
-        for (const FigureSeries& series : panel.series) {
-            const bool symbols = series.style == FigureSeries::Style::symbols;
-            for (const PlanePoint& point : series.points)
-                if (const PlanePoint place = place_of(point); std::isfinite(place.x) && std::isfinite(place.y))
-                    (symbols ? symbols_ : others_).push_back(place);
-        }
+    LabelSearch(const FigurePanel& panel, const Box& frame, const PanelAxis& x, const PanelAxis& y, double font)
+        : frame_(frame), x_(&x), y_(&y), font_(label_font(font)), mark_(mark_size(font)), height_(1.2 * font_),
+          curves_(frame) {
+        for (const FigureSeries& series : panel.series)
+            add(series, panel);
+        for (const double mark : panel.marks)
+            curves_.add_line(place_of({mark, 0}, true), place_of({mark, 1}, true));
+        curves_.finish();
     }
 
-    PlanePoint place_of(const PlanePoint& point) const { return {x_(point.x), y_(point.y)}; }
-
-    /// By how much the middle of a text is to be moved away from its point; none where it would lie on another one.
-    std::optional<PlanePoint> shift_for(const PlanePoint& place, const std::string& text) {
-        const double width = letter_width * static_cast<double>(text.size() + 1);
-        const double beside = (width + symbol_width) / 2, above = (letter_height + symbol_height) / 2;
-        const std::array<PlanePoint, 8> ways{
-            {{1, 1}, {-1, 1}, {1, -1}, {-1, -1}, {0, 1.1}, {0, -1.1}, {1.1, 0}, {-1.1, 0}}};
-        std::optional<PlanePoint> best;
-        double least = std::numeric_limits<double>::infinity();
-        for (const double distance : {1.0, 1.9, 2.8})
-            for (const PlanePoint& way : ways) {
-                const PlanePoint shift{way.x * beside * (distance > 1 ? 0.6 * distance : 1), way.y * above * distance};
-                const Box box = box_around({place.x + shift.x, place.y + shift.y}, width, letter_height);
-                const double cost = cost_of(box) + 4 * (distance - 1);
-                if (cost < least) {
-                    least = cost;
-                    best = shift;
-                }
-            }
-        if (best)
-            taken_.push_back(box_around({place.x + best->x, place.y + best->y}, width, letter_height));
-        return best;
+    LabelPlaces find(const FigurePanel& panel) {
+        std::vector<Wanted> wanted = wanted_of(panel);
+        std::stable_sort(wanted.begin(), wanted.end(),
+                         [](const Wanted& a, const Wanted& b) { return a.rank < b.rank; });
+        const double room = frame_.width() * frame_.height() / (room_of_label * 2.8 * font_ * height_);
+        const std::size_t most = std::min(most_labels, static_cast<std::size_t>(room));
+        for (const Wanted& one : wanted)
+            if (found_.labels.size() >= most || !place(one))
+                ++found_.omitted;
+        return std::move(found_);
     }
 
 private:
-    /// Infinite on another label and outside of the panel.
-    double cost_of(const Box& box) const {
-        if (box.left < -0.01 || box.right > 1.01 || box.low < -0.01 || box.high > 1.01 ||
-            std::any_of(taken_.begin(), taken_.end(), [&](const Box& other) { return box.meets(other); }))
-            return std::numeric_limits<double>::infinity();
-        double cost = 0;
-        for (const PlanePoint& symbol : symbols_)
-            cost += box.meets(box_around(symbol, symbol_width, symbol_height)) ? 3 : 0;
-        constexpr double most = 2; // a line beneath a label is not worse the more points it has
-        double line = 0;
-        for (const PlanePoint& point : others_)
-            line = std::min(most, line + (box.holds(point) ? 0.5 : 0));
-        return cost + line;
+    PlanePoint place_of(const PlanePoint& point, bool vertical_share = false) const {
+        return {frame_.left + x_->share(point.x) * frame_.width(),
+                frame_.low + (vertical_share ? point.y : y_->share(point.y)) * frame_.height()};
     }
 
-    Scale x_, y_;
-    std::vector<PlanePoint> symbols_, others_;
-    std::vector<Box> taken_;
+    void add(const FigureSeries& series, const FigurePanel& panel) {
+        using Style = FigureSeries::Style;
+        const bool symbols = series.style == Style::symbols || series.style == Style::circles;
+        const bool joined = !symbols && series.style != Style::dots;
+        std::optional<PlanePoint> last;
+        for (const PlanePoint& point : series.points) {
+            if (!is_drawn(point, panel)) {
+                last.reset();
+                continue;
+            }
+            const PlanePoint here = place_of(point);
+            if (symbols && frame_.holds(here))
+                found_.marks.push_back(Box::around(here, mark_, mark_));
+            curves_.add(here);
+            if (joined && last)
+                curves_.add_line(*last, here);
+            last = here;
+        }
+    }
+
+    std::vector<Wanted> wanted_of(const FigurePanel& panel) const {
+        std::vector<Wanted> wanted;
+        for (const FigureLabel& label : panel.labels) {
+            if (!is_drawn(label.at, panel) || label.text.empty())
+                continue;
+            const PlanePoint here = place_of(label.at);
+            if (!frame_.holds(here))
+                continue;
+            const auto same = std::find_if(wanted.begin(), wanted.end(), [&](const Wanted& one) {
+                return length_of({one.point.x - here.x, one.point.y - here.y}) < mark_ / 4;
+            });
+            if (same == wanted.end()) {
+                wanted.push_back({{label.text}, label.colour, label.rank, here});
+                continue;
+            }
+            if (std::find(same->texts.begin(), same->texts.end(), label.text) == same->texts.end())
+                same->texts.insert(label.rank < same->rank ? same->texts.begin() : same->texts.end(), label.text);
+            same->rank = std::min(same->rank, label.rank);
+        }
+        return wanted;
+    }
+
+    /// @return whether there is room
+    bool place(const Wanted& wanted) {
+        PlacedLabel label;
+        label.text = text_of(wanted);
+        label.colour = wanted.colour;
+        label.point = wanted.point;
+        const double width = width_of(rich(label.text)) * font_ + letters_beyond * font_;
+        const double radius = mark_ / 2 + gap_at_mark * height_;
+        double least = std::numeric_limits<double>::infinity();
+        PlacedLabel best;
+        for (const double distance : distances)
+            for (std::size_t d = 0; d < directions; ++d) {
+                // Along a square, beginning at its upper right corner, where labels stand best.
+                const double angle = 2 * std::numbers::pi * (static_cast<double>(d) / directions + 0.125);
+                const double size = std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle)));
+                const PlanePoint way{std::cos(angle) / size, std::sin(angle) / size};
+                const double away = radius + distance * height_;
+                label.box = Box::around(
+                    {label.point.x + way.x * (width / 2 + away), label.point.y + way.y * (height_ / 2 + away)}, width,
+                    height_);
+                label.led = distance > led_from;
+                lead(label, way);
+                const double cost = cost_of_distance * distance + cost_of_side * static_cast<double>(d) / directions;
+                if (cost >= least || !is_free(label))
+                    continue;
+                if (const double all = cost + cost_of(label); all < least) {
+                    least = all;
+                    best = label;
+                }
+            }
+        if (std::isfinite(least))
+            found_.labels.push_back(best);
+        return std::isfinite(least);
+    }
+
+    /// From the edge of the symbol to the nearest point of the box.
+    void lead(PlacedLabel& label, const PlanePoint& way) const {
+        const Box& box = label.box;
+        label.leader_end = {std::clamp(label.point.x, box.left, box.right),
+                            std::clamp(label.point.y, box.low, box.high)};
+        const PlanePoint to{label.leader_end.x - label.point.x, label.leader_end.y - label.point.y};
+        const double length = std::max(length_of(to), 1e-9);
+        label.leader_start = {label.point.x + to.x * mark_ / 2 / length, label.point.y + to.y * mark_ / 2 / length};
+        if (length <= mark_ / 2)
+            label.leader_start = {label.point.x + way.x * mark_ / 2, label.point.y + way.y * mark_ / 2};
+    }
+
+    bool is_free(const PlacedLabel& label) const {
+        if (!frame_.grown(-1).holds(label.box))
+            return false;
+        for (const Box& mark : found_.marks)
+            if (label.box.meets(mark))
+                return false;
+        return std::none_of(found_.labels.begin(), found_.labels.end(), [&](const PlacedLabel& other) {
+            return label.box.meets(other.box) ||
+                   (other.led && crosses(other.leader_start, other.leader_end, label.box.grown(0.5))) ||
+                   (label.led && crosses(label.leader_start, label.leader_end, other.box.grown(0.5))) ||
+                   (label.led && other.led &&
+                    lines_cross(label.leader_start, label.leader_end, other.leader_start, other.leader_end));
+        });
+    }
+
+    double cost_of(const PlacedLabel& label) const {
+        double cost = cost_of_curve * std::min(1.0, 4 * curves_.share(label.box));
+        if (!label.led)
+            return cost;
+        for (const Box& mark : found_.marks) // a line may touch its own symbol
+            if (!mark.holds(label.point) && crosses(label.leader_start, label.leader_end, mark))
+                cost += cost_of_crossing * 4;
+        constexpr int parts = 8;
+        for (int i = 2; i < parts; ++i) {
+            const double part = static_cast<double>(i) / parts;
+            cost += curves_.is_taken({label.leader_start.x + part * (label.leader_end.x - label.leader_start.x),
+                                      label.leader_start.y + part * (label.leader_end.y - label.leader_start.y)})
+                        ? cost_of_crossing
+                        : 0;
+        }
+        return cost;
+    }
+
+    Box frame_;
+    const PanelAxis *x_, *y_;
+    double font_, mark_, height_;
+    CurveMap curves_;
+    LabelPlaces found_;
 };
 
 } // namespace
 
-std::string label_commands(const FigurePanel& panel) {
-    if (panel.labels.empty())
-        return {};
-    LabelPlaces places(panel);
-    std::vector<FigureLabel> labels = panel.labels;
-    // Those at the sides first, which have the least choice.
-    const auto from_side = [&](const FigureLabel& label) {
-        const double x = places.place_of(label.at).x;
-        return std::min(x, 1 - x);
-    };
-    std::stable_sort(labels.begin(), labels.end(),
-                     [&](const FigureLabel& a, const FigureLabel& b) { return from_side(a) < from_side(b); });
-    std::string text;
-    for (const FigureLabel& label : labels) {
-        const PlanePoint place = places.place_of(label.at);
-        if (!(place.x >= 0 && place.x <= 1 && place.y >= 0 && place.y <= 1))
-            continue;
-        if (const auto shift = places.shift_for(place, label.text))
-            text += fmt::format(
-                "set label \"{}\" at first {:.10g},{:.10g} center offset graph {:.4f},{:.4f} font ',8' tc rgb '{}' "
-                "front\n",
-                plain(label.text), label.at.x, label.at.y, shift->x, shift->y, colour_text(label.colour));
-    }
-    return text;
+double mark_size(double font) {
+    return 0.55 * font;
+}
+
+double label_font(double font) {
+    return 0.85 * font;
+}
+
+LabelPlaces place_labels(const FigurePanel& panel, const Box& frame, const PanelAxis& x, const PanelAxis& y,
+                         double font) {
+    LabelSearch search(panel, frame, x, y, font);
+    return search.find(panel);
 }
 
 } // namespace graze

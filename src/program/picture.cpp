@@ -36,7 +36,7 @@ void require_whole_picture(const std::string& file, const std::string& ending, c
     std::string tail(static_cast<std::size_t>(std::clamp<std::streamoff>(size, 0, most)), ' ');
     stream.seekg(-static_cast<std::streamoff>(tail.size()), std::ios::end);
     stream.read(tail.data(), static_cast<std::streamsize>(tail.size()));
-    const char* end = ending == "png" ? "IEND" : ending == "pdf" ? "%%EOF" : "</svg>";
+    const char* end = ending == "png" ? "IEND" : ending == "pdf" ? "%%EOF" : ending == "tex" ? "\\endgroup" : "</svg>";
     if (!stream || tail.find(end) == std::string::npos)
         throw InputError(fmt::format("'{}' was not drawn to its end", path), "look whether the disk is full");
 }

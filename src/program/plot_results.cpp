@@ -35,6 +35,25 @@ std::optional<std::pair<double, double>> range_of(const std::string& text, const
     return range;
 }
 
+FigureStyle style_of(const PlotArguments& arguments) {
+    FigureStyle style;
+    if (!arguments.size.empty()) {
+        const std::size_t cross = arguments.size.find('x');
+        style.width = number_of(arguments.size.substr(0, cross), "--size");
+        if (cross != std::string::npos)
+            style.height = number_of(arguments.size.substr(cross + 1), "--size");
+    }
+    const std::string& font = arguments.font;
+    const std::size_t comma = font.find(',');
+    const bool only_size = !font.empty() && font.find_first_not_of("0123456789.") == std::string::npos;
+    if (only_size || comma != std::string::npos)
+        style.font_size = number_of(only_size ? font : font.substr(comma + 1), "--font");
+    if (!only_size)
+        style.font = font.substr(0, comma);
+    check_style(style, {arguments.size.empty() ? "--font" : "--size", 0, 0});
+    return style;
+}
+
 StudyPicture picture_of(const PlotArguments& arguments, const RunRecord& run) {
     StudyPicture picture = default_picture(run);
     picture.points = split_list(arguments.points);
@@ -61,6 +80,15 @@ StudyPicture picture_of(const PlotArguments& arguments, const RunRecord& run) {
             throw InputError({"--at", 0, 0}, fmt::format("'{}' names no point", item), "write NAME=VALUE");
         picture.at.emplace_back(item.substr(0, equals), number_of(item.substr(equals + 1), "--at"));
     }
+    for (const std::string& item : arguments.names) {
+        const std::size_t equals = item.find('=');
+        if (equals == std::string::npos || equals == 0)
+            throw InputError({"--name", 0, 0}, fmt::format("'{}' names nothing", item), "write NAME=TEXT");
+        picture.names.emplace_back(item.substr(0, equals), item.substr(equals + 1));
+    }
+    picture.x_label = arguments.x_label;
+    picture.y_labels = arguments.y_labels;
+    picture.style = style_of(arguments);
     for (const std::string& axis : arguments.logarithmic) {
         picture.logarithmic_x = picture.logarithmic_x || axis == "x";
         picture.logarithmic_y = picture.logarithmic_y || axis == "y";

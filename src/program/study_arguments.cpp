@@ -124,9 +124,9 @@ void declare_plot_results(CLI::App& app, PlotArguments& arguments) {
     add(command, "--run", arguments.runs, "RUN",
         "Runs to be drawn (all; each by itself, but branches with --output together)");
     add(command, "--kind", arguments.kind, "KIND",
-        "bifurcation, branch, basin, spectrum, history, portrait, regression or scatter")
+        "bifurcation, branch, basin, map, spectrum, history, portrait, regression or scatter")
         ->check(CLI::IsMember(
-            {"bifurcation", "branch", "basin", "spectrum", "history", "portrait", "regression", "scatter"}));
+            {"bifurcation", "branch", "basin", "map", "spectrum", "history", "portrait", "regression", "scatter"}));
     add(command, "--x", arguments.x, "NAME", "Horizontal axis: what varies, or a value");
     add(command, "--y", arguments.y, "NAME", "Vertical axes, one panel each (all values)");
     add(command, "--sample", arguments.samples, "NAME", "Only these samplings");
@@ -142,7 +142,13 @@ void declare_plot_results(CLI::App& app, PlotArguments& arguments) {
     add(command, "--log", arguments.logarithmic, "AXIS", "Logarithmic axes: x, y or both")
         ->check(CLI::IsMember({"x", "y"}));
     add(command, "--title", arguments.title, "TEXT", "Title");
-    add(command, "--output", arguments.output, "FILE", "Picture: .png (default), .svg or .pdf");
+    add(command, "--name", arguments.names, "NAME=TEXT",
+        "What legends, titles and axes show in the place of names of runs, values, samplings");
+    add(command, "--x-label", arguments.x_label, "TEXT", "All that stands beside the horizontal axis, unit included");
+    add(command, "--y-label", arguments.y_labels, "TEXT", "The same of the vertical axes");
+    add(command, "--size", arguments.size, "W[xH]", "Width in mm, such as 85 or 170 (170), and height");
+    add(command, "--font", arguments.font, "FONT", "Size of letters in points, or NAME or NAME,SIZE");
+    add(command, "--output", arguments.output, "FILE", "Picture: .png (default), .svg, .pdf or, for LaTeX, .tex");
     add(command, "--data", arguments.data, "FILE", "Keep data and commands, to be changed and drawn by `gnuplot FILE`");
 }
 

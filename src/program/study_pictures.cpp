@@ -19,7 +19,7 @@ namespace graze {
 namespace {
 
 /// Changes when the same results are drawn in another way than by an earlier version.
-constexpr int drawing = 1;
+constexpr int drawing = 2;
 
 std::string contents_of(const std::string& path) {
     std::ifstream stream(path, std::ios::binary);
@@ -34,15 +34,26 @@ public:
 
     std::string table() const { return base_ + ".csv"; }
     std::string drawing_file() const { return base_ + "." + picture_->format; }
+    /// With that of the lines, where LaTeX has its own of the text.
+    std::vector<std::string> drawing_files() const {
+        std::vector<std::string> files{drawing_file()};
+        if (picture_->format == "tex")
+            files.push_back(base_ + ".pdf");
+        return files;
+    }
 
     /// Files of the same picture, if they are as they were written.
     std::vector<std::string> present() const {
         const auto note = file_->note(key());
         if (!note)
             return {};
-        for (const auto& files : {std::vector<std::string>{drawing_file()}, {table(), drawing_file()}})
+        for (const bool with_table : {false, true}) {
+            std::vector<std::string> files = drawing_files();
+            if (with_table)
+                files.insert(files.begin(), table());
             if (*note == made_of(files))
                 return files;
+        }
         return {};
     }
     void remember(const std::vector<std::string>& files) { file_->set_note(key(), made_of(files)); }
@@ -81,7 +92,8 @@ std::vector<std::string> draw(const StudyPicture& picture, const PictureFiles& f
         written.push_back(files.table());
     }
     draw_figure(made.figure, files.drawing_file(), "");
-    written.push_back(files.drawing_file());
+    for (const std::string& path : files.drawing_files())
+        written.push_back(path);
     return written;
 }
 
@@ -102,7 +114,9 @@ DrawnPictures draw_study_pictures(const Study& study, ResultFile& file, const st
                              [&](const std::string& run) { return file.point_count(run) > 0; }))
                 throw InputError(fmt::format("run '{}' has no points", picture.runs.front()), "see why above");
             PictureFiles files(picture, file, folder);
-            for (const std::string& path : {files.table(), files.drawing_file()}) {
+            std::vector<std::string> targets = files.drawing_files();
+            targets.push_back(files.table());
+            for (const std::string& path : targets) {
                 require_inside(path, folder);
                 for (const std::string& input : inputs)
                     require_distinct({{"the study, or what it reads,", input}, {"picture " + picture.name, path}});

@@ -90,16 +90,20 @@ Figure bifurcation_picture(const StudyPicture& picture, const ResultFile& file) 
             picture.directions.empty() ? run.record.directions : picture.directions;
         figure.columns = values.size() > 1 ? values.size() : directions.size();
         for (const std::string& direction : directions)
-            for (const std::string& value : values) {
-                FigurePanel panel = panel_of(picture, x, run.unit(x), value, run.unit(value));
+            for (std::size_t v = 0; v < values.size(); ++v) {
+                const std::string& value = values[v];
+                FigurePanel panel = panel_of(picture, run, x, value, v);
                 const char letter = static_cast<char>('a' + figure.panels.size());
-                panel.title =
-                    fmt::format("({}) {}", letter, direction.empty() ? name : fmt::format("{} {}", x, direction));
+                panel.title = fmt::format("({}) {}", letter,
+                                          direction.empty() ? shown_name(picture, name)
+                                                            : fmt::format("{} {}", shown_name(picture, x), direction));
                 std::map<std::string, std::size_t> series;
                 for (std::size_t s = 0; s < samplings.size(); ++s) {
                     series[samplings[s]] = s;
-                    panel.series.push_back(
-                        {samplings.size() > 1 ? samplings[s] : "", FigureSeries::Style::dots, s, {}});
+                    panel.series.push_back({samplings.size() > 1 ? shown_name(picture, samplings[s]) : "",
+                                            FigureSeries::Style::dots,
+                                            s,
+                                            {}});
                 }
                 auto rows = run.rows({.samples = true,
                                       .columns = {"sampling"},

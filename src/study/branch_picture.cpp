@@ -31,6 +31,7 @@ struct DrawnPoint {
     PointType type = PointType::regular;
     Look look = Look::stable;
     std::int64_t step = 0;
+    double along = 0; ///< the branch
     double x = 0;
     std::vector<double> y;
 };
@@ -80,7 +81,7 @@ std::vector<DrawnPoint> points_of(const StoredRun& run, const StudyPicture& pict
     for (const std::string& name : drawn)
         require_known(picture, run, name);
     require_parts(run, picture);
-    auto rows = run.rows({.columns = {"part", "label", "type", "stable", "admissible", "step"},
+    auto rows = run.rows({.columns = {"part", "label", "type", "stable", "admissible", "step", "arclength"},
                           .quantities = drawn,
                           .directions = picture.directions});
     constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
@@ -95,9 +96,10 @@ std::vector<DrawnPoint> points_of(const StoredRun& run, const StudyPicture& pict
         const auto number = [&](std::size_t column) { // what is infinite has no place in a picture
             return rows.is_null(column) || std::isinf(rows.number(column)) ? nothing : rows.number(column);
         };
-        point.x = number(6);
+        point.along = number(6);
+        point.x = number(7);
         for (std::size_t v = 0; v < values.size(); ++v)
-            point.y.push_back(number(7 + v));
+            point.y.push_back(number(8 + v));
     }
     return points;
 }
@@ -138,11 +140,11 @@ std::vector<Stretch> stretches_of(const std::vector<DrawnPoint>& points) {
     return stretches;
 }
 
-bool alike(const PlanePoint& one, const PlanePoint& other) {
-    const auto near = [](double a, double b) {
-        return std::abs(a - b) <= same_point * std::max(std::abs(a), std::abs(b));
-    };
-    return near(one.x, other.x) && near(one.y, other.y);
+/// Which labels matter most where there is no room for all: of points where the model's motions change, then others, of
+/// each those where other branches leave first; then those that the model does not follow.
+int rank_of(const DrawnPoint& point) {
+    const PointKind& kind = kind_of(point.type);
+    return (point.look == Look::unphysical ? 4 : 0) + (kind.changes || kind.limits ? 0 : 2) + (kind.leads_on ? 0 : 1);
 }
 
 /// @param labels colour of the labels
@@ -155,8 +157,12 @@ void add_branch(FigurePanel& panel, const std::vector<DrawnPoint>& points, std::
             if ((stretch.look == Look::unphysical) != unphysical || stretch.points.size() < 2)
                 continue;
             FigureSeries series{"", style_of(stretch.look), unphysical ? FigureSeries::grey : colour, {}};
-            for (const std::size_t at : stretch.points)
+            for (const std::size_t at : stretch.points) {
+                if (kind_of(points[at].type).limits) // other segments give greatest values from there on
+                    series.corners.push_back(series.points.size());
                 series.points.push_back({points[at].x, points[at].y[value]});
+                series.along.push_back(points[at].along);
+            }
             panel.series.push_back(std::move(series));
         }
     std::set<int> symbols;
@@ -168,13 +174,9 @@ void add_branch(FigurePanel& panel, const std::vector<DrawnPoint>& points, std::
         series.symbol = symbol;
         for (const DrawnPoint& point : points)
             if (kind_of(point.type).mark == symbol) {
-                // Images under a symmetry often lie in one place, where one label does.
                 const PlanePoint here{point.x, point.y[value]};
-                const bool there = std::any_of(series.points.begin(), series.points.end(),
-                                               [&](const PlanePoint& other) { return alike(here, other); });
                 series.points.push_back(here);
-                if (!there)
-                    panel.labels.push_back({here, point.label, labels});
+                panel.labels.push_back({here, point.label, labels, rank_of(point)});
             }
         panel.series.push_back(std::move(series));
     }
@@ -183,7 +185,7 @@ void add_branch(FigurePanel& panel, const std::vector<DrawnPoint>& points, std::
 }
 
 /// Says which colour is which run, and what the styles mean that are there.
-void add_legend(FigurePanel& panel, const std::vector<StoredRun>& runs,
+void add_legend(FigurePanel& panel, const StudyPicture& picture, const std::vector<StoredRun>& runs,
                 const std::vector<std::vector<DrawnPoint>>& points) {
     const auto add = [&](const std::string& title, FigureSeries::Style style, std::size_t colour) {
         FigureSeries series{title, style, colour, {}};
@@ -193,7 +195,7 @@ void add_legend(FigurePanel& panel, const std::vector<StoredRun>& runs,
     if (runs.size() > 1)
         for (std::size_t r = 0; r < runs.size(); ++r)
             if (!points[r].empty())
-                add(runs[r].record.name, FigureSeries::Style::line, r);
+                add(shown_name(picture, runs[r].record.name), FigureSeries::Style::line, r);
     std::set<Look> shown;
     for (const std::vector<DrawnPoint>& run : points)
         for (const Stretch& stretch : stretches_of(run))
@@ -223,14 +225,14 @@ Figure branch_picture(const StudyPicture& picture, const ResultFile& file) {
     Figure figure;
     figure.columns = values.size() > 1 ? 2 : 1;
     for (std::size_t v = 0; v < values.size(); ++v) {
-        FigurePanel panel = panel_of(picture, x, runs.front().unit(x), values[v], runs.front().unit(values[v]));
-        panel.roomy = true;
+        FigurePanel panel = panel_of(picture, runs.front(), x, values[v], v);
+        panel.roomy_y = true;
         if (values.size() > 1 || runs.size() == 1)
             panel.title = (values.size() > 1 ? fmt::format("({}) ", static_cast<char>('a' + v)) : std::string()) +
-                          (runs.size() == 1 ? runs.front().record.name : std::string());
+                          (runs.size() == 1 ? shown_name(picture, runs.front().record.name) : std::string());
         for (std::size_t r = 0; r < runs.size(); ++r)
             add_branch(panel, points[r], v, r, runs.size() > 1 ? r : FigureSeries::black);
-        add_legend(panel, runs, points);
+        add_legend(panel, picture, runs, points);
         figure.panels.push_back(std::move(panel));
     }
     return figure;

@@ -23,9 +23,8 @@ std::vector<StudyPicture> one_for_each_point(const StudyPicture& picture) {
 }
 
 std::string title_of(const StudyPicture& one, const StoredRun& run, const PointRecord& point) {
-    std::string title = one.at.empty()
-                            ? run.record.name
-                            : fmt::format("{} = {}", one.at.front().first, title_number(one.at.front().second));
+    std::string title = one.at.empty() ? shown_name(one, run.record.name)
+                                       : shown_value(one, run, one.at.front().first, one.at.front().second);
     if (point.result.label == Label::periodic)
         title += fmt::format(": period {}", point.result.period);
     else if (run.record.kind != "simulate")
@@ -75,8 +74,7 @@ private:
                            const std::string& title) {
         const std::size_t index = portrait_ ? figure_.panels.size() : value;
         if (index >= figure_.panels.size()) {
-            figure_.panels.push_back(
-                panel_of(*picture_, x, x == "t" ? run.model.time_unit : run.unit(x), y, run.unit(y)));
+            figure_.panels.push_back(panel_of(*picture_, run, x, y, value));
             if (portrait_)
                 figure_.panels.back().title = fmt::format("({}) {}", static_cast<char>('a' + index), title);
         }
@@ -89,7 +87,8 @@ private:
             std::vector<double> times;
             const auto ys = samples_of(point, run, y, samplings[s], &times);
             const auto xs = portrait_ ? samples_of(point, run, x, samplings[s], nullptr) : times;
-            FigureSeries series{portrait_ ? samplings[s] : "", style, portrait_ ? s : colour_, {}};
+            FigureSeries series{
+                portrait_ ? shown_name(*picture_, samplings[s]) : "", style, portrait_ ? s : colour_, {}};
             for (std::size_t i = 0; i < std::min(xs.size(), ys.size()); ++i)
                 series.points.push_back({xs[i], ys[i]});
             panel.series.push_back(std::move(series));

@@ -173,25 +173,27 @@ private:
     std::size_t value_;
 };
 
-std::string title_with_parameter(const StoredRun& run, const OrbitRecord& record) {
-    std::string title = run.record.kind == "orbit" ? run.record.name : title_of(record);
+std::string title_with_parameter(const StudyPicture& picture, const StoredRun& run, const OrbitRecord& record) {
+    std::string title = run.record.kind == "orbit" ? shown_name(picture, run.record.name) : title_of(record);
     if (const std::string followed = followed_parameter(run.record); !followed.empty())
-        title += fmt::format(": {} = {:.6g}", followed, record.point.parameter);
+        title += fmt::format(": {} = {:.6g}{}{}", shown_name(picture, followed), record.point.parameter,
+                             run.unit(followed).empty() ? "" : " ", run.unit(followed));
     if (is_unphysical(record))
         title += " (unphysical)";
     return title;
 }
 
 /// @param colour of all segments; none: one for each, which those of an image in the second half share
-void add_curves(FigurePanel& panel, const DrawnOrbit& orbit, std::size_t value, std::optional<std::size_t> colour,
-                const std::string& title) {
+void add_curves(FigurePanel& panel, const StudyPicture& picture, const DrawnOrbit& orbit, std::size_t value,
+                std::optional<std::size_t> colour, const std::string& title) {
     const OrbitCurves curves(orbit, value);
     constexpr std::size_t most_titles = 8;
     const std::size_t kinds = std::max<std::size_t>(1, orbit.record.point.solution.orbit.segments());
     for (std::size_t s = 0; s < orbit.motion.size(); ++s) {
         std::string name = s == 0 ? title : "";
         if (!colour && kinds <= most_titles && s < kinds)
-            name = fmt::format("{} {} → {}", s + 1, orbit.model.modes[orbit.motion[s].mode].name, orbit.motion[s].end);
+            name = fmt::format("{} {} → {}", s + 1, shown_name(picture, orbit.model.modes[orbit.motion[s].mode].name),
+                               shown_name(picture, orbit.motion[s].end));
         panel.series.push_back({name, FigureSeries::Style::line, colour.value_or(s % kinds), curves.line(s)});
     }
     panel.series.push_back({"", FigureSeries::Style::dotted, FigureSeries::black, curves.jumps()});
@@ -204,8 +206,18 @@ void add_curves(FigurePanel& panel, const DrawnOrbit& orbit, std::size_t value, 
         FigureSeries mark{"", FigureSeries::Style::symbols, FigureSeries::black, {touch}};
         mark.symbol = 12;
         panel.series.push_back(std::move(mark));
-        panel.labels.push_back({touch, orbit.model.events[point.event].name});
+        panel.labels.push_back({touch, shown_name(picture, orbit.model.events[point.event].name)});
     }
+}
+
+FigurePanel panel_of(const StudyPicture& picture, const DrawnOrbit& orbit, std::size_t v) {
+    const Axes& axes = orbit.axes;
+    const NamedValue time{"t", orbit.model.time_unit, "time", {}};
+    FigurePanel panel = empty_panel(picture);
+    label_axis(panel.x_label, panel.x_words, panel.x_unit, picture, axes.over_time ? time : axes.values[0]);
+    label_axis(panel.y_label, panel.y_words, panel.y_unit, picture, axes.values[v]);
+    apply_labels(panel, picture, axes.over_time ? v : v - 1);
+    return panel;
 }
 
 } // namespace
@@ -217,8 +229,8 @@ Figure orbit_picture(const StudyPicture& picture, const ResultFile& file, bool p
     for (const std::string& name : picture.runs) {
         const StoredRun run(file, name, picture.place);
         for (OrbitRecord& record : shown_orbits(file, run, picture)) {
-            titles.push_back(picture.runs.size() > 1 ? name + ' ' + title_with_parameter(run, record)
-                                                     : title_with_parameter(run, record));
+            const std::string title = title_with_parameter(picture, run, record);
+            titles.push_back(picture.runs.size() > 1 ? shown_name(picture, name) + ", " + title : title);
             orbits.push_back(drawn_orbit(run, std::move(record), picture, portrait));
         }
     }
@@ -229,18 +241,16 @@ Figure orbit_picture(const StudyPicture& picture, const ResultFile& file, bool p
         for (std::size_t v = over_time ? 0 : 1; v < axes.values.size(); ++v) {
             const std::size_t index = over_time ? v : figure.panels.size();
             if (index >= figure.panels.size()) {
-                figure.panels.push_back(panel_of(picture, over_time ? "t" : axes.values[0].name,
-                                                 over_time ? orbit.model.time_unit : axes.values[0].unit,
-                                                 axes.values[v].name, axes.values[v].unit));
+                figure.panels.push_back(panel_of(picture, orbit, v));
                 const bool several = orbits.size() > 1;
                 if (!over_time || !several)
                     figure.panels.back().title =
                         (several ? fmt::format("({}) ", static_cast<char>('a' + index)) : std::string()) + titles[o];
-                figure.panels.back().roomy = true;
+                figure.panels.back().roomy_y = true;
                 figure.panels.back().roomy_x = !over_time;
             }
             const bool by_segment = !over_time || orbits.size() == 1;
-            add_curves(figure.panels[index], orbit, v, by_segment ? std::nullopt : std::optional(o),
+            add_curves(figure.panels[index], picture, orbit, v, by_segment ? std::nullopt : std::optional(o),
                        by_segment ? "" : titles[o]);
         }
     }

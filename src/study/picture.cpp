@@ -61,7 +61,9 @@ ResultPicture make_picture(const StudyPicture& given, const ResultFile& file) {
     else if (branches && picture.kind != "scatter")
         result.figure = orbit_picture(picture, file, picture.kind == "portrait");
     else if (picture.kind == "basin")
-        result = basin_picture(picture, file);
+        result = basin_picture(picture, file, false);
+    else if (picture.kind == "map")
+        result = basin_picture(picture, file, true);
     else if (picture.kind == "spectrum")
         result = spectrum_picture(picture, file);
     else if (picture.kind == "regression")
@@ -73,6 +75,7 @@ ResultPicture make_picture(const StudyPicture& given, const ResultFile& file) {
     else
         result.figure = bifurcation_picture(picture, file);
     result.figure.title = picture.title;
+    result.figure.style = picture.style;
     return result;
 }
 

@@ -7,10 +7,6 @@
 
 namespace graze {
 
-std::string title_number(double value) {
-    return fmt::format("{:.10g}", value);
-}
-
 std::vector<std::string> chosen_values(const StudyPicture& picture, const StoredRun& run) {
     if (!picture.y.empty())
         return picture.y;
@@ -38,13 +34,16 @@ std::vector<std::string> shown_samplings(const StudyPicture& picture, const Stor
     return picture.samplings.empty() ? run.record.samplings : picture.samplings;
 }
 
-FigurePanel panel_of(const StudyPicture& picture, const std::string& x, const std::string& x_unit, const std::string& y,
-                     const std::string& y_unit) {
+FigurePanel panel_of(const StudyPicture& picture, const StoredRun& run, const std::string& x, const std::string& y,
+                     std::size_t index) {
+    FigurePanel panel = empty_panel(picture);
+    label_axes(panel, picture, run, x, y);
+    apply_labels(panel, picture, index);
+    return panel;
+}
+
+FigurePanel empty_panel(const StudyPicture& picture) {
     FigurePanel panel;
-    panel.x_label = x;
-    panel.y_label = y;
-    panel.x_unit = x_unit;
-    panel.y_unit = y_unit;
     panel.logarithmic_x = picture.logarithmic_x;
     panel.logarithmic_y = picture.logarithmic_y;
     panel.x_range = picture.x_range;

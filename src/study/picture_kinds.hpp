@@ -3,6 +3,7 @@
 #include "graze/model/model.hpp"
 #include "graze/results/stored_run.hpp"
 #include "graze/study/picture.hpp"
+#include "study/shown_names.hpp"
 
 #include <cstddef>
 #include <string>
@@ -19,16 +20,18 @@ void require_values(const StudyPicture& picture, const StoredRun& run, const std
 /// What is drawn along x: as asked for, or what the run varies first.
 std::string first_coordinate(const StudyPicture& picture, const StoredRun& run);
 std::vector<std::string> shown_samplings(const StudyPicture& picture, const StoredRun& run);
-/// A number of a title.
-std::string title_number(double value);
-FigurePanel panel_of(const StudyPicture& picture, const std::string& x, const std::string& x_unit, const std::string& y,
-                     const std::string& y_unit);
+/// A panel without anything in it, and with axes as far as the picture itself says.
+FigurePanel empty_panel(const StudyPicture& picture);
+/// The same with what is beside its axes. @param index of the value that is its y
+FigurePanel panel_of(const StudyPicture& picture, const StoredRun& run, const std::string& x, const std::string& y,
+                     std::size_t index);
 /// A value at the samples of one point. @param times where to add their times; may be null
 std::vector<double> samples_of(const PointRecord& point, const StoredRun& run, const std::string& value,
                                const std::string& sampling, std::vector<double>* times);
 
 Figure bifurcation_picture(const StudyPicture& picture, const ResultFile& file);
-ResultPicture basin_picture(const StudyPicture& picture, const ResultFile& file);
+/// Two of the things that vary, and which attractor (or, of maps, which kind of one) is reached.
+ResultPicture basin_picture(const StudyPicture& picture, const ResultFile& file, bool map);
 ResultPicture spectrum_picture(const StudyPicture& picture, const ResultFile& file);
 /// Histories and portraits: one panel for each point (portrait) or value (history).
 Figure motion_picture(const StudyPicture& picture, const ResultFile& file, bool portrait);

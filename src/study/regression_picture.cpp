@@ -81,24 +81,29 @@ ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& 
     const std::string y = chosen_values(picture, run).front();
     require_values(picture, run, {y});
     const std::string x = picture.successive ? y : first_coordinate(picture, run);
-    FigurePanel panel = panel_of(picture, picture.successive ? y + " of one contact" : x, run.unit(x),
-                                 picture.successive ? y + " of the next" : y, run.unit(y));
+    FigurePanel panel = panel_of(picture, run, x, y, 0);
+    if (picture.successive) {
+        const std::string words = panel.y_words.empty() ? shown_name(picture, y) : panel.y_words;
+        panel.x_words = panel.y_words = "";
+        panel.x_label = words + " at one contact";
+        panel.y_label = words + " at the next";
+        apply_labels(panel, picture, 0);
+    }
     result.table = Table({{picture.group.empty() ? "group" : picture.group, run.unit(picture.group)},
                           {"slope", ""},
                           {"slope_error", ""},
                           {"intercept", ""},
                           {"intercept_error", ""},
                           {"points", ""}});
-    panel.key_inside = true;
     std::size_t colour = 0;
     for (const auto& [value, points] : groups_of(picture, run, x, y)) {
         const Fit fit = fit_of(picture, points);
         const Regression& line = fit.line;
         panel.series.push_back({"", FigureSeries::Style::dots, colour, points});
         if (line.points > 1)
-            panel.series.push_back(drawn(
-                picture, fit, picture.group.empty() ? "" : fmt::format("{} = {}: ", picture.group, title_number(value)),
-                colour));
+            panel.series.push_back(
+                drawn(picture, fit, picture.group.empty() ? "" : shown_value(picture, run, picture.group, value) + ": ",
+                      colour));
         for (const double number : {value, line.slope, line.slope_error, line.intercept, line.intercept_error,
                                     static_cast<double>(line.points)})
             result.table.add(number);
@@ -117,8 +122,11 @@ Figure scatter_picture(const StudyPicture& picture, const ResultFile& file) {
             picture.y.empty() ? std::vector<std::string>{run.record.is_branch() ? "period" : "lyapunov"} : picture.y;
         for (std::size_t v = 0; v < ys.size(); ++v) {
             if (v >= figure.panels.size())
-                figure.panels.push_back(panel_of(picture, x, run.unit(x), ys[v], run.unit(ys[v])));
-            FigureSeries series{picture.runs.size() > 1 ? picture.runs[r] : "", FigureSeries::Style::circles, r, {}};
+                figure.panels.push_back(panel_of(picture, run, x, ys[v], v));
+            FigureSeries series{picture.runs.size() > 1 ? shown_name(picture, picture.runs[r]) : "",
+                                FigureSeries::Style::circles,
+                                r,
+                                {}};
             const bool sampled = run.has_value(ys[v]) && !run.record.is_branch();
             auto rows = run.rows({.samples = sampled, .quantities = {x, ys[v]}});
             while (rows.next())

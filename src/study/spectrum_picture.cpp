@@ -21,10 +21,11 @@ ResultPicture spectrum_picture(const StudyPicture& picture, const ResultFile& fi
         require_values(picture, run, {value});
         std::vector<std::pair<std::string, PointRecord>> points;
         for (const auto& at : picture.at)
-            points.emplace_back(fmt::format("{} = {}", at.first, title_number(at.second)),
+            points.emplace_back(shown_value(picture, run, at.first, at.second),
                                 chosen_point(run, {at}, picture.directions, picture.place));
         if (points.empty())
-            points.emplace_back(picture.runs[r], chosen_point(run, {}, picture.directions, picture.place));
+            points.emplace_back(shown_name(picture, picture.runs[r]),
+                                chosen_point(run, {}, picture.directions, picture.place));
         for (const auto& [title, point] : points) {
             std::vector<double> times, values = samples_of(point, run, value, sampling, &times);
             double spacing = 0;
@@ -54,13 +55,16 @@ ResultPicture spectrum_picture(const StudyPicture& picture, const ResultFile& fi
                 result.table.add(percent);
             }
             panel.series.push_back(std::move(series));
-            panel.y_label = fmt::format("amplitude of {} / mean", value);
+            const std::string words = words_of(run, value);
+            panel.y_label =
+                fmt::format("amplitude of the {} / mean", words.empty() ? shown_name(picture, value) : words);
             panel.y_unit = "%";
             panel.x_unit = run.model.time_unit == "s" ? "Hz" : "";
         }
     }
     panel.x_label = "frequency";
     panel.logarithmic_y = picture.logarithmic_y;
+    apply_labels(panel, picture, 0);
     panel.x_range = picture.x_range;
     panel.y_range = picture.y_range;
     result.figure.panels.push_back(std::move(panel));

@@ -3,6 +3,7 @@
 #include "graze/model/model_file.hpp"
 #include "graze/symbolic/file_name.hpp"
 #include "study/asked_run.hpp"
+#include "study/picture_style.hpp"
 #include "study/settings_fields.hpp"
 #include "study/study_reader.hpp"
 
@@ -39,6 +40,23 @@ void describe_picture(Fields& fields, Picture& picture) {
     fields.field("successive", picture.successive);
     fields.field("group", picture.group);
     fields.field("format", picture.format);
+    if (fields.has("names", !picture.names.empty()))
+        fields.list("names", picture.names, [](auto& one, auto& name) {
+            one.field("name", name.first);
+            one.field("text", name.second);
+        });
+    if (fields.has("x_label", !picture.x_label.empty()))
+        fields.field("x_label", picture.x_label);
+    if (fields.has("y_labels", !picture.y_labels.empty()))
+        fields.field("y_labels", picture.y_labels);
+    if (fields.has("width", picture.style.width > 0))
+        fields.field("width", picture.style.width);
+    if (fields.has("height", picture.style.height > 0))
+        fields.field("height", picture.style.height);
+    if (fields.has("font_size", picture.style.font_size > 0))
+        fields.field("font_size", picture.style.font_size);
+    if (fields.has("font", !picture.style.font.empty()))
+        fields.field("font", picture.style.font);
 }
 
 template <class Fields, class Columns>
@@ -117,13 +135,17 @@ StudyRun run_of(const PlannedRun& run, const Place& place) {
 void check(StudyPicture& picture, const Place& place) {
     picture.place = place;
     require_file_name(picture.name, "name of a picture", place);
-    for (const std::string* text : {&picture.kind, &picture.title, &picture.x, &picture.group, &picture.format})
+    for (const std::string* text :
+         {&picture.kind, &picture.title, &picture.x, &picture.group, &picture.format, &picture.x_label})
         require_plain_line(*text, "text of a picture", place);
-    for (const auto* texts : {&picture.y, &picture.samplings, &picture.directions, &picture.points})
+    for (const auto* texts : {&picture.y, &picture.samplings, &picture.directions, &picture.points, &picture.y_labels})
         for (const std::string& text : *texts)
             require_plain_line(text, "text of a picture", place);
     for (const auto& [name, value] : picture.at)
         require_plain_line(name, "coordinate", place);
+    for (const auto& [name, text] : picture.names)
+        require_plain_line(name + text, "name in a picture", place);
+    check_style(picture.style, place);
     const std::vector<std::string> formats = picture_formats();
     if (std::find(formats.begin(), formats.end(), picture.format) == formats.end())
         throw InputError(place, fmt::format("pictures cannot be '{}'", picture.format), study_name_remedy("", formats));

@@ -3,6 +3,7 @@
 #include "graze/symbolic/file_name.hpp"
 #include "graze/symbolic/text_file.hpp"
 #include "results/run_names.hpp"
+#include "study/picture_style.hpp"
 #include "study/start_point.hpp"
 #include "study/study_reader.hpp"
 
@@ -33,8 +34,12 @@ std::string_view name_of(RunKind kind) {
     return "simulate";
 }
 
+std::vector<std::string> picture_kinds() {
+    return {"bifurcation", "branch", "basin", "map", "history", "portrait", "spectrum", "regression", "scatter"};
+}
+
 std::vector<std::string> picture_formats() {
-    return {"png", "svg", "pdf"};
+    return {"png", "svg", "pdf", "tex"};
 }
 
 std::vector<StudyRun> in_order(std::vector<StudyRun> runs) {
@@ -133,15 +138,17 @@ StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
     picture.name = entry.name;
     picture.place = entry.place;
     require_file_name(picture.name, "name of a picture", entry.place);
-    const std::vector<TomlEntry> items =
-        reader.toml().entries(reader.toml().table(entry), entry.path,
-                              {"kind", "title", "run", "runs", "x", "y", "samples", "directions", "x_range", "y_range",
-                               "fit", "at", "points", "logarithmic", "format", "successive", "group"});
+    const std::vector<TomlEntry> items = reader.toml().entries(
+        reader.toml().table(entry), entry.path,
+        {"kind",    "title",   "run",     "runs",    "x",      "y",           "samples", "directions",
+         "x_range", "y_range", "fit",     "at",      "points", "logarithmic", "format",  "successive",
+         "group",   "names",   "x_label", "y_label", "size",   "font"});
     for (const TomlEntry& item : items) {
         const std::string& key = item.name;
+        if (read_style(reader, item, picture))
+            continue;
         if (key == "kind") {
-            const std::vector<std::string> kinds{"bifurcation", "basin",      "spectrum", "history",
-                                                 "portrait",    "regression", "scatter",  "branch"};
+            const std::vector<std::string> kinds = picture_kinds();
             picture.kind = kinds[reader.choice(item, kinds)];
         } else if (key == "title") {
             picture.title = reader.toml().line(item);

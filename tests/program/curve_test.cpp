@@ -1,5 +1,6 @@
 #include "program/curve.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -48,6 +49,44 @@ TEST(Curve, AxesHaveRoundTics) {
     EXPECT_LT(zero.low, zero.high);
     const Axis nothing = axis_for(INFINITY, -INFINITY, 4, 0.1);
     EXPECT_LT(nothing.low, nothing.high);
+}
+
+// A circle through 24 points: directions at extrema are exact, others those of harmonic means.
+TEST(Curve, SmoothedComesCloserThanChords) {
+    Polyline line;
+    std::vector<double> along;
+    const double step = 2 * std::numbers::pi / 24;
+    for (int i = 0; i <= 24; ++i) {
+        line.push_back({std::cos(step * i), std::sin(step * i)});
+        along.push_back(step * i);
+    }
+    const Polyline curve = smoothed(line, along, {});
+    ASSERT_EQ(curve.size(), 24U * 8 + 1);
+    const double sagitta = 1 - std::cos(step / 2);
+    double farthest = 0, least = 1;
+    for (std::size_t i = 8; i + 8 < curve.size(); ++i) { // directions at the ends are those of chords
+        farthest = std::max(farthest, std::abs(std::hypot(curve[i].x, curve[i].y) - 1));
+        EXPECT_LE(std::abs(curve[i].x), 1);
+        EXPECT_LE(std::abs(curve[i].y), 1);
+        least = std::min(least, curve[i].x);
+    }
+    EXPECT_LT(farthest, sagitta / 3);
+    EXPECT_EQ(least, -1);
+    for (std::size_t i = 0; i < line.size(); ++i)
+        EXPECT_EQ(curve[8 * i].x, line[i].x);
+}
+
+TEST(Curve, SmoothedKeepsCornersAndGaps) {
+    const Polyline line{{0, 0}, {1, 1}, {2, 0}, {3, 1}};
+    const std::vector<double> along{0, 1, 2, 3};
+    for (const PlanePoint& point : smoothed(line, along, std::vector<std::size_t>{1, 2}))
+        EXPECT_NEAR(point.y, point.x <= 1 ? point.x : point.x <= 2 ? 2 - point.x : point.x - 2, 1e-14);
+    EXPECT_EQ(smoothed(line, {}, {}).size(), 4U);
+    EXPECT_EQ(smoothed(line, std::vector<double>(4, 0.0), {}).size(), 4U); // nothing is known of distances
+    const double nothing = std::nan("");
+    const Polyline gap{{0, 0}, {1, 0}, {nothing, nothing}, {2, 0}, {3, 0}};
+    const Polyline curve = smoothed(gap, std::vector<double>{0, 1, 2, 3, 4}, {});
+    EXPECT_EQ(std::count_if(curve.begin(), curve.end(), [](const PlanePoint& p) { return std::isnan(p.x); }), 1);
 }
 
 } // namespace graze::testing

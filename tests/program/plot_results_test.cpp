@@ -148,7 +148,7 @@ TEST_F(PlotResults, TellsTheAttractorsOfABasinApart) {
     ASSERT_EQ(made.figure.panels.size(), 1U);
     ASSERT_EQ(made.figure.panels[0].series.size(), 3U);
     for (const FigureSeries& series : made.figure.panels[0].series)
-        EXPECT_EQ(series.points.size(), 10U) << series.title;
+        EXPECT_EQ(series.cells.size(), 10U) << series.title; // no two beside one another
     EXPECT_EQ(made.table.rows(), 3U);
 }
 

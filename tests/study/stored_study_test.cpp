@@ -68,6 +68,11 @@ run = "sweep"
 y = "v"
 samples = "contacts"
 x_range = [2.7, 2.8]
+names = { v = "velocity", contacts = "at impacts" }
+x_label = "frequency (-)"
+y_label = "velocity (-)"
+size = [85, 60]
+font = { name = "Times", size = 8 }
 [pictures.chain]
 run = "chain"
 logarithmic = "x"

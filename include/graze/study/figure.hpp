@@ -9,39 +9,55 @@
 namespace graze {
 
 struct PlanePoint {
-    double x, y;
+    double x = 0, y = 0;
+};
+
+/// A rectangle in the coordinates of a panel.
+struct PlaneBox {
+    double left = 0, right = 0, low = 0, high = 0;
 };
 
 /// Something drawn in a panel.
 struct FigureSeries {
-    enum class Style { dots, circles, line, dashed, dotted, impulses, symbols };
+    enum class Style { dots, circles, line, dashed, dotted, impulses, symbols, cells };
     static constexpr std::size_t grey = 1000, black = 1001; ///< colours outside of the palette
     std::string title;                                      ///< plain text; empty: not in the legend
     Style style = Style::dots;
-    std::size_t colour = 0;         ///< index in a palette
-    std::vector<PlanePoint> points; ///< a point that is not finite interrupts a line
-    int symbol = 7;                 ///< of symbols: its number among gnuplot's points
-    bool only_in_legend = false;    ///< says there what a style means; has no points
+    std::size_t colour = 0;             ///< index in a palette
+    std::vector<PlanePoint> points;     ///< a point that is not finite interrupts a line
+    int symbol = 7;                     ///< of symbols: its number among gnuplot's points
+    bool only_in_legend = false;        ///< says there what a style means; has no points
+    std::vector<PlaneBox> cells{};      ///< of cells: what is filled
+    std::vector<double> along{};        ///< of lines: how far along a smooth curve each point is; empty: straight lines
+    std::vector<std::size_t> corners{}; ///< points at which a smooth curve may have one
 };
 
-/// A short text beside a point. Those that find no room are left out.
+/// A short text beside a point. Where there is no room for all, those of higher rank are left out.
 struct FigureLabel {
     PlanePoint at;
     std::string text;          ///< plain
     std::size_t colour = 1001; ///< as of series; black
+    int rank = 0;
 };
 
 struct FigurePanel {
     std::string title;
     std::string x_label, y_label, x_unit, y_unit; ///< names and units
+    std::string x_words, y_words;                 ///< what these are in words, if anything says so
     bool logarithmic_x = false, logarithmic_y = false;
-    bool key_inside = false; ///< the legend has long lines
-    bool roomy = false;      ///< curves keep away from the frame above and below
-    bool roomy_x = false;    ///< and at the sides
+    bool roomy_y = false; ///< curves keep away from the frame above and below
+    bool roomy_x = false; ///< and at the sides
     std::optional<std::pair<double, double>> x_range, y_range;
     std::vector<FigureSeries> series;
     std::vector<double> marks; ///< thin vertical lines
     std::vector<FigureLabel> labels;
+};
+
+/// How large a picture is on paper, and its letters.
+struct FigureStyle {
+    double width = 0, height = 0; ///< in mm; 0: as usual, and as high as fits
+    double font_size = 0;         ///< in points; 0: by the width
+    std::string font;             ///< its name; empty: without serifs
 };
 
 /// What a picture shows, however it is drawn: panels row by row.
@@ -49,6 +65,7 @@ struct Figure {
     std::string title;
     std::size_t columns = 1;
     std::vector<FigurePanel> panels;
+    FigureStyle style{};
 };
 
 } // namespace graze

@@ -2,6 +2,7 @@
 
 #include "graze/branch/orbit_branch.hpp"
 #include "graze/model/model.hpp"
+#include "graze/study/figure.hpp"
 #include "graze/sweep/attractor.hpp"
 #include "graze/sweep/sampling.hpp"
 #include "graze/symbolic/input_error.hpp"
@@ -82,7 +83,7 @@ struct StudyRun {
 /// One picture or table made from runs. What is not said is chosen by `kind` and the run.
 struct StudyPicture {
     std::string name, kind,
-        title; ///< kind: bifurcation, branch, basin, spectrum, history, portrait, regression, scatter, table
+        title; ///< kind: bifurcation, branch, basin, map, spectrum, history, portrait, regression, scatter
     std::vector<std::string> runs;
     std::string x;                                                  ///< coordinate or value
     std::vector<std::string> y;                                     ///< values, one panel each
@@ -95,6 +96,11 @@ struct StudyPicture {
     bool successive = false; ///< regression: each value against the one before it in the same point
     std::string group;       ///< coordinate by which a regression is split
     std::string format = "png";
+    std::vector<std::pair<std::string, std::string>>
+        names;                         ///< what is shown in the place of names of runs, values, ...
+    std::string x_label;               ///< all of what stands beside the axis; empty: by itself
+    std::vector<std::string> y_labels; ///< the same of the panels' y
+    FigureStyle style;
     Place place;
 };
 
@@ -113,6 +119,9 @@ struct StudyTable {
     std::vector<std::string> samplings, directions; ///< only these; empty: all
     Place place;
 };
+
+/// Whether pictures can be made so. @throws InputError with this place
+void check_style(const FigureStyle& style, const Place& place);
 
 /// Values of parameters that take the place of those that a study and its models give.
 using ParameterValues = std::vector<std::pair<std::string, double>>;

@@ -1,0 +1,270 @@
+#include "program/figure_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace graze {
+
+namespace {
+
+constexpr double points_per_mm = 72 / 25.4;
+constexpr double usual_width = 170; ///< mm: that of a page's text
+constexpr double narrow = 120;      ///< mm: a column of text, for which letters are smaller
+constexpr double narrow_font = 8, usual_font = 9;
+constexpr double least_panel = 42;  ///< mm: of the axes of panels that stand beside one another
+constexpr double flat = 0.62;       ///< height of a panel, of its width
+constexpr double flattest = 0.38;   ///< where a picture has only one column
+constexpr double least_height = 30; ///< points: of panels, whatever height was asked for
+
+// In sizes of the font.
+constexpr double line = 1.3, margin = 0.6, tic_length = 0.45, gap_at_tic = 0.3, gap_of_panels = 1, title_size = 1.1;
+constexpr std::size_t most_title_lines = 3;
+
+double font_of(const FigureStyle& style, double width) {
+    if (style.font_size > 0)
+        return style.font_size;
+    return width < narrow ? narrow_font : std::max(usual_font, usual_font * width / usual_width);
+}
+
+Box box_of(const PlacedText& text) {
+    const double length = width_of(text.text) * text.size, height = text.size;
+    if (text.upright)
+        return Box::around(text.at, height, length);
+    const double left = text.align == PlacedText::Align::left     ? text.at.x
+                        : text.align == PlacedText::Align::centre ? text.at.x - length / 2
+                                                                  : text.at.x - length;
+    return {left, text.at.y - height / 2, left + length, text.at.y + height / 2};
+}
+
+/// What stands beside an axis: words and symbol, or less of it, so that it fits into two lines.
+std::vector<RichText> axis_label(const std::string& name, const std::string& words, const std::string& unit, int power,
+                                 double room) {
+    RichText tail;
+    if (!unit.empty() || power != 0) {
+        tail = rich(" (") + (power != 0 ? rich_power(power) : RichText{}) +
+               rich(power != 0 && !unit.empty() ? " " : "") + rich_unit(unit) + rich(")");
+    }
+    const RichText symbol = rich_name(name);
+    const bool is_symbol = !symbol.empty() && symbol.front().look == TextRun::Look::italic;
+    const RichText end = (is_symbol ? symbol : RichText{}) + tail;
+    if (words.empty() && width_of(symbol + tail) <= room)
+        return {symbol + tail};
+    const std::string text = words.empty() ? letters_of(symbol) : words;
+    if (!words.empty() || !is_symbol) {
+        const RichText blank = rich(is_symbol ? " " : "");
+        if (width_of(rich(text) + blank + end) <= room)
+            return {rich(text) + blank + end};
+        const std::vector<std::string> lines = wrapped(text, room, 3);
+        if (lines.size() == 1 && width_of(end) <= room) // the unit's line begins without its blank
+            return {rich(lines[0]), is_symbol ? end : RichText(tail.begin() + (tail.empty() ? 0 : 1), tail.end())};
+        if (lines.size() == 2 && width_of(rich(lines[1]) + blank + end) <= room)
+            return {rich(lines[0]), rich(lines[1]) + blank + end};
+    }
+    return {symbol + tail};
+}
+
+/// Works out the places of one figure.
+class Arrangement {
+public:
+    explicit Arrangement(const Figure& figure) : figure_(&figure) {
+        const double width = figure.style.width > 0 ? figure.style.width : usual_width;
+        page_.font = font_of(figure.style, width);
+        page_.width = width * points_per_mm;
+        page_.panels.resize(figure.panels.size());
+        titles_.resize(figure.panels.size());
+        x_labels_.resize(figure.panels.size());
+        y_labels_.resize(figure.panels.size());
+        columns_ = std::clamp<std::size_t>(figure.columns, 1, std::max<std::size_t>(1, figure.panels.size()));
+        while (columns_ > 1 && width / static_cast<double>(columns_) < least_panel + 3 * page_.font / points_per_mm)
+            --columns_;
+        rows_ = std::max<std::size_t>(1, (figure.panels.size() + columns_ - 1) / columns_);
+        frame_width_ = page_.width / static_cast<double>(columns_) - 6 * page_.font;
+        frame_height_ = usual_height();
+        collect_legends();
+    }
+
+    FigureLayout arrange() {
+        constexpr int rounds =
+            3; // heights decide on numbers beside axes, these on widths, these on legends and heights
+        for (int round = 0; round < rounds; ++round)
+            measure();
+        write_title();
+        for (std::size_t p = 0; p < page_.panels.size(); ++p)
+            place(p);
+        return std::move(page_);
+    }
+
+private:
+    double font() const { return page_.font; }
+    double usual_height() const {
+        const double part = columns_ == 1 && page_.width > narrow * points_per_mm && rows_ > 1 ? flattest
+                            : columns_ == 1 && page_.width > narrow * points_per_mm            ? 0.5
+                                                                                               : flat;
+        return part * frame_width_;
+    }
+
+    void collect_legends() {
+        bool shared = figure_->panels.size() > 1;
+        std::vector<std::vector<LegendEntry>> legends;
+        for (const FigurePanel& panel : figure_->panels)
+            legends.push_back(legend_entries(panel));
+        for (std::size_t p = 1; p < legends.size(); ++p)
+            shared = shared && same_legend(legends[p], legends[0]);
+        if (shared)
+            page_.legend = legends[0];
+        for (std::size_t p = 0; p < legends.size() && !shared; ++p)
+            page_.panels[p].legend = legends[p];
+    }
+
+    std::size_t column_of(std::size_t panel) const { return panel % columns_; }
+    std::size_t row_of(std::size_t panel) const { return panel / columns_; }
+
+    double room_at_left(std::size_t p) const {
+        double numbers = 0;
+        for (const PanelAxis::Tic& tic : page_.panels[p].y.tics)
+            numbers = std::max(numbers, width_of(tic.text));
+        const double lines = static_cast<double>(y_labels_[p].size());
+        return font() * (numbers + gap_at_tic + tic_length + lines * line + 0.6);
+    }
+    double room_at_right(std::size_t p) const {
+        const std::vector<PanelAxis::Tic>& tics = page_.panels[p].x.tics;
+        return font() * (tics.empty() ? margin : margin + width_of(tics.back().text) / 2);
+    }
+    /// Texts that depend on how much room there is.
+    void write_labels(std::size_t p) {
+        const FigurePanel& panel = figure_->panels[p];
+        const double width = frame_width_ / font(), height = frame_height_ / font();
+        titles_[p] = wrapped(panel.title, width, 2);
+        x_labels_[p] = axis_label(panel.x_label, panel.x_words, panel.x_unit, page_.panels[p].x.power, width);
+        y_labels_[p] = axis_label(panel.y_label, panel.y_words, panel.y_unit, page_.panels[p].y.power, height);
+    }
+    double room_above(std::size_t p) const { return font() * (line * static_cast<double>(titles_[p].size()) + 0.5); }
+    double room_of_axis(std::size_t p) const {
+        return font() * (tic_length + gap_at_tic + 1 + 0.2 + line * static_cast<double>(x_labels_[p].size()) + 0.2);
+    }
+
+    void measure() {
+        left_.assign(columns_, 0);
+        right_.assign(columns_, font() * margin);
+        above_.assign(rows_, 0);
+        below_.assign(rows_, 0);
+        for (std::size_t p = 0; p < page_.panels.size(); ++p) {
+            PanelLayout& panel = page_.panels[p];
+            panel.y = panel_axis(figure_->panels[p], false, frame_height_, font());
+            panel.x = panel_axis(figure_->panels[p], true, frame_width_, font());
+            write_labels(p);
+            left_[column_of(p)] = std::max(left_[column_of(p)], room_at_left(p));
+            right_[column_of(p)] = std::max(right_[column_of(p)], room_at_right(p));
+        }
+        const double beside = std::accumulate(left_.begin(), left_.end(), 0.0) +
+                              std::accumulate(right_.begin(), right_.end(), 0.0) + 2 * margin * font();
+        frame_width_ = std::max(least_height, (page_.width - beside) / static_cast<double>(columns_));
+        for (std::size_t p = 0; p < page_.panels.size(); ++p) {
+            PanelLayout& panel = page_.panels[p];
+            const double legend = place_legend(panel.legend, 0, 0, column_width(column_of(p)), font());
+            above_[row_of(p)] = std::max(above_[row_of(p)], room_above(p));
+            below_[row_of(p)] = std::max(below_[row_of(p)], room_of_axis(p) + legend + gap_of_panels * font());
+        }
+        title_height_ = font() * (margin + title_size * line * static_cast<double>(figure_title().size()));
+        legend_height_ = place_legend(page_.legend, margin * font(), 0, page_.width - 2 * margin * font(), font());
+        const double around = title_height_ + legend_height_ + std::accumulate(above_.begin(), above_.end(), 0.0) +
+                              std::accumulate(below_.begin(), below_.end(), 0.0);
+        frame_height_ =
+            figure_->style.height > 0
+                ? std::max(least_height, (figure_->style.height * points_per_mm - around) / static_cast<double>(rows_))
+                : usual_height();
+        page_.height = around + static_cast<double>(rows_) * frame_height_;
+    }
+
+    std::vector<std::string> figure_title() const {
+        return wrapped(figure_->title, (page_.width - 2 * margin * font()) / (title_size * font()), most_title_lines);
+    }
+    double column_width(std::size_t column) const { return left_[column] + frame_width_ + right_[column]; }
+
+    void write_title() {
+        double y = page_.height - font() * margin / 2;
+        for (const std::string& text : figure_title()) {
+            y -= title_size * line * font() / 2;
+            PlacedText placed{rich(text), {page_.width / 2, y}, title_size * font()};
+            placed.box = box_of(placed);
+            page_.title.push_back(placed);
+            y -= title_size * line * font() / 2;
+        }
+        place_legend(page_.legend, margin * font(), legend_height_ + 0.3 * font(), page_.width - 2 * margin * font(),
+                     font());
+    }
+
+    void place(std::size_t p) {
+        PanelLayout& panel = page_.panels[p];
+        double left = margin * font(), top = page_.height - title_height_;
+        for (std::size_t c = 0; c < column_of(p); ++c)
+            left += column_width(c);
+        for (std::size_t r = 0; r < row_of(p); ++r)
+            top -= above_[r] + frame_height_ + below_[r];
+        Box& frame = panel.frame;
+        frame.left = left + left_[column_of(p)];
+        frame.right = frame.left + frame_width_;
+        frame.high = top - above_[row_of(p)];
+        frame.low = frame.high - frame_height_;
+        write(p);
+        place_legend(panel.legend, left, frame.low - room_of_axis(p), column_width(column_of(p)), font());
+        panel.labels = place_labels(figure_->panels[p], frame, panel.x, panel.y, font());
+    }
+
+    void add(PanelLayout& panel, const RichText& text, const PlanePoint& at, PlacedText::Align align, bool upright) {
+        PlacedText placed{text, at, font(), align, upright};
+        placed.box = box_of(placed);
+        panel.texts.push_back(placed);
+    }
+
+    /// Everything around the frame.
+    void write(std::size_t p) {
+        using Align = PlacedText::Align;
+        PanelLayout& panel = page_.panels[p];
+        const Box& frame = panel.frame;
+        const double middle = (frame.left + frame.right) / 2;
+        double y = frame.high + font() * (0.3 + line * (static_cast<double>(titles_[p].size()) - 0.5));
+        for (const std::string& text : titles_[p]) {
+            add(panel, rich(text), {middle, y}, Align::centre, false);
+            y -= line * font();
+        }
+        for (const PanelAxis::Tic& tic : panel.x.tics)
+            add(panel, tic.text,
+                {frame.left + panel.x.share(tic.value) * frame.width(),
+                 frame.low - font() * (tic_length + gap_at_tic + 0.5)},
+                Align::centre, false);
+        y = frame.low - font() * (tic_length + gap_at_tic + 1.2 + line / 2);
+        for (const RichText& text : x_labels_[p]) {
+            add(panel, text, {middle, y}, Align::centre, false);
+            y -= line * font();
+        }
+        for (const PanelAxis::Tic& tic : panel.y.tics)
+            add(panel, tic.text,
+                {frame.left - font() * (tic_length + gap_at_tic),
+                 frame.low + panel.y.share(tic.value) * frame.height()},
+                Align::right, false);
+        double x = frame.left - room_at_left(p) + font() * (line / 2 + 0.15);
+        for (const RichText& text : y_labels_[p]) {
+            add(panel, text, {x, (frame.low + frame.high) / 2}, Align::centre, true);
+            x += line * font();
+        }
+    }
+
+    const Figure* figure_;
+    FigureLayout page_;
+    std::size_t columns_ = 1, rows_ = 1;
+    double frame_width_ = 0, frame_height_ = 0, title_height_ = 0, legend_height_ = 0;
+    std::vector<double> left_, right_; ///< of each column: room beside its frames
+    std::vector<double> above_, below_;
+    std::vector<std::vector<std::string>> titles_; ///< lines, of each panel
+    std::vector<std::vector<RichText>> x_labels_, y_labels_;
+};
+
+} // namespace
+
+FigureLayout layout_of(const Figure& figure) {
+    return Arrangement(figure).arrange();
+}
+
+} // namespace graze

@@ -1,0 +1,97 @@
+#include "program/legend.hpp"
+
+#include "program/rich_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t most_entries = 10;
+// In sizes of the legend's font.
+constexpr double line_sample = 2.4, symbol_sample = 0.9, gap = 0.5, gap_of_columns = 1.6, row_height = 1.4;
+
+double sample_of(const LegendEntry& entry) {
+    using Style = FigureSeries::Style;
+    if (!entry.sampled)
+        return 0;
+    const bool line = entry.style == Style::line || entry.style == Style::dashed || entry.style == Style::dotted ||
+                      entry.style == Style::impulses;
+    return line ? line_sample : symbol_sample;
+}
+
+/// Entries that say what a style means, whatever the colour.
+bool is_of_style(const LegendEntry& entry) {
+    return entry.colour == FigureSeries::black || entry.colour == FigureSeries::grey;
+}
+
+} // namespace
+
+double legend_font(double font) {
+    return 0.92 * font;
+}
+
+std::vector<LegendEntry> legend_entries(const FigurePanel& panel) {
+    std::vector<LegendEntry> entries;
+    for (const FigureSeries& series : panel.series) {
+        const bool empty = series.points.empty() && series.cells.empty() && !series.only_in_legend;
+        const bool known = std::any_of(entries.begin(), entries.end(), [&](const LegendEntry& entry) {
+            return entry.title == series.title && entry.colour == series.colour;
+        });
+        if (!series.title.empty() && !empty && !known)
+            entries.push_back({series.title, series.style, series.colour, series.symbol});
+    }
+    const auto styles = static_cast<std::size_t>(std::count_if(entries.begin(), entries.end(), is_of_style));
+    const std::size_t others = entries.size() - styles;
+    const std::size_t most = std::max<std::size_t>(2, most_entries - std::min(most_entries, styles));
+    if (others <= most)
+        return entries;
+    std::vector<LegendEntry> fewer;
+    std::size_t seen = 0;
+    for (const LegendEntry& entry : entries) {
+        if (is_of_style(entry) || seen < most - 1)
+            fewer.push_back(entry);
+        if (!is_of_style(entry) && ++seen == most)
+            fewer.push_back({fmt::format("and {} more", others - most + 1), {}, FigureSeries::black, 0, false});
+    }
+    return fewer;
+}
+
+bool same_legend(const std::vector<LegendEntry>& one, const std::vector<LegendEntry>& other) {
+    return std::equal(
+        one.begin(), one.end(), other.begin(), other.end(), [](const LegendEntry& a, const LegendEntry& b) {
+            return a.title == b.title && a.style == b.style && a.colour == b.colour && a.symbol == b.symbol;
+        });
+}
+
+double place_legend(std::vector<LegendEntry>& entries, double left, double top, double width, double font) {
+    if (entries.empty())
+        return 0;
+    const double size = legend_font(font);
+    double widest = 0;
+    for (LegendEntry& entry : entries) {
+        entry.sample = sample_of(entry) * size;
+        const double before = entry.sample + (entry.sampled ? gap * size : 0);
+        const std::vector<std::string> lines = wrapped(entry.title, (width - before) / size, 1);
+        entry.title = lines.empty() ? "" : lines.front();
+        entry.box = {0, 0, before + width_of(rich(entry.title)) * size, row_height * size};
+        widest = std::max(widest, entry.box.right);
+    }
+    const double step = widest + gap_of_columns * size;
+    const auto room = static_cast<std::size_t>(std::max(1.0, (width + gap_of_columns * size) / step));
+    const std::size_t rows = (entries.size() + room - 1) / room, columns = (entries.size() + rows - 1) / rows;
+    const double start = left + (width - (static_cast<double>(columns) * step - gap_of_columns * size)) / 2;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const double x = start + step * static_cast<double>(i % columns);
+        const double y = top - row_height * size * static_cast<double>(i / columns + 1);
+        Box& box = entries[i].box;
+        box = {x, y, x + box.width(), y + box.height()};
+        entries[i].title_left = x + entries[i].sample + (entries[i].sampled ? gap * size : 0);
+    }
+    return row_height * size * static_cast<double>(rows);
+}
+
+} // namespace graze
