@@ -15,7 +15,7 @@
 namespace graze::testing {
 
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
+using ::testing::ElementsAre;
 
 namespace {
 
@@ -70,7 +70,7 @@ TEST(FigureLayout, NothingLiesOnAnythingElse) {
                 figure.panels.assign(panels, panel_with(points));
                 figure.style = style;
                 if (style.height == 0 || panels < 3)
-                    EXPECT_THAT(overlaps_of(layout_of(figure)), IsEmpty())
+                    EXPECT_THAT(overlaps_of(layout_of(figure)), ElementsAre())
                         << style.width << ' ' << points << ' ' << panels;
             }
 }
@@ -124,7 +124,7 @@ TEST_P(ShippedPictures, NothingOverlapsAndNoNameIsRaw) {
                 continue; // as high as several panels need
             picture.style = style;
             const FigureLayout page = layout_of(make_picture(picture, file).figure);
-            EXPECT_THAT(overlaps_of(page), IsEmpty()) << picture.name << " at " << style.width << " mm";
+            EXPECT_THAT(overlaps_of(page), ElementsAre()) << picture.name << " at " << style.width << " mm";
             for (const NamedBox& box : boxes_of(page))
                 EXPECT_EQ(box.name.find('_'), std::string::npos) << picture.name << " shows " << box.name;
             for (const PanelLayout& panel : page.panels)

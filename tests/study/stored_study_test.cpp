@@ -69,8 +69,8 @@ y = "v"
 samples = "contacts"
 x_range = [2.7, 2.8]
 names = { v = "velocity", contacts = "at impacts" }
-x_label = "frequency (-)"
-y_label = "velocity (-)"
+x_label = "frequency, 1"
+y_label = "velocity, 1"
 size = [85, 60]
 font = { name = "Times", size = 8 }
 [pictures.chain]
