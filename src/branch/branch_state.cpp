@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace graze {
 
@@ -37,7 +38,7 @@ BranchState::BranchState(const System& system, const Orbit& candidate, const Bra
 
 /// Monitors without a given value are held at that of the candidate, however the problem is made anew later.
 void BranchState::hold(const Orbit& candidate) {
-    if (settings_.free.empty())
+    if (settings_.free.empty() || !monitors_)
         return;
     const std::vector<double> values = (*monitors_)(candidate);
     for (std::size_t m = 0; m < values.size(); ++m)
@@ -47,9 +48,17 @@ void BranchState::hold(const Orbit& candidate) {
 
 void BranchState::make_problem(const Orbit& orbit) {
     problem_ = std::make_unique<OrbitProblem>(simulation_, orbit, settings_);
-    if (!settings_.free.empty())
+    if (monitors_)
         hold_monitors();
-    continuation_ = std::make_unique<Continuation>(*problem_, settings_.continuation);
+    if (settings_.kept)
+        hold_kept(orbit);
+    problem_->hold(held_);
+    ContinuationOptions options = settings_.continuation;
+    // What is kept is told from what is not by far less than orbits need: a touch from a contact.
+    constexpr double kept_accuracy = 1e-13;
+    if (settings_.kept)
+        options.accuracy = std::min(options.accuracy, kept_accuracy);
+    continuation_ = std::make_unique<Continuation>(*problem_, options);
 }
 
 /// Conditions are compiled once, and moved to the segments of each new signature.
@@ -64,7 +73,40 @@ void BranchState::hold_monitors() {
                 problem_->equations(), monitor, monitors_->segment(m), monitor.held.value())));
         held_[at++]->set_segment(monitors_->segment(m));
     }
-    problem_->hold(held_);
+}
+
+/// The condition of the point that is kept, made anew for each problem: it may depend on the pieces of segments.
+void BranchState::hold_kept(const Orbit& orbit) {
+    SpecialPoint& kept = *settings_.kept;
+    const OrbitEvaluation& at = problem_->evaluation();
+    kept.solution.orbit = orbit;
+    std::unique_ptr<OrbitCondition> condition;
+    if (problem_->evaluate(problem_->unknowns_of(orbit)))
+        condition = rule_of(kept.type).condition(problem_->equations(), at, kept);
+    if (!condition)
+        throw InputError(fmt::format("what makes a point of type {} cannot be held there", short_name(kept.type)),
+                         at.problem.empty() ? "choose another point" : at.problem);
+    const std::size_t monitors = settings_.free.size() - 1;
+    held_.resize(monitors);
+    held_.push_back(std::move(condition));
+}
+
+std::optional<HeldTouch> BranchState::held_touch() const {
+    const bool touches = settings_.kept && settings_.kept->type == PointType::grazing && !settings_.kept->at_end;
+    return touches ? std::optional(HeldTouch{settings_.kept->segment, settings_.kept->event}) : std::nullopt;
+}
+
+/// Where on the orbit the touch is that is kept: of all least values of that event's function, the one that is zero.
+void BranchState::note_kept(const OrbitSolution& solution) {
+    if (!held_touch())
+        return;
+    SpecialPoint& kept = *settings_.kept;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const OrbitMinimum& minimum : solution.certificate.minima)
+        if (minimum.segment == kept.segment && minimum.event == kept.event && std::abs(minimum.value) < nearest) {
+            nearest = std::abs(minimum.value);
+            kept.time = minimum.time;
+        }
 }
 
 bool BranchState::is_outside(double parameter) const {
@@ -80,7 +122,8 @@ bool BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std
     result.solution.outcome = OrbitOutcome::converged;
     result.solution.iterations = at.iterations;
     result.solution.orbit = problem_->orbit_of(at.u);
-    describe_orbit(equations, evaluation, result.solution);
+    describe_orbit(equations, evaluation, result.solution, held_touch());
+    note_kept(result.solution);
     result.parameter = at.u[problem_->parameter_place()];
     result.tangent = problem_->direction_of(at.tangent);
     result.monitors = monitors_ ? (*monitors_)(result.solution.orbit) : std::vector<double>();
@@ -88,8 +131,8 @@ bool BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std
         measure_multipliers(settings_.monitors, result.solution.multipliers, result.monitors);
     result.arclength = arclength(at.arclength);
     result.stable = is_stable(result.solution);
-    tests =
-        branch_tests({equations, evaluation, result.solution, at.tangent, at.determinant, result.monitors, settings_});
+    tests = branch_tests({equations, evaluation, result.solution, at.tangent, at.determinant, result.monitors,
+                          settings_, settings_.kept ? held_.back().get() : nullptr});
     return true;
 }
 
@@ -131,6 +174,7 @@ void BranchState::renew_pieces(const BranchPoint& from) {
     const double length = continuation_->next_step();
     std::unique_ptr<OrbitProblem> old = std::move(problem_);
     std::unique_ptr<Continuation> old_continuation = std::move(continuation_);
+    std::unique_ptr<OrbitCondition> old_kept = settings_.kept ? std::move(held_.back()) : nullptr;
     make_problem(from.solution.orbit);
     if (problem_->equations().layout().pieces() <= old->equations().layout().pieces())
         growth_ *= 10; // nothing was gained: ask again later
@@ -139,6 +183,10 @@ void BranchState::renew_pieces(const BranchPoint& from) {
         growth_ *= 10; // as it was, for some time
         problem_ = std::move(old);
         continuation_ = std::move(old_continuation);
+        if (settings_.kept) {
+            held_.back() = std::move(old_kept);
+            problem_->hold(held_);
+        }
         return;
     }
     arclength_ = from.arclength;

@@ -4,6 +4,7 @@
 #include "branch/point_kind.hpp"
 #include "graze/branch/orbit_branch.hpp"
 #include "graze/branch/switching.hpp"
+#include "orbit/certify.hpp"
 
 #include <memory>
 #include <optional>
@@ -42,13 +43,16 @@ public:
 private:
     void hold(const Orbit& candidate);
     void hold_monitors();
+    void hold_kept(const Orbit& orbit);
+    std::optional<HeldTouch> held_touch() const;
+    void note_kept(const OrbitSolution& solution);
     void make_problem(const Orbit& orbit);
 
     BranchSettings settings_;
     Simulation simulation_;
     std::optional<Simulation> tighter_; ///< once it has been asked for
     std::unique_ptr<OrbitMonitors> monitors_;
-    std::vector<std::unique_ptr<OrbitCondition>> held_; ///< one for each free parameter
+    std::vector<std::unique_ptr<OrbitCondition>> held_; ///< one for each free parameter, that of the kept point last
     std::unique_ptr<OrbitProblem> problem_;
     std::unique_ptr<Continuation> continuation_;
     double arclength_ = 0, growth_ = 1;

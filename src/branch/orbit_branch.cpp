@@ -41,7 +41,16 @@ void BranchSettings::validate(const Model& model) const {
         throw InputError("the branch's bounds leave no room", "give the smaller one first");
     const auto held = static_cast<std::size_t>(
         std::count_if(monitors.begin(), monitors.end(), [](const Monitor& monitor) { return monitor.fixed; }));
-    if (held != free.size())
+    if (kept && !kind_of(kept->type).may_be_kept)
+        throw InputError(fmt::format("points of type {} ({}) cannot be followed as a curve", short_name(kept->type),
+                                     name_of(kept->type)),
+                         "choose another point, or hold a monitor that says what it is");
+    if (kept && held + 1 != free.size())
+        throw InputError(fmt::format("{} monitors are fixed, a point of type {} is kept, and {} further parameters are "
+                                     "free",
+                                     held, short_name(kept->type), free.size()),
+                         "free one parameter for the point, and one for each monitor that is fixed");
+    if (!kept && held != free.size())
         throw InputError(fmt::format("{} monitors are fixed and {} further parameters are free", held, free.size()),
                          "free one parameter for each monitor that is fixed");
     for (const Monitor& monitor : monitors) {
@@ -352,7 +361,8 @@ private:
                 !point.solution.certificate.admissible) {
                 const std::string reason = point.solution.certificate.reason;
                 cut_after(i);
-                const bool reordering = state_.settings().reorder && found[i].type != PointType::grazing;
+                const bool reordering =
+                    state_.settings().reorder && !state_.settings().kept && found[i].type != PointType::grazing;
                 if (!reordering || !go_on_reordered(found[i]))
                     finish(BranchOutcome::unphysical, reason);
                 return;

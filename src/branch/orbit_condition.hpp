@@ -19,6 +19,9 @@ public:
 
     /// Evaluates value and gradient. @return false where the number is not defined
     virtual bool evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) = 0;
+    /// Called at solutions on the way along a branch: what it was made from near an earlier one is taken from here,
+    /// which changes neither where it is zero nor the sign of its value.
+    virtual void renew(const OrbitEquations&, const OrbitEvaluation&) {}
     /// Moves it to another segment, as where the signature has changed: the same quantity there.
     virtual void set_segment(std::optional<std::size_t>) {}
 
@@ -26,10 +29,14 @@ public:
     double value() const { return value_; }
     /// With respect to all unknowns.
     const Eigen::RowVectorXd& gradient() const { return gradient_; }
+    /// Zero where the points at which it holds are themselves of a more special kind, if that is known: of folds, at a
+    /// cusp. Changes its sign there.
+    std::optional<double> degeneracy() const { return degeneracy_; }
 
 protected:
     double value_ = 0;
     Eigen::RowVectorXd gradient_;
+    std::optional<double> degeneracy_;
 };
 
 } // namespace graze

@@ -25,7 +25,10 @@ public:
     /// With further free parameters, as many as conditions are to be held.
     OrbitProblem(const Simulation& simulation, const Orbit& orbit, const BranchSettings& settings);
     /// @param conditions which must outlive this
-    void hold(std::span<const std::unique_ptr<OrbitCondition>> conditions) { held_ = conditions; }
+    void hold(std::span<const std::unique_ptr<OrbitCondition>> conditions) {
+        held_ = conditions;
+        at_.unknowns.resize(0); // which has been evaluated without them
+    }
 
     OrbitEquations& equations() { return *equations_; }
     const OrbitEquations& equations() const { return *equations_; }
@@ -59,6 +62,9 @@ public:
     void accept(std::span<const double> u) override {
         // Scales need not be exact: what they cost is saved most of the time.
         constexpr std::size_t renewal = 5;
+        if (at_.is_at(vector_of(u)))
+            for (const auto& condition : held_)
+                condition->renew(*equations_, at_);
         if (accepted_++ % renewal == 0)
             equations_->set_scales(vector_of(u));
     }

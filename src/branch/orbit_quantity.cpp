@@ -184,6 +184,14 @@ bool OrbitQuantity::evaluate(const OrbitEquations& equations, const OrbitEvaluat
     return defined && std::isfinite(value_) && gradient_.allFinite();
 }
 
+void OrbitQuantity::renew(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    if (quantity_ != Quantity::touch)
+        return;
+    flow_.set_parameters(at.parameters);
+    if (const auto place = find_extremum(equations, at))
+        share_ = place->share;
+}
+
 std::vector<std::size_t> OrbitQuantity::pieces(const OrbitLayout& layout) const {
     std::vector<std::size_t> result;
     for (std::size_t s = 0; s < layout.segments(); ++s)
@@ -243,9 +251,10 @@ std::optional<OrbitQuantity::Place> OrbitQuantity::find_extremum(const OrbitEqua
     for (const std::size_t k : pieces(equations.layout())) {
         const auto note = [&](std::size_t watched, double time, bool at_end, double value) {
             // A touch is the one that is nearest in time.
-            const double preference = touch ? -std::abs((before + time) / whole - share_) : sign * value;
+            const double share = (before + time) / whole;
+            const double preference = touch ? -std::abs(share - share_) : sign * value;
             if (std::isfinite(preference) && (!best || preference > best->preference))
-                best = Place{watched, k, time, at_end, value, preference};
+                best = Place{watched, k, time, at_end, value, preference, share};
         };
         const double* start = at.unknowns.data() + equations.layout().start_of(k);
         std::vector<double> state(start, start + n);

@@ -39,6 +39,8 @@ public:
 
     void set_segment(std::optional<std::size_t> segment) override { segment_ = segment; }
     bool evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) override;
+    /// A touch is looked for where it has been last.
+    void renew(const OrbitEquations& equations, const OrbitEvaluation& at) override;
 
 private:
     enum class Quantity { end, start, duration, maximum, minimum, touch, mean, norm };
@@ -64,6 +66,7 @@ private:
         double time = 0; ///< since the piece's start
         bool at_end = false;
         double value = 0, preference = 0;
+        double share = 0; ///< of the duration of all pieces, at which it is
     };
     std::vector<std::size_t> pieces(const OrbitLayout& layout) const;
     bool at_end(const OrbitEquations& equations, const OrbitEvaluation& at);

@@ -36,6 +36,14 @@ std::size_t own_event(const TestedPoint& point, std::size_t segment) {
     return one.end == SegmentEnd::event ? point.equations.model().transitions[one.index].event : 0;
 }
 
+/// Whether points of this type are what the branch is a curve of: then the test is zero all along it.
+bool is_kept(const TestedPoint& point, PointType type) {
+    return point.settings.kept && point.settings.kept->type == type;
+}
+bool is_kept(const TestedPoint& point, PointType type, std::size_t segment, std::size_t event) {
+    return is_kept(point, type) && point.settings.kept->segment == segment && point.settings.kept->event == event;
+}
+
 // Folds: where monitors are held, the parameter may turn although no multiplier is 1.
 
 void test_fold(const TestedPoint& point, Tests& tests) {
@@ -46,7 +54,7 @@ void test_fold(const TestedPoint& point, Tests& tests) {
         test.value = point.tangent[place];
         test.noise = least_rise * point.at.scales[index(place)];
     } else {
-        test.value = point.at.system.periodic_determinant();
+        test.value = is_kept(point, PointType::fold) ? nothing : point.at.system.periodic_determinant();
         test.noise = point.at.system.periodic_noise();
     }
     tests.push_back(test);
@@ -60,13 +68,14 @@ std::unique_ptr<OrbitCondition> condition_of_fold(const OrbitEquations& equation
 // Flips: the half of a symmetric orbit that changes into its image loses the symmetry instead of doubling its period.
 
 void test_flip(const TestedPoint& point, Tests& tests) {
-    tests.push_back({.type = PointType::flip,
-                     .value = point.equations.symmetry() ? nothing : point.at.system.antiperiodic_determinant()});
+    const bool tested = !point.equations.symmetry() && !is_kept(point, PointType::flip);
+    tests.push_back({.type = PointType::flip, .value = tested ? point.at.system.antiperiodic_determinant() : nothing});
 }
 
 void test_asymmetry(const TestedPoint& point, Tests& tests) {
-    tests.push_back({.type = PointType::asymmetry,
-                     .value = point.equations.symmetry() ? point.at.system.antiperiodic_determinant() : nothing});
+    const bool tested = point.equations.symmetry() && !is_kept(point, PointType::asymmetry);
+    tests.push_back(
+        {.type = PointType::asymmetry, .value = tested ? point.at.system.antiperiodic_determinant() : nothing});
 }
 
 std::unique_ptr<OrbitCondition> condition_of_flip(const OrbitEquations& equations, const OrbitEvaluation& at,
@@ -114,7 +123,7 @@ void test_torus(const TestedPoint& point, Tests& tests) {
             others *= std::max(std::abs(factor), smallest);
             smallest = std::min(std::abs(factor), smallest);
         }
-    if (multipliers.size() >= 2 && std::isfinite(product.real()))
+    if (multipliers.size() >= 2 && std::isfinite(product.real()) && !is_kept(point, PointType::torus))
         test.value = product.real();
     test.noise = least_growth * others;
     tests.push_back(test);
@@ -138,10 +147,11 @@ void test_grazing(const TestedPoint& point, Tests& tests) {
     const Certificate& certificate = point.solution.certificate;
     for (std::size_t s = 0; s < point.equations.signature().size(); ++s) {
         const bool event = point.equations.signature()[s].end == SegmentEnd::event;
+        const bool kept = is_kept(point, PointType::grazing, s, own_event(point, s)) && point.settings.kept->at_end;
         tests.push_back({.type = PointType::grazing,
                          .segment = s,
                          .event = own_event(point, s),
-                         .value = event ? certificate.approach_speeds[s] : nothing,
+                         .value = event && !kept ? certificate.approach_speeds[s] : nothing,
                          .noise = least_rate * point.equations.usual_rate(point.at, s),
                          .time = point.solution.orbit.durations[s],
                          .at_end = true,
@@ -151,8 +161,10 @@ void test_grazing(const TestedPoint& point, Tests& tests) {
         for (const std::size_t event : point.equations.system().mode(point.equations.signature()[s].mode).watched) {
             BranchTest test{
                 .type = PointType::grazing, .segment = s, .event = event, .value = nothing, .appears = true};
+            const bool kept = is_kept(point, PointType::grazing, s, event);
             for (const OrbitMinimum& minimum : certificate.minima)
-                if (minimum.segment == s && minimum.event == event && !(minimum.value >= test.value)) {
+                if (minimum.segment == s && minimum.event == event && !(minimum.value >= test.value) &&
+                    !(kept && (point.settings.kept->at_end || minimum.time == point.settings.kept->time))) {
                     test.value = minimum.value;
                     test.noise = smallest_clearance * minimum.size;
                     test.time = minimum.time;
@@ -218,11 +230,12 @@ std::unique_ptr<OrbitCondition> condition_of_vanishing(const OrbitEquations& equ
 void test_two_events(const TestedPoint& point, Tests& tests) {
     for (const EndValue& end : point.solution.certificate.end_values) {
         const bool barrier = point.equations.model().events[end.event].kind == EventKind::barrier;
-        tests.push_back({.type = PointType::two_events,
-                         .segment = end.segment,
-                         .event = end.event,
-                         .value = barrier ? end.value : nothing,
-                         .rate = end.rate});
+        tests.push_back(
+            {.type = PointType::two_events,
+             .segment = end.segment,
+             .event = end.event,
+             .value = barrier && !is_kept(point, PointType::two_events, end.segment, end.event) ? end.value : nothing,
+             .rate = end.rate});
     }
 }
 
@@ -270,6 +283,13 @@ std::vector<BranchStart> leave_order(const System& system, const SpecialPoint& p
     return {with_events_reordered(system, point, settings)};
 }
 
+// Cusps: where two folds meet.
+
+void test_cusp(const TestedPoint& point, Tests& tests) {
+    if (is_kept(point, PointType::fold))
+        tests.push_back({.type = PointType::cusp, .value = point.kept->degeneracy().value_or(nothing)});
+}
+
 // Extrema of the period. Where a parameter fixes it, as the frequency of a force, it turns with the parameter at each
 // fold, which says nothing more. A parameter that stands still, as the damping of a conservative model, fixes nothing.
 
@@ -280,18 +300,50 @@ void test_extremum(const TestedPoint& point, Tests& tests) {
     for (std::size_t k = 0; k < layout.pieces(); ++k)
         test.value += point.tangent[layout.duration_of(k)];
     tests.push_back(test);
+    constexpr double least_rise = 1e-8; // of a parameter's share in the direction of a curve
+    for (std::size_t f = 0; point.settings.kept && f < layout.free(); ++f)
+        tests.push_back({.type = PointType::extremum,
+                         .value = point.tangent[layout.parameter(f)],
+                         .noise = least_rise * point.at.scales[index(layout.parameter(f))],
+                         .parameter = f});
 }
 
-bool confirm_extremum(BranchState& state, SpecialPoint& special, const BranchTest&) {
+/// A parameter is greatest or least on a curve, where not all are at once, as in a cusp.
+bool confirm_turn(BranchState& state, SpecialPoint& special, std::size_t parameter) {
+    constexpr double standing = 1e-5; // share of the parameters in the direction of the curve
+    const OrbitProblem& problem = state.problem();
+    const std::vector<double>& rises = special.tangent.parameters;
+    const OrbitLayout& layout = problem.equations().layout();
+    double greatest = 0;
+    for (std::size_t f = 0; f < rises.size(); ++f)
+        greatest = std::max(greatest, std::abs(rises[f]) / problem.scales()[layout.parameter(f)]);
+    const std::size_t place = problem.equations().free()[parameter].place();
+    special.detail = fmt::format("{} = {:.10g}", state.model().independent_parameters()[place],
+                                 special.solution.orbit.parameters[place]);
+    return special.located && greatest > standing;
+}
+
+/// Whether a parameter turns at a point of the last step.
+bool turns(BranchState& state, const SpecialPoint& special, std::size_t parameter) {
     constexpr double turning = 1e-5;  // share of the parameter where it turns, of what it is beside that
     constexpr double standing = 1e-8; // in units of the scales: what moves less is round-off
-    const std::size_t place = state.problem().parameter_place();
+    const OrbitLayout& layout = state.problem().equations().layout();
+    const std::size_t place = layout.parameter(parameter);
     const double beside = std::max(std::abs(state.continuation().previous().tangent[place]),
                                    std::abs(state.continuation().point().tangent[place]));
-    const bool turns = beside > standing * state.problem().scales()[place] &&
-                       std::abs(special.tangent.parameters.front()) < turning * beside;
+    return beside > standing * state.problem().scales()[place] &&
+           std::abs(special.tangent.parameters[parameter]) < turning * beside;
+}
+
+bool confirm_extremum(BranchState& state, SpecialPoint& special, const BranchTest& test) {
+    if (test.parameter)
+        return confirm_turn(state, special, *test.parameter);
+    const std::size_t varied = state.settings().kept ? special.tangent.parameters.size() : 1;
+    for (std::size_t parameter = 0; parameter < varied; ++parameter)
+        if (turns(state, special, parameter))
+            return false;
     special.detail = fmt::format("period = {:.10g}", special.solution.orbit.period());
-    return special.located && !turns;
+    return special.located;
 }
 
 // Bounds and values of parameters and of monitors.
@@ -366,17 +418,22 @@ int always(const SpecialPoint&) {
 
 /// Entries that have no function are written without one.
 constexpr std::array table{
-    PointRule{
-        .kind =
-            {.type = PointType::fold, .short_name = "SN", .name = "fold", .changes = true, .may_stop = true, .mark = 7},
-        .test = test_fold,
-        .condition = condition_of_fold},
+    PointRule{.kind = {.type = PointType::fold,
+                       .short_name = "SN",
+                       .name = "fold",
+                       .changes = true,
+                       .may_stop = true,
+                       .may_be_kept = true,
+                       .mark = 7},
+              .test = test_fold,
+              .condition = condition_of_fold},
     PointRule{.kind = {.type = PointType::flip,
                        .short_name = "PD",
                        .name = "flip",
                        .changes = true,
                        .leads_on = true,
                        .may_stop = true,
+                       .may_be_kept = true,
                        .mark = 9},
               .test = test_flip,
               .condition = condition_of_flip,
@@ -386,6 +443,7 @@ constexpr std::array table{
                        .name = "torus",
                        .changes = true,
                        .may_stop = true,
+                       .may_be_kept = true,
                        .mark = 13},
               .test = test_torus,
               .confirm = confirm_torus,
@@ -405,6 +463,7 @@ constexpr std::array table{
                        .changes = true,
                        .leads_on = true,
                        .may_stop = true,
+                       .may_be_kept = true,
                        .mark = 5},
               .test = test_asymmetry,
               .condition = condition_of_flip,
@@ -416,6 +475,7 @@ constexpr std::array table{
                        .limits = true,
                        .leads_on = true,
                        .may_stop = true,
+                       .may_be_kept = true,
                        .mark = 12},
               .test = test_grazing,
               .confirm = confirm_grazing,
@@ -458,13 +518,12 @@ constexpr std::array table{
               .rank = always<5>,
               .condition = condition_of_guard,
               .leave = leave_order},
-    PointRule{.kind = {.type = PointType::extremum,
-                       .short_name = "EX",
-                       .name = "extremum of the period",
-                       .may_stop = true,
-                       .mark = 1},
-              .test = test_extremum,
-              .confirm = confirm_extremum},
+    PointRule{.kind = {.type = PointType::cusp, .short_name = "CP", .name = "cusp", .may_stop = true, .mark = 3},
+              .test = test_cusp},
+    PointRule{
+        .kind = {.type = PointType::extremum, .short_name = "EX", .name = "extremum", .may_stop = true, .mark = 1},
+        .test = test_extremum,
+        .confirm = confirm_extremum},
     PointRule{.kind = {.type = PointType::bound, .short_name = "BD", .name = "bound"},
               .test = test_bounds,
               .confirm = confirm_bound},

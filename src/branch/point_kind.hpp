@@ -27,8 +27,9 @@ struct BranchTest {
     /// Of bound and crossing: which monitor, and which of its crossings. None for bounds of parameters.
     std::optional<std::size_t> monitor = std::nullopt;
     std::size_t crossing = 0;
-    std::optional<std::size_t> free = std::nullopt; ///< of bound: which of the settings' free bounds
-    bool singular = false;                          ///< the equations cannot be solved where it is zero
+    std::optional<std::size_t> free = std::nullopt;      ///< of bound: which of the settings' free bounds
+    std::optional<std::size_t> parameter = std::nullopt; ///< of extremum: which that varies; none: the period
+    bool singular = false;                               ///< the equations cannot be solved where it is zero
     bool appears = false; ///< it may lose its meaning at a negative value, which has then become one within the step
 };
 
@@ -41,6 +42,7 @@ struct TestedPoint {
     double determinant;              ///< of the equations bordered by the tangent
     std::span<const double> monitors;
     const BranchSettings& settings;
+    const OrbitCondition* kept; ///< what makes the branch a curve of special points; null: it is none
 };
 
 /// One kind of special points, all that is done for it: what the table has an entry for.

@@ -75,14 +75,19 @@ bool is_singular_at(BranchState& state, const SpecialPoint& point) {
 
 void drop_crossings_of_nothing(BranchState& state, std::vector<SpecialPoint>& found, double length) {
     constexpr double near = 0.05; // share of the step: determinants are ill-conditioned there
+    constexpr double same_place = 1e-6;
+    const bool on_curve = state.settings().kept.has_value();
     const std::vector<SpecialPoint> all = found;
     std::erase_if(found, [&](const SpecialPoint& one) {
         const bool crossing = one.type == PointType::branch_point || one.type == PointType::asymmetry;
-        return crossing && std::any_of(all.begin(), all.end(), [&](const auto& other) {
+        // On curves the equations without what is held may be singular there, which are those that folds are told by.
+        const bool multiplier = on_curve && (one.type == PointType::fold || one.type == PointType::flip);
+        return (crossing || multiplier) && std::any_of(all.begin(), all.end(), [&](const auto& other) {
                    const bool contact_ends =
                        other.type == PointType::vanishing || (other.type == PointType::grazing && other.at_end);
-                   return contact_ends && std::abs(one.arclength - other.arclength) < near * length &&
-                          is_singular_at(state, other);
+                   const double distance = std::abs(one.arclength - other.arclength);
+                   return contact_ends && ((multiplier && distance < same_place * length) ||
+                                           (crossing && distance < near * length && is_singular_at(state, other)));
                });
     });
 }

@@ -33,6 +33,15 @@ CyclicMatrix MultiplierCondition::matrix(const OrbitEquations& equations, const 
             columns_.cwiseQuotient(units_of_columns(equations, at))};
 }
 
+void MultiplierCondition::renew_units(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                      Eigen::VectorXd& right, Eigen::VectorXd& left) {
+    const Eigen::VectorXd columns = units_of_columns(equations, at), rows = units_of_rows(equations, at);
+    right = right.cwiseProduct(columns_).cwiseQuotient(columns).normalized();
+    left = left.cwiseProduct(rows).cwiseQuotient(rows_).normalized();
+    columns_ = columns;
+    rows_ = rows;
+}
+
 bool MultiplierCondition::contract(const OrbitEquations& equations, const OrbitEvaluation& at,
                                    const Eigen::MatrixXd& left, const Eigen::VectorXd& right,
                                    Eigen::MatrixXd& gradients) {
@@ -58,7 +67,21 @@ bool SingularCondition::evaluate(const OrbitEquations& equations, const OrbitEva
         !contract(equations, at, left, right, gradients))
         return false;
     gradient_ = -gradients.row(0);
+    // How the value changes along the null vector: zero where not even the second derivatives part the orbits.
+    if (multiplier_ > 0)
+        degeneracy_ = gradient_.head(right.size()).dot(in_units(right)) / right.norm();
     return std::isfinite(value_) && gradient_.allFinite();
+}
+
+void SingularCondition::renew(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    Eigen::VectorXd right, left;
+    double value = 0;
+    if (!matrix(equations, at, multiplier_).bordered(left_, right_, right, left, value) || !right.allFinite() ||
+        !left.allFinite())
+        return; // those that it has are good for some time
+    renew_units(equations, at, right, left);
+    right_ = right;
+    left_ = left;
 }
 
 TorusCondition::TorusCondition(const OrbitEquations& equations, const OrbitEvaluation& at,

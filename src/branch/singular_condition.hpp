@@ -21,6 +21,11 @@ protected:
     MultiplierCondition(const OrbitEquations& equations, const OrbitEvaluation& at);
     /// The matrix in these units. @param factor of its closing
     CyclicMatrix matrix(const OrbitEquations& equations, const OrbitEvaluation& at, double factor) const;
+    /// What starts and durations gain along a vector in these units.
+    Eigen::VectorXd in_units(const Eigen::VectorXd& right) const { return right.cwiseProduct(columns_); }
+    /// Takes the units of the equations here from now on. @param right, left vectors in the old units, then in the new
+    void renew_units(const OrbitEquations& equations, const OrbitEvaluation& at, Eigen::VectorXd& right,
+                     Eigen::VectorXd& left);
     /// Derivatives of left^T A right for vectors in these units: one row for each left vector, by all unknowns.
     bool contract(const OrbitEquations& equations, const OrbitEvaluation& at, const Eigen::MatrixXd& left,
                   const Eigen::VectorXd& right, Eigen::MatrixXd& gradients);
@@ -39,6 +44,8 @@ public:
     static std::unique_ptr<OrbitCondition> of_multiplier(const OrbitEquations& equations, const OrbitEvaluation& at,
                                                          double multiplier);
     bool evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) override;
+    /// The null vectors here become the borders, which stay far from singular however long the branch is.
+    void renew(const OrbitEquations& equations, const OrbitEvaluation& at) override;
 
 private:
     SingularCondition(const OrbitEquations& equations, const OrbitEvaluation& at, double multiplier);

@@ -20,8 +20,10 @@ constexpr double on_surface = 1e-9;
 /// Follows the watched events along one segment.
 class ArcWatcher {
 public:
-    ArcWatcher(const OrbitEquations& equations, std::size_t segment, RootFinder& roots)
-        : equations_(&equations), segment_(segment),
+    /// @param touched event that is held to be touched; none: none is
+    ArcWatcher(const OrbitEquations& equations, std::size_t segment, RootFinder& roots,
+               std::optional<std::size_t> touched)
+        : equations_(&equations), segment_(segment), touched_(touched),
           mode_(&equations.system().mode(equations.signature()[segment].mode)), roots_(&roots),
           sizes_(mode_->watched.size(), 0.0), falls_(mode_->watched.size(), std::numeric_limits<double>::infinity()),
           starts_(mode_->watched.size(), 0.0), lowest_(mode_->watched.size(), std::numeric_limits<double>::infinity()),
@@ -54,7 +56,7 @@ public:
             const bool first = time == 0;
             if (first)
                 starts_[w] = coefficients_[0];
-            lowest_[w] = std::min(lowest_[w], evaluate_polynomial(coefficients_, std::abs(length)));
+            note_lowest(w, evaluate_polynomial(coefficients_, std::abs(length)));
             const bool on_surface_here = first && std::abs(coefficients_[0]) <= on_surface * size;
             if (first)
                 lows_[w] = on_surface_here ? 0 : coefficients_[0];
@@ -106,6 +108,11 @@ public:
     bool is_harmless_here(std::size_t w) const { return harmless_[w]; }
 
 private:
+    /// What is held on the surface has no lower value than that.
+    void note_lowest(std::size_t w, double value) {
+        if (touched_ != mode_->watched[w] || std::abs(value) > on_surface * sizes_[w])
+            lowest_[w] = std::min(lowest_[w], value);
+    }
     /// @param begins_on_surface size of the function, if the segment begins where it is zero; otherwise 0
     void look_for_extrema(std::size_t w, double time, double length, double begins_on_surface) {
         derivative_.clear();
@@ -120,7 +127,7 @@ private:
                 continue;
             const double value = evaluate_polynomial(coefficients_, root.at);
             if (minimum) {
-                lowest_[w] = std::min(lowest_[w], value);
+                note_lowest(w, value);
                 lows_[w] = value;
             } else if (!(lows_[w] < 0)) {
                 continue; // on the side on which only least values matter
@@ -135,6 +142,7 @@ private:
 
     const OrbitEquations* equations_;
     std::size_t segment_;
+    std::optional<std::size_t> touched_;
     const System::CompiledMode* mode_;
     RootFinder* roots_;
     std::vector<double> sizes_, falls_, starts_, lowest_, coefficients_, derivative_;
@@ -178,10 +186,10 @@ namespace {
 /// Looks at one segment after the other.
 class Certifier {
 public:
-    Certifier(OrbitEquations& equations, const OrbitEvaluation& at)
-        : equations_(&equations), system_(&equations.system()), at_(&at), states_(equations.layout().states()),
-          roots_(equations.simulation().order()), work_(system_->workspace()), inputs_(states_ + at.parameters.size()),
-          field_(states_) {
+    Certifier(OrbitEquations& equations, const OrbitEvaluation& at, const std::optional<HeldTouch>& touch)
+        : equations_(&equations), touch_(touch), system_(&equations.system()), at_(&at),
+          states_(equations.layout().states()), roots_(equations.simulation().order()), work_(system_->workspace()),
+          inputs_(states_ + at.parameters.size()), field_(states_) {
         std::copy(at.parameters.begin(), at.parameters.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
     }
 
@@ -214,7 +222,8 @@ private:
         const OrbitLayout& layout = equations_->layout();
         const Segment& segment = equations_->signature()[s];
         const auto& mode = system_->mode(segment.mode);
-        ArcWatcher watcher(*equations_, s, roots_);
+        const bool touched = touch_ && touch_->segment == s;
+        ArcWatcher watcher(*equations_, s, roots_, touched ? std::optional(touch_->event) : std::nullopt);
         double begin = 0;
         for (std::size_t k = layout.first_piece(s); k <= layout.last_piece(s); ++k) {
             const double duration = at_->unknowns[index(layout.duration_of(k))];
@@ -255,7 +264,7 @@ private:
             return;
         }
         certificate_.approach_speeds.push_back(-rate);
-        if (rate > 0)
+        if (rate > least_rate * equations_->usual_rate(*at_, s))
             object(fmt::format("the event that ends segment {} rises instead of falling", s + 1));
         // The symmetry's image is the start that the guard of a half orbit's last jump does not see.
         std::vector<double> after = at_->pieces[equations_->layout().last_piece(s)].end;
@@ -288,6 +297,7 @@ private:
     }
 
     OrbitEquations* equations_;
+    std::optional<HeldTouch> touch_;
     const System* system_;
     const OrbitEvaluation* at_;
     std::size_t states_;
@@ -299,8 +309,8 @@ private:
 
 } // namespace
 
-Certificate certify(OrbitEquations& equations, const OrbitEvaluation& at) {
-    return Certifier(equations, at).certify();
+Certificate certify(OrbitEquations& equations, const OrbitEvaluation& at, const std::optional<HeldTouch>& touch) {
+    return Certifier(equations, at, touch).certify();
 }
 
 bool is_admissible(const Simulation& simulation, const Orbit& orbit, std::string& why) {

@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 
 #include <complex>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace graze {
@@ -13,8 +15,15 @@ namespace graze {
 /// Whether a transition changes nothing: neither state nor mode. Orbits need not list it.
 bool is_harmless(const System& model, std::size_t transition);
 
+/// A touch that an orbit is held to: that of an event within a segment.
+struct HeldTouch {
+    std::size_t segment = 0, event = 0;
+};
+
 /// Checks every watched event over every arc, by the roots of its Taylor polynomials.
-Certificate certify(OrbitEquations& equations, const OrbitEvaluation& at);
+/// @param touch which is zero to within the accuracy of the flow, and no contact
+Certificate certify(OrbitEquations& equations, const OrbitEvaluation& at,
+                    const std::optional<HeldTouch>& touch = std::nullopt);
 
 /// Whether the model would follow an orbit, all of whose segments take time. @param why not, if it is known
 bool is_admissible(const Simulation& simulation, const Orbit& orbit, std::string& why);

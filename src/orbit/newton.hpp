@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/orbit/solve.hpp"
+#include "orbit/certify.hpp"
 #include "orbit/orbit_equations.hpp"
 
 namespace graze {
@@ -12,6 +13,8 @@ SimulationOptions integration(double tolerance);
 OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknowns, const OrbitOptions& options,
                              OrbitEvaluation& at, std::size_t& iterations, std::string& detail);
 /// Everything that is known of an orbit from an evaluation of its equations: multipliers and certificate.
-void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitSolution& solution);
+/// @param touch to which it is held
+void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitSolution& solution,
+                    const std::optional<HeldTouch>& touch = std::nullopt);
 
 } // namespace graze

@@ -109,7 +109,8 @@ OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknown
     return OrbitOutcome::not_converged;
 }
 
-void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitSolution& solution) {
+void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitSolution& solution,
+                    const std::optional<HeldTouch>& touch) {
     solution.residual = at.residual;
     solution.multipliers = floquet_multipliers(equations, at);
     if (equations.symmetry()) {
@@ -117,7 +118,7 @@ void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitS
         for (auto& multiplier : solution.multipliers)
             multiplier *= multiplier;
     }
-    solution.certificate = certify(equations, at);
+    solution.certificate = certify(equations, at, touch);
 }
 
 OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const OrbitOptions& options) {

@@ -30,7 +30,11 @@ struct BranchSettings {
     ContinuationOptions continuation;
     OrbitOptions orbit;
     std::vector<Monitor> monitors;
-    std::vector<ParameterId> free;       ///< further parameters that vary, one for each monitor that is fixed
+    /// A point whose own condition is held all along, so that the branch is the curve of such points in one parameter
+    /// more: of the folds, flips or grazings of what was found as one. Its kind says whether it can be kept.
+    std::optional<SpecialPoint> kept;
+    /// Further parameters that vary: one for each monitor that is fixed, and one for the point that is kept.
+    std::vector<ParameterId> free;
     std::vector<FreeBounds> free_bounds; ///< of some of those, or of all
     std::vector<PointType> stop_at;      ///< types at which the branch ends
     bool stop_when_unphysical = true;    ///< ends where orbits cease to be admissible

@@ -23,7 +23,8 @@ enum class PointType {
     vanishing,    ///< DZ: a segment's duration reaches zero
     two_events,   ///< EE: two events happen at once
     guard,        ///< GU: the guard after a jump is about to choose another mode
-    extremum,     ///< EX: the period, where it is free, is longest or shortest
+    cusp,         ///< CP: on a curve of folds, two of them meet: it turns in both parameters
+    extremum,     ///< EX: the period, where it is free, is longest or shortest; or a parameter, on a curve
     bound,        ///< BD: a bound that was given is reached
     crossing,     ///< UZ: a monitor takes a value that was asked for
     end,          ///< EP: the first or last point of a branch
@@ -38,6 +39,7 @@ struct PointKind {
     bool limits = false;         ///< an event is about to happen or to fail: what is admissible ends or begins
     bool leads_on = false;       ///< another branch leaves, which `branches_at` finds
     bool may_stop = false;       ///< a branch may be told to end there
+    bool may_be_kept = false;    ///< a curve of such points can be followed: BranchSettings::kept
     int mark = 0;                ///< which of gnuplot's point types shows it in pictures; 0: none
 };
 

@@ -1,0 +1,393 @@
+// Curves of special points in two parameters, against closed forms and published values; every point by a second route.
+
+#include "follow.hpp"
+#include "impact_oscillator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+constexpr double pi = std::numbers::pi;
+
+/// The curve of points like this one, in the parameter and a further one.
+Branch curve_of(const Model& model, const SpecialPoint& point, BranchSettings settings, const std::string& further,
+                int direction) {
+    settings.kept = point;
+    settings.free = {model.independent_parameter(further)};
+    settings.direction = direction;
+    return follow_branch(model, point.solution.orbit, settings);
+}
+
+double value_of(const Model& model, const OrbitSolution& solution, const std::string& parameter) {
+    return solution.orbit.parameters[model.independent_parameter(parameter).place()];
+}
+
+/// The point by its multipliers, or by the least value on the arc: not by the condition that has been held.
+void expect_kept(const BranchPoint& point, const SpecialPoint& kept, double tolerance) {
+    if (kept.type == PointType::fold) {
+        EXPECT_LT(nearest_multiplier(point.solution, 1), tolerance);
+    }
+    if (kept.type == PointType::flip) {
+        EXPECT_LT(nearest_multiplier(point.solution, -1), tolerance);
+    }
+    if (kept.type != PointType::grazing || kept.at_end)
+        return;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const OrbitMinimum& minimum : point.solution.certificate.minima)
+        if (minimum.segment == kept.segment && minimum.event == kept.event)
+            nearest = std::min(nearest, std::abs(minimum.value));
+    EXPECT_LT(nearest, tolerance);
+    EXPECT_TRUE(point.solution.certificate.admissible) << point.solution.certificate.reason;
+}
+
+/// The special point of a type that is nearest to a value of the parameter.
+SpecialPoint nearest(const Branch& branch, PointType type, double parameter) {
+    const auto all = of_type(branch, type);
+    EXPECT_FALSE(all.empty()) << short_name(type);
+    return all.empty() ? SpecialPoint{}
+                       : *std::min_element(all.begin(), all.end(), [&](const auto& one, const auto& other) {
+                             return std::abs(one.parameter - parameter) < std::abs(other.parameter - parameter);
+                         });
+}
+
+TEST(Curves, of_the_bouncing_ball_have_their_closed_forms) {
+    // One bounce a period: see closed_forms_test.
+    Model model = load_model("bouncing-ball");
+    const double g = 9.81, w = 20 * pi, e = 0.8;
+    const auto fold = [&](double at) { return g / (w * w) * pi * (1 - at) / (1 + at); };
+    const auto flip = [&](double at) {
+        return g / (w * w) * std::hypot(pi * (1 - at) / (1 + at), 2 * (1 + at * at) / ((1 + at) * (1 + at)));
+    };
+    model.set_parameter("g", g);
+    model.set_parameter("e", e);
+    model.set_parameter("f", 10);
+    const double a = 0.5 * (fold(e) + flip(e)), phase = std::acos((1 - e) / (1 + e) * g / (20 * a * w));
+    model.set_parameter("a", a);
+    const Orbit orbit{
+        parse_signature(model, "impact"), model.parameter_values(), {{a * std::sin(phase), g / 20, phase}}, {0.1}, {}};
+    for (const int direction : {1, -1}) {
+        BranchSettings settings;
+        settings.parameter = model.independent_parameter("a");
+        settings.direction = direction;
+        settings.least = 1e-5;
+        settings.greatest = 0.01;
+        settings.stop_at = {PointType::fold, PointType::flip};
+        const Branch branch = follow_branch(model, orbit, settings);
+        ASSERT_EQ(branch.outcome, BranchOutcome::stopped);
+        settings.stop_at.clear();
+        settings.free_bounds = {{model.independent_parameter("e"), 0.1, 0.95}};
+        const SpecialPoint& point = branch.special.back();
+        for (const int way : {1, -1}) {
+            const Branch curve = curve_of(model, point, settings, "e", way);
+            EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
+            EXPECT_EQ(names(curve), "BD");
+            EXPECT_LT(curve.points.size(), 100U);
+            for (const BranchPoint& one : curve.points) {
+                const double at = value_of(model, one.solution, "e");
+                const bool folds = point.type == PointType::fold;
+                EXPECT_NEAR(one.parameter, folds ? fold(at) : flip(at), 1e-12 * flip(at)) << at;
+                // Near a fold a multiplier changes with the root of what is left uncertain.
+                expect_kept(one, point, folds ? 1e-6 : 1e-9);
+            }
+        }
+    }
+}
+
+/// Of the orbits with one impact a period at a frequency: how far a gap is from that of their flip, whose orbit has
+/// this velocity after the impact.
+double off_flip(const Oscillator& known, double sigma, double after) {
+    return known.trace(after, known.phase(after, sigma), sigma) + 1 + known.product();
+}
+
+TEST(Curves, of_the_impact_oscillator_have_their_closed_forms) {
+    const Model model = oscillator_model(Oscillator(), 0.02);
+    const OrbitSolution start = settled(model, "phase0", 400);
+    // Where half an oscillation takes a period of the force an impact does not act on the next one: curves end there.
+    const double half = 2 * std::sqrt(1 - 0.05 * 0.05);
+    SpecialPoint end_of_folds;
+    for (const int direction : {1, -1}) {
+        BranchSettings settings;
+        settings.parameter = model.independent_parameter("sigma");
+        settings.least = -1;
+        settings.greatest = 1;
+        settings.direction = direction;
+        const Branch branch = follow_branch(model, start.orbit, settings);
+        ASSERT_EQ(names(branch), direction > 0 ? "PD GR" : "SN GR");
+        settings.free_bounds = {{model.independent_parameter("omega"), 0.7, 6}};
+        for (const SpecialPoint& point : branch.special)
+            for (const int way : {1, -1}) {
+                const Branch curve = curve_of(model, point, settings, "omega", way);
+                ASSERT_GT(curve.points.size(), 10U);
+                EXPECT_LT(curve.points.size(), 200U);
+                for (const BranchPoint& one : curve.points) {
+                    const Oscillator known(value_of(model, one.solution, "omega"));
+                    const double after = one.solution.orbit.starts[0][1];
+                    const double speed = std::abs(after);
+                    if (point.type == PointType::fold) {
+                        EXPECT_NEAR(one.parameter, known.fold(false), 1e-10);
+                    }
+                    if (point.type == PointType::grazing && point.at_end) {
+                        EXPECT_NEAR(one.parameter, known.radius, 1e-10);
+                    }
+                    if (point.type == PointType::flip && speed > 1e-3) {
+                        EXPECT_NEAR(off_flip(known, one.parameter, after) * speed, 0, 1e-10);
+                        EXPECT_NEAR(known.sigma(after, true), one.parameter, 1e-10);
+                    }
+                    if (speed > 1e-3) // towards none multipliers grow without limit
+                        expect_kept(one, point, point.type == PointType::fold ? 1e-6 : 1e-9);
+                }
+                if (curve.outcome == BranchOutcome::bound)
+                    continue;
+                EXPECT_EQ(curve.outcome, BranchOutcome::unphysical);
+                const SpecialPoint& last = curve.special.back();
+                EXPECT_EQ(last.type, PointType::grazing) << names(curve);
+                if (point.type == PointType::flip) {
+                    EXPECT_TRUE(last.at_end);
+                    EXPECT_NEAR(value_of(model, last.solution, "omega"), half, 1e-9);
+                    EXPECT_NEAR(last.parameter, Oscillator(half).radius, 1e-9);
+                }
+                if (point.type == PointType::fold)
+                    end_of_folds = last;
+                else if (direction < 0)
+                    ADD_FAILURE() << "touches go on to the bounds";
+            }
+        if (direction > 0)
+            continue;
+        // The curve of folds ends on that of touches, which has a multiplier 1 there.
+        ASSERT_EQ(end_of_folds.type, PointType::grazing);
+        const Branch touches = curve_of(model, branch.special.back(), settings, "omega", 1);
+        const SpecialPoint meeting = nearest(touches, PointType::fold, end_of_folds.parameter);
+        EXPECT_NEAR(meeting.parameter, end_of_folds.parameter, 1e-11);
+        EXPECT_NEAR(value_of(model, meeting.solution, "omega"), value_of(model, end_of_folds.solution, "omega"), 1e-11);
+        EXPECT_LT(nearest_multiplier(meeting.solution, 1), 1e-6);
+    }
+}
+
+TEST(Curves, of_touches_of_a_linear_oscillator_follow_its_response) {
+    Model model = oscillator_model(Oscillator(), 0.1);
+    model.set_parameter("amplitude", 0.1);
+    model.set_initial("x", 0);
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("amplitude");
+    settings.least = 0;
+    settings.greatest = 10;
+    const Branch free = follow_branch(model, settled(model, "phase0").orbit, settings);
+    ASSERT_EQ(names(free), "GR");
+    settings.free_bounds = {{model.independent_parameter("omega"), 0.2, 5}};
+    std::size_t turns = 0;
+    for (const int way : {1, -1}) {
+        const Branch curve = curve_of(model, free.special[0], settings, "omega", way);
+        EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
+        for (const BranchPoint& one : curve.points) {
+            EXPECT_NEAR(one.parameter * Oscillator(value_of(model, one.solution, "omega")).radius, 0.1, 1e-11);
+            expect_kept(one, free.special[0], 1e-12);
+        }
+        // The least force is that at resonance.
+        for (const SpecialPoint& turn : of_type(curve, PointType::extremum)) {
+            ++turns;
+            EXPECT_NEAR(value_of(model, turn.solution, "omega"), std::sqrt(1 - 2 * 0.05 * 0.05), 1e-9);
+            EXPECT_NEAR(turn.parameter, 0.1 * 2 * 0.05 * std::sqrt(1 - 0.05 * 0.05), 1e-12);
+            EXPECT_EQ(turn.detail.substr(0, 9), "amplitude");
+        }
+    }
+    EXPECT_EQ(turns, 1U);
+}
+
+Model duffing(double frequency, double force) {
+    Model model = model_from(R"toml(
+[parameters]
+zeta = 0.1
+w = 1
+F = 1
+[states]
+x = 0
+v = 0
+theta = { initial = 0, period = "2*pi" }
+[modes.all]
+rates = { x = "v", v = "F*cos(theta) - 2*zeta*v - x - x^3", theta = "w" }
+[sections.phase]
+state = "theta"
+value = 0
+)toml");
+    model.set_parameter("w", frequency);
+    model.set_parameter("F", force);
+    return model;
+}
+
+Branch over_frequency(double force) {
+    const Model model = duffing(0.9, force);
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("w");
+    settings.least = 0.5;
+    settings.greatest = 3;
+    return follow_branch(model, settled(model, "phase").orbit, settings);
+}
+
+TEST(Curves, of_folds_pass_the_cusp_of_duffings_oscillator) {
+    const Model model = duffing(0.9, 0.4);
+    const Branch branch = over_frequency(0.4), stronger = over_frequency(0.6);
+    ASSERT_EQ(names(branch), "SN SN BD");
+    ASSERT_EQ(names(stronger), "SN SN BD");
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("w");
+    settings.least = 0.5;
+    settings.greatest = 4;
+    settings.free_bounds = {{model.independent_parameter("F"), 0.01, 0.6}};
+    std::vector<SpecialPoint> cusps;
+    for (const std::size_t which : {0, 1}) {
+        // Away from the cusp the curve comes to the same fold of the other branch, through it to the other fold.
+        const Branch away = curve_of(model, branch.special[which], settings, "F", 1);
+        ASSERT_EQ(names(away), "BD") << away.detail;
+        EXPECT_NEAR(away.points.back().parameter, stronger.special[which].parameter, 1e-10);
+        const Branch curve = curve_of(model, branch.special[which], settings, "F", -1);
+        ASSERT_EQ(names(curve), "CP BD") << curve.detail;
+        EXPECT_NEAR(curve.points.back().parameter, stronger.special[1 - which].parameter, 1e-10);
+        cusps.push_back(curve.special[0]);
+        for (const BranchPoint& one : curve.points)
+            expect_kept(one, branch.special[which], 1e-5);
+        // It turns in both parameters.
+        EXPECT_TRUE(cusps.back().located);
+        const double force = value_of(model, cusps.back().solution, "F");
+        for (const BranchPoint& one : curve.points) {
+            EXPECT_GE(value_of(model, one.solution, "F"), force - 1e-12);
+            EXPECT_GE(one.parameter, cusps.back().parameter - 1e-12);
+        }
+        for (const double rise : cusps.back().tangent.parameters)
+            EXPECT_LT(std::abs(rise), 1e-7);
+    }
+    EXPECT_NEAR(cusps[0].parameter, cusps[1].parameter, 1e-10);
+    const double force = value_of(model, cusps[0].solution, "F");
+    EXPECT_NEAR(value_of(model, cusps[1].solution, "F"), force, 1e-10);
+    // Two folds above it, and none below.
+    EXPECT_EQ(of_type(over_frequency(force * 1.001), PointType::fold).size(), 2U);
+    EXPECT_EQ(of_type(over_frequency(force * 0.999), PointType::fold).size(), 0U);
+}
+
+TEST(Curves, of_the_microactuator_have_their_published_values) {
+    Model model = load_model("impact-microactuator");
+    model.set_parameter("V", 0.1);
+    model.set_parameter("omega", 0.9189);
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("V");
+    settings.least = 0;
+    settings.greatest = 3;
+    const Branch branch = follow_branch(model, settled(model, "longest", 4000).orbit, settings);
+    ASSERT_EQ(names(branch), "PD PD SN GR");
+    const SpecialPoint grazing = branch.special.back();
+    BranchSettings wide = settings;
+    wide.free_bounds = {{model.independent_parameter("omega"), 0.15, 3}};
+    const Branch first = curve_of(model, grazing, wide, "omega", 1);
+    EXPECT_EQ(first.outcome, BranchOutcome::bound) << first.detail;
+    for (const BranchPoint& one : first.points)
+        expect_kept(one, grazing, 1e-10);
+    const SpecialPoint least = nearest(first, PointType::extremum, 0.17);
+    EXPECT_NEAR(value_of(model, least.solution, "omega"), 0.48719539788245, 1e-12);
+    EXPECT_NEAR(least.parameter, 0.17099889286674, 1e-13);
+    // Curves of flips and folds end on it, where it has a multiplier -1 or 1.
+    for (std::size_t i = 0; i < 3; ++i) {
+        const SpecialPoint& point = branch.special[i];
+        const Branch curve = curve_of(model, point, wide, "omega", 1);
+        for (const BranchPoint& one : curve.points)
+            expect_kept(one, point, point.type == PointType::fold ? 1e-6 : 1e-9);
+        ASSERT_EQ(curve.outcome, BranchOutcome::unphysical) << curve.detail;
+        const SpecialPoint& last = curve.special.back();
+        EXPECT_EQ(last.type, PointType::grazing);
+        const SpecialPoint meeting = nearest(first, point.type, last.parameter);
+        EXPECT_NEAR(meeting.parameter, last.parameter, 1e-11);
+        EXPECT_NEAR(value_of(model, meeting.solution, "omega"), value_of(model, last.solution, "omega"), 1e-11);
+    }
+    // That of orbits with an impact ends in the point which is published.
+    const Branch impacting = follow(model, branches_at(model, grazing, settings).at(0), settings);
+    const Branch flips = curve_of(model, nearest(impacting, PointType::flip, 0.85), wide, "omega", -1);
+    ASSERT_EQ(flips.outcome, BranchOutcome::unphysical);
+    const SpecialPoint& last = flips.special.back();
+    EXPECT_TRUE(last.at_end);
+    EXPECT_NEAR(value_of(model, last.solution, "omega"), 0.61364946180363, 1e-11);
+    EXPECT_NEAR(last.parameter, 0.58163432990654, 1e-11);
+}
+
+TEST(Curves, of_torus_points_have_their_closed_form) {
+    Model model = torus_model();
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("p");
+    settings.least = -0.2;
+    settings.greatest = 0.1;
+    const Branch branch = follow_branch(model, settled(model, "start").orbit, settings);
+    const auto points = of_type(branch, PointType::torus);
+    ASSERT_EQ(points.size(), 1U);
+    settings.free_bounds = {{model.independent_parameter("w"), 0.05, 0.45}};
+    settings.parameter = model.independent_parameter("w");
+    settings.least = 0.05;
+    settings.greatest = 0.45;
+    settings.free_bounds.clear();
+    for (const int way : {1, -1}) {
+        const Branch curve = curve_of(model, points[0], settings, "p", way);
+        EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
+        for (const BranchPoint& one : curve.points) {
+            EXPECT_NEAR(value_of(model, one.solution, "p"), 0, 1e-12);
+            for (const auto multiplier : one.solution.multipliers)
+                EXPECT_NEAR(std::abs(multiplier), 1, 1e-10);
+        }
+    }
+}
+
+TEST(Curves, of_lost_symmetries_have_the_multiplier_of_the_half) {
+    Model model = load_model("electromagnetic-testbed");
+    model.set_initial("I", 0.1);
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("V0");
+    settings.stop_at = {PointType::asymmetry};
+    const OrbitSolution start = settled(model, "phase0", 600);
+    ASSERT_TRUE(start.orbit.symmetry);
+    std::size_t followed = 0;
+    for (const int direction : {1, -1}) {
+        settings.direction = direction;
+        const Branch branch = follow_branch(model, start.orbit, settings);
+        for (const SpecialPoint& point : of_type(branch, PointType::asymmetry)) {
+            BranchSettings along = settings;
+            along.steps = 20;
+            along.stop_at.clear();
+            for (const int way : {1, -1}) {
+                const Branch curve = curve_of(model, point, along, "f", way);
+                ASSERT_GT(curve.points.size(), 5U) << curve.detail;
+                ++followed;
+                for (const BranchPoint& one : curve.points) {
+                    if (one.solution.half_multipliers.empty()) { // where a contact has lost its speed
+                        EXPECT_EQ(&one, &curve.points.back());
+                        const auto& speeds = one.solution.certificate.approach_speeds;
+                        EXPECT_NEAR(*std::min_element(speeds.begin(), speeds.end()), 0, 1e-12);
+                        continue;
+                    }
+                    double off = 1;
+                    for (const auto multiplier : one.solution.half_multipliers)
+                        off = std::min(off, std::abs(multiplier + 1.0));
+                    EXPECT_LT(off, 1e-8);
+                }
+            }
+        }
+    }
+    EXPECT_GE(followed, 2U);
+}
+
+TEST(Curves, need_a_point_that_can_be_kept_and_one_parameter_more) {
+    const Model model = oscillator_model(Oscillator(), 0.02);
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("sigma");
+    settings.kept = SpecialPoint{};
+    settings.kept->type = PointType::branch_point;
+    settings.free = {model.independent_parameter("omega")};
+    EXPECT_THROW(settings.validate(model), InputError);
+    settings.kept->type = PointType::fold;
+    EXPECT_NO_THROW(settings.validate(model));
+    settings.free.clear();
+    EXPECT_THROW(settings.validate(model), InputError);
+}
+
+} // namespace
+} // namespace graze
