@@ -33,7 +33,10 @@ BranchState::BranchState(const System& system, const Orbit& candidate, const Bra
         monitors_ =
             std::make_unique<OrbitMonitors>(system, candidate.signature, settings.monitors, settings.orbit.tolerance);
     hold(candidate);
-    make_problem(candidate);
+    if (!make_problem(candidate))
+        throw InputError(
+            fmt::format("what makes a point of type {} cannot be held there", short_name(settings.kept->type)),
+            "choose another point");
 }
 
 /// Monitors without a given value are held at that of the candidate, however the problem is made anew later.
@@ -46,12 +49,13 @@ void BranchState::hold(const Orbit& candidate) {
             settings_.monitors[m].held = values[m];
 }
 
-void BranchState::make_problem(const Orbit& orbit) {
+/// False where what is kept has no condition.
+bool BranchState::make_problem(const Orbit& orbit) {
     problem_ = std::make_unique<OrbitProblem>(simulation_, orbit, settings_);
     if (monitors_)
         hold_monitors();
-    if (settings_.kept)
-        hold_kept(orbit);
+    if (settings_.kept && !hold_kept(orbit))
+        return false;
     problem_->hold(held_);
     ContinuationOptions options = settings_.continuation;
     // What is kept is told from what is not by far less than orbits need: a touch from a contact.
@@ -59,6 +63,7 @@ void BranchState::make_problem(const Orbit& orbit) {
     if (settings_.kept)
         options.accuracy = std::min(options.accuracy, kept_accuracy);
     continuation_ = std::make_unique<Continuation>(*problem_, options);
+    return true;
 }
 
 /// Conditions are compiled once, and moved to the segments of each new signature.
@@ -76,19 +81,18 @@ void BranchState::hold_monitors() {
 }
 
 /// The condition of the point that is kept, made anew for each problem: it may depend on the pieces of segments.
-void BranchState::hold_kept(const Orbit& orbit) {
+bool BranchState::hold_kept(const Orbit& orbit) {
     SpecialPoint& kept = *settings_.kept;
-    const OrbitEvaluation& at = problem_->evaluation();
     kept.solution.orbit = orbit;
     std::unique_ptr<OrbitCondition> condition;
     if (problem_->evaluate(problem_->unknowns_of(orbit)))
-        condition = rule_of(kept.type).condition(problem_->equations(), at, kept);
-    if (!condition)
-        throw InputError(fmt::format("what makes a point of type {} cannot be held there", short_name(kept.type)),
-                         at.problem.empty() ? "choose another point" : at.problem);
+        condition = rule_of(kept.type).condition(problem_->equations(), problem_->evaluation(), kept);
     const std::size_t monitors = settings_.free.size() - 1;
     held_.resize(monitors);
+    if (!condition)
+        return false;
     held_.push_back(std::move(condition));
+    return true;
 }
 
 std::optional<HeldTouch> BranchState::held_touch() const {
@@ -175,16 +179,18 @@ void BranchState::renew_pieces(const BranchPoint& from) {
     std::unique_ptr<OrbitProblem> old = std::move(problem_);
     std::unique_ptr<Continuation> old_continuation = std::move(continuation_);
     std::unique_ptr<OrbitCondition> old_kept = settings_.kept ? std::move(held_.back()) : nullptr;
-    make_problem(from.solution.orbit);
+    const bool holds = make_problem(from.solution.orbit);
     if (problem_->equations().layout().pieces() <= old->equations().layout().pieces())
         growth_ *= 10; // nothing was gained: ask again later
     const std::vector<double> u = problem_->unknowns_of(from.solution.orbit);
-    if (!problem_->evaluate(u) || !continuation_->start_at(u, problem_->row_of(problem_->unknowns_of(from.tangent)))) {
+    if (!holds || !problem_->evaluate(u) ||
+        !continuation_->start_at(u, problem_->row_of(problem_->unknowns_of(from.tangent)))) {
         growth_ *= 10; // as it was, for some time
         problem_ = std::move(old);
         continuation_ = std::move(old_continuation);
         if (settings_.kept) {
-            held_.back() = std::move(old_kept);
+            held_.resize(settings_.free.size() - 1);
+            held_.push_back(std::move(old_kept));
             problem_->hold(held_);
         }
         return;
@@ -198,9 +204,10 @@ void BranchState::go_on(const BranchStart& start, double arclength) {
         monitors_->set_signature(start.orbit.signature);
     const double length = continuation_->next_step();
     arclength_ = arclength;
-    make_problem(start.orbit);
+    const bool holds = make_problem(start.orbit);
     const std::vector<double> u = problem_->unknowns_of(start.orbit);
-    if (!problem_->evaluate(u) || !continuation_->start_at(u, problem_->row_of(problem_->unknowns_of(start.direction))))
+    if (!holds || !problem_->evaluate(u) ||
+        !continuation_->start_at(u, problem_->row_of(problem_->unknowns_of(start.direction))))
         throw InputError("the continuation does not start there", "choose another point");
     continuation_->set_next_step(length);
 }

@@ -43,10 +43,10 @@ public:
 private:
     void hold(const Orbit& candidate);
     void hold_monitors();
-    void hold_kept(const Orbit& orbit);
+    bool hold_kept(const Orbit& orbit);
     std::optional<HeldTouch> held_touch() const;
     void note_kept(const OrbitSolution& solution);
-    void make_problem(const Orbit& orbit);
+    bool make_problem(const Orbit& orbit);
 
     BranchSettings settings_;
     Simulation simulation_;

@@ -87,13 +87,19 @@ void add_axes(Facts& facts, const StudyRun& run) {
         facts.add("run", run.name, "varies", axis.name + " " + way);
     }
     const BranchSettings& branch = run.branch.settings;
-    if (run.kind == RunKind::follow) {
-        const std::string name = run.model.independent_parameters()[branch.parameter.place()];
+    if (run.is_followed()) {
+        const std::vector<std::string> names = run.model.independent_parameters();
         const auto bound = [](const std::optional<double>& value) {
             return value ? fmt::format("{:.6g}", *value) : std::string("anywhere");
         };
-        facts.add("run", run.name, "varies",
-                  fmt::format("{} from {} to {}, followed", name, bound(branch.least), bound(branch.greatest)));
+        std::string along = fmt::format("{} from {} to {}, followed", names[branch.parameter.place()],
+                                        bound(branch.least), bound(branch.greatest));
+        if (run.kind == RunKind::curve && !branch.free_bounds.empty()) {
+            const FreeBounds& other = branch.free_bounds.front();
+            along += fmt::format(" with {} from {} to {}", names[other.parameter.place()], bound(other.least),
+                                 bound(other.greatest));
+        }
+        facts.add("run", run.name, "varies", along);
     }
     if (run.start)
         facts.add("run", run.name, "starts_from", run.start->run);

@@ -110,8 +110,7 @@ bool draw_together(const PlotArguments& arguments, const ResultFile& file, const
                    const Console& console) {
     StudyPicture picture;
     const std::vector<RunRecord> all = file.runs();
-    const bool followed =
-        std::any_of(all.begin(), all.end(), [](const RunRecord& run) { return run.kind == "continue"; });
+    const bool followed = std::any_of(all.begin(), all.end(), [](const RunRecord& run) { return run.is_followed(); });
     for (const std::string& name : names) {
         const StoredRun run(file, name, {"--run", 0, 0});
         if (arguments.runs.empty() && followed && run.record.kind == "orbit")

@@ -56,7 +56,7 @@ std::string first_remedy(const StoredRun& run, const Counts& counts) {
 /// How the parts of a branch ended: what the last point of each says.
 std::vector<std::pair<std::string, std::string>> ends_of(const StoredRun& run) {
     std::vector<std::pair<std::string, std::string>> ends; // parts in the order in which they ended
-    if (run.record.kind != name_of(RunKind::follow))
+    if (!run.record.is_followed())
         return ends;
     auto rows = run.rows({.columns = {"part", "detail"}});
     while (rows.next()) {

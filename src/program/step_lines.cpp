@@ -3,12 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace graze {
 
 namespace {
 
 constexpr int wide = 18, digits = 10;
+
+/// Of a curve the second parameter, which has a column too.
+std::optional<ParameterId> second_parameter(const StudyRun& run) {
+    const bool two = run.kind == RunKind::curve && !run.branch.settings.free.empty();
+    return two ? std::optional(run.branch.settings.free.front()) : std::nullopt;
+}
 
 /// Which has a column anyway.
 bool is_period(const Monitor& monitor) {
@@ -20,9 +27,11 @@ bool is_period(const Monitor& monitor) {
 void StepLines::begin(const StudyRun& run, const std::string& part) {
     const std::vector<std::string> names = run.model.independent_parameters();
     const std::size_t parameter = run.branch.settings.parameter.place();
-    std::string line =
-        fmt::format("{:>5} {:<4} {:<6} {:>{}} {:>{}} {:<6}", "step", "type", "label",
-                    parameter < names.size() ? names[parameter] : "parameter", wide, "period", wide, "stable");
+    std::string line = fmt::format("{:>5} {:<4} {:<6} {:>{}}", "step", "type", "label",
+                                   parameter < names.size() ? names[parameter] : "parameter", wide);
+    if (const auto second = second_parameter(run))
+        line += fmt::format(" {:>{}}", names[second->place()], wide);
+    line += fmt::format(" {:>{}} {:<6}", "period", wide, "stable");
     for (const Monitor& monitor : run.branch.settings.monitors)
         if (!is_period(monitor))
             line += fmt::format(" {:>{}}", monitor.name, wide);
@@ -41,9 +50,11 @@ void StepLines::show(const std::string& name, const OrbitRecord& record) {
     part_ = record.part;
     const SpecialPoint& point = record.point;
     const char* stable = !point.solution.certificate.admissible ? "unphys" : record.stable ? "yes" : "no";
-    std::string line =
-        fmt::format("{:>5} {:<4} {:<6} {:>{}.{}g} {:>{}.{}g} {:<6}", point.step, short_name(point.type), record.label,
-                    point.parameter, wide, digits, point.solution.orbit.period(), wide, digits, stable);
+    std::string line = fmt::format("{:>5} {:<4} {:<6} {:>{}.{}g}", point.step, short_name(point.type), record.label,
+                                   point.parameter, wide, digits);
+    if (const auto second = second_parameter(*run))
+        line += fmt::format(" {:>{}.{}g}", point.solution.orbit.parameters[second->place()], wide, digits);
+    line += fmt::format(" {:>{}.{}g} {:<6}", point.solution.orbit.period(), wide, digits, stable);
     const std::vector<Monitor>& monitors = run->branch.settings.monitors;
     for (std::size_t m = 0; m < std::min(monitors.size(), point.monitors.size()); ++m)
         if (!is_period(monitors[m]))

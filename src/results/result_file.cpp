@@ -25,7 +25,7 @@ namespace {
 void require_names(const RunRecord& run, const std::string& path) {
     const Place place{path, 0, 0};
     require_file_name(run.name, "name of a run", place);
-    const std::array<std::string_view, 5> kinds{"simulate", "sweep", "basin", "orbit", "continue"};
+    const std::array<std::string_view, 6> kinds{"simulate", "sweep", "basin", "orbit", "continue", "curve"};
     if (std::find(kinds.begin(), kinds.end(), run.kind) == kinds.end())
         throw InputError(place, fmt::format("run '{}' is of unknown kind '{}'", run.name, run.kind),
                          "use the version of graze that wrote it");

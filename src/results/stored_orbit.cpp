@@ -121,7 +121,7 @@ bool is_unphysical(const OrbitRecord& record) {
 }
 
 std::string followed_parameter(const RunRecord& run) {
-    return run.kind == "continue" && !run.coordinates.empty() ? run.coordinates.front().name : "";
+    return run.is_followed() && !run.coordinates.empty() ? run.coordinates.front().name : "";
 }
 
 std::vector<double> parameters_of(const StoredRun& run, const OrbitRecord& record) {

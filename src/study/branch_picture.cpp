@@ -1,8 +1,10 @@
 #include "graze/branch/special_point.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/results/stored_orbit.hpp"
+#include "graze/study/stored_study.hpp"
 #include "study/picture_kinds.hpp"
 #include "study/point_limits.hpp"
+#include "study/start_point.hpp"
 
 #include "graze/symbolic/parser.hpp"
 
@@ -36,6 +38,13 @@ struct DrawnPoint {
     std::vector<double> y;
 };
 
+/// Curves are drawn by what they are curves of: touches solid, folds dashed, all else dotted.
+FigureSeries::Style style_of(PointType kept) {
+    return kept == PointType::grazing ? FigureSeries::Style::line
+           : kept == PointType::fold  ? FigureSeries::Style::dashed
+                                      : FigureSeries::Style::dotted;
+}
+
 FigureSeries::Style style_of(Look look) {
     return look == Look::unstable ? FigureSeries::Style::dashed : FigureSeries::Style::line;
 }
@@ -55,9 +64,20 @@ void require_known(const StudyPicture& picture, const StoredRun& run, const std:
                          name_advice(name, known, ""));
 }
 
-/// Monitors of the first run that all have, or the period.
+/// What a run is a curve of, by its first point; none: it is a branch.
+std::optional<PointType> kept_of(const StoredRun& run) {
+    if (run.record.kind != name_of(RunKind::curve))
+        return std::nullopt;
+    const StudyRun asked = stored_run(run.record);
+    const auto parent = asked.start ? run.file->find_run(asked.start->run) : std::nullopt;
+    return parent ? orbit_to_start_from(*asked.start, stored_run(*parent), *run.file).point.type : PointType::regular;
+}
+
+/// Monitors of the first run that all have, or the period; of a curve its second parameter.
 std::vector<std::string> default_values(const std::vector<StoredRun>& runs) {
     std::vector<std::string> names;
+    if (runs.front().record.kind == name_of(RunKind::curve))
+        return {runs.front().record.coordinates.at(1).name};
     for (const ResultColumn& column : runs.front().record.values)
         if (names.size() < most_panels &&
             std::all_of(runs.begin(), runs.end(), [&](const StoredRun& run) { return run.has_value(column.name); }))
@@ -147,16 +167,18 @@ int rank_of(const DrawnPoint& point) {
     return (point.look == Look::unphysical ? 4 : 0) + (kind.changes || kind.limits ? 0 : 2) + (kind.leads_on ? 0 : 1);
 }
 
+/// @param kept what it is a curve of; none: it is a branch, drawn by how stable orbits are
 /// @param labels colour of the labels
-void add_branch(FigurePanel& panel, const std::vector<DrawnPoint>& points, std::size_t value, std::size_t colour,
-                std::size_t labels) {
+void add_branch(FigurePanel& panel, const std::vector<DrawnPoint>& points, const std::optional<PointType>& kept,
+                std::size_t value, std::size_t colour, std::size_t labels) {
     // What is unphysical lies beneath.
     const std::vector<Stretch> stretches = stretches_of(points);
     for (const bool unphysical : {true, false})
         for (const Stretch& stretch : stretches) {
             if ((stretch.look == Look::unphysical) != unphysical || stretch.points.size() < 2)
                 continue;
-            FigureSeries series{"", style_of(stretch.look), unphysical ? FigureSeries::grey : colour, {}};
+            FigureSeries series{
+                "", kept ? style_of(*kept) : style_of(stretch.look), unphysical ? FigureSeries::grey : colour, {}};
             for (const std::size_t at : stretch.points) {
                 if (kind_of(points[at].type).limits) // other segments give greatest values from there on
                     series.corners.push_back(series.points.size());
@@ -186,7 +208,7 @@ void add_branch(FigurePanel& panel, const std::vector<DrawnPoint>& points, std::
 
 /// Says which colour is which run, and what the styles mean that are there.
 void add_legend(FigurePanel& panel, const StudyPicture& picture, const std::vector<StoredRun>& runs,
-                const std::vector<std::vector<DrawnPoint>>& points) {
+                const std::vector<std::vector<DrawnPoint>>& points, const std::vector<std::optional<PointType>>& kept) {
     const auto add = [&](const std::string& title, FigureSeries::Style style, std::size_t colour) {
         FigureSeries series{title, style, colour, {}};
         series.only_in_legend = true;
@@ -195,11 +217,12 @@ void add_legend(FigurePanel& panel, const StudyPicture& picture, const std::vect
     if (runs.size() > 1)
         for (std::size_t r = 0; r < runs.size(); ++r)
             if (!points[r].empty())
-                add(shown_name(picture, runs[r].record.name), FigureSeries::Style::line, r);
+                add(shown_name(picture, runs[r].record.name), kept[r] ? style_of(*kept[r]) : FigureSeries::Style::line,
+                    r);
     std::set<Look> shown;
-    for (const std::vector<DrawnPoint>& run : points)
-        for (const Stretch& stretch : stretches_of(run))
-            if (stretch.points.size() > 1)
+    for (std::size_t r = 0; r < runs.size(); ++r)
+        for (const Stretch& stretch : stretches_of(points[r]))
+            if (stretch.points.size() > 1 && (!kept[r] || stretch.look == Look::unphysical))
                 shown.insert(stretch.look);
     const std::size_t colour = runs.size() > 1 ? FigureSeries::black : 0;
     for (const auto& [look, name] : looks)
@@ -220,8 +243,15 @@ Figure branch_picture(const StudyPicture& picture, const ResultFile& file) {
     const std::string x = picture.x.empty() ? first_coordinate(picture, runs.front()) : picture.x;
     const std::vector<std::string> values = picture.y.empty() ? default_values(runs) : picture.y;
     std::vector<std::vector<DrawnPoint>> points;
-    for (const StoredRun& run : runs)
+    std::vector<std::optional<PointType>> kept;
+    for (const StoredRun& run : runs) {
         points.push_back(points_of(run, picture, x, values));
+        kept.push_back(kept_of(run));
+        // Where a multiplier is 1 or -1 all along, stability says nothing.
+        for (DrawnPoint& point : points.back())
+            if (kept.back() && point.look == Look::unstable)
+                point.look = Look::stable;
+    }
     Figure figure;
     figure.columns = values.size() > 1 ? 2 : 1;
     for (std::size_t v = 0; v < values.size(); ++v) {
@@ -231,8 +261,8 @@ Figure branch_picture(const StudyPicture& picture, const ResultFile& file) {
             panel.title = (values.size() > 1 ? fmt::format("({}) ", static_cast<char>('a' + v)) : std::string()) +
                           (runs.size() == 1 ? shown_name(picture, runs.front().record.name) : std::string());
         for (std::size_t r = 0; r < runs.size(); ++r)
-            add_branch(panel, points[r], v, r, runs.size() > 1 ? r : FigureSeries::black);
-        add_legend(panel, picture, runs, points);
+            add_branch(panel, points[r], kept[r], v, r, runs.size() > 1 ? r : FigureSeries::black);
+        add_legend(panel, picture, runs, points, kept);
         figure.panels.push_back(std::move(panel));
     }
     return figure;

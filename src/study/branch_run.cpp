@@ -26,6 +26,7 @@ struct Part {
     int direction = 1;
     bool again = false; ///< another part has begun at the same orbit
     std::string twin;   ///< of which part its orbits are images under the symmetry; empty: of none
+    std::optional<SpecialPoint> kept = std::nullopt; ///< of curves
 };
 
 /// Messages of numerical functions, with the place of the run.
@@ -123,10 +124,27 @@ Orbit twin_of(const StudyRun& run, const System& system, const Orbit& orbit) {
     return twin;
 }
 
+/// Both ways along the curve through a point.
+std::vector<Part> parts_of_curve(const StudyRun& run, const SpecialPoint& point) {
+    std::vector<Part> parts = both_directions(run, taken_over(run, point.solution.orbit));
+    if (!run.branch.keeps_point())
+        return parts;
+    if (!kind_of(point.type).may_be_kept)
+        throw InputError(run.start->place,
+                         fmt::format("points of type {} ({}) cannot be followed as a curve", short_name(point.type),
+                                     name_of(point.type)),
+                         "choose another point, or hold a monitor: fixed = true");
+    for (Part& part : parts)
+        part.kept = point;
+    return parts;
+}
+
 std::vector<Part> parts_from_orbit(const StudyRun& run, const System& system, const StudyRun& parent,
                                    const OrbitRecord& record) {
     const StartFrom& start = *run.start;
     const SpecialPoint& point = record.point;
+    if (run.kind == RunKind::curve)
+        return parts_of_curve(run, point);
     const bool same_parameter =
         parent.kind == RunKind::follow && parent.branch.settings.parameter == run.branch.settings.parameter;
     std::string onto = start.onto;
@@ -277,6 +295,7 @@ std::optional<BranchOutcome> follow_part(const StudyRun& run, const System& syst
                                          PointWriter& writer, const RunnerOptions& options) {
     BranchSettings settings = run.branch.settings;
     settings.direction = part.direction;
+    settings.kept = part.kept;
     OrbitBranch branch = at_place(run.place, run, [&] { return OrbitBranch(system, part.orbit, settings); });
     bool going = part.onto ? branch.start_along(part.onto->direction, part.onto->distance) : branch.start();
     if (!going) {

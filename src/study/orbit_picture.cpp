@@ -50,7 +50,7 @@ std::vector<OrbitRecord> shown_orbits(const ResultFile& file, const StoredRun& r
     if (orbits.empty())
         throw InputError(picture.place, fmt::format("run '{}' has no orbits yet", run.record.name),
                          "run the study first");
-    if (run.record.kind == "continue" && orbits.front().point.type == PointType::end)
+    if (run.record.is_followed() && orbits.front().point.type == PointType::end)
         orbits.erase(orbits.begin(), orbits.end() - 1);
     return orbits;
 }

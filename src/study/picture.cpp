@@ -13,7 +13,7 @@ StudyPicture default_picture(const RunRecord& run) {
     picture.runs = {run.name};
     if (run.kind == "sweep")
         picture.kind = "bifurcation";
-    else if (run.kind == "continue")
+    else if (run.is_followed())
         picture.kind = "branch";
     else if (run.kind == "orbit")
         picture.kind = "portrait";

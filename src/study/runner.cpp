@@ -25,17 +25,22 @@ namespace {
 /// Changes when the same settings lead to other numbers than in an earlier version.
 constexpr int numbers = 2;
 
-/// All parameters, the one that is followed first.
+/// All parameters, the one that is followed first; of a curve both.
 void add_parameters(const StudyRun& run, RunRecord& record) {
     const std::vector<std::string> parameters = run.model.independent_parameters();
     const auto add = [&](std::size_t p) {
         const std::string& name = parameters[p];
         record.coordinates.push_back({name, run.model.parameters[*run.model.find_parameter(name)].unit});
     };
+    std::vector<std::size_t> first;
     if (!parameters.empty())
-        add(run.branch.settings.parameter.place());
+        first.push_back(run.branch.settings.parameter.place());
+    if (run.kind == RunKind::curve)
+        first.push_back(run.branch.settings.free.front().place());
+    for (const std::size_t p : first)
+        add(p);
     for (std::size_t p = 0; p < parameters.size(); ++p)
-        if (p != run.branch.settings.parameter.place())
+        if (std::find(first.begin(), first.end(), p) == first.end())
             add(p);
 }
 
@@ -90,7 +95,7 @@ RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, 
 } // namespace
 
 std::vector<std::string> direction_names(const StudyRun& run) {
-    if (run.kind != RunKind::sweep && run.kind != RunKind::follow)
+    if (run.kind != RunKind::sweep && !run.is_followed())
         return {""};
     switch (run.direction) {
     case SweepDirection::up:

@@ -19,7 +19,7 @@ namespace {
 const std::vector<std::string>& kinds_of_runs() {
     static const std::vector<std::string> kinds = [] {
         std::vector<std::string> names;
-        for (int kind = 0; kind <= static_cast<int>(RunKind::follow); ++kind)
+        for (int kind = 0; kind <= static_cast<int>(RunKind::curve); ++kind)
             names.emplace_back(name_of(static_cast<RunKind>(kind)));
         return names;
     }();
@@ -147,7 +147,7 @@ void describe_branch(Fields& fields, Run& run) {
     fields.field("orbit_iterations", branch.orbit.iterations);
     fields.field("error_estimate", branch.orbit.error_estimate);
     // Of an orbit too: when it does not settle, what is not admissible may do.
-    if (run.kind == RunKind::follow)
+    if (run.is_followed())
         describe_continuation(fields, branch, run.model.independent_parameters());
     else
         fields.field("stop_when_unphysical", branch.stop_when_unphysical);
@@ -196,7 +196,7 @@ void describe(Fields& fields, Run& run) {
         fields.field("draws", run.draws);
         fields.field("seed", run.seed);
     }
-    if (run.kind == RunKind::sweep || run.kind == RunKind::follow)
+    if (run.kind == RunKind::sweep || run.is_followed())
         fields.number("direction", run.direction, 3);
     if (run.kind == RunKind::sweep)
         fields.field("carry", run.carry);
@@ -278,7 +278,7 @@ void check(const StudyRun& run, const SettingsReader& fields) {
     else if (!run.is_branch())
         run.attractor.validate(run.model);
     else
-        run.branch.settings.validate(run.model);
+        run.branch.validate(run.kind, run.model);
 }
 
 } // namespace

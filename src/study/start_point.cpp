@@ -75,7 +75,7 @@ OrbitRecord orbit_to_start_from(const StartFrom& start, const StudyRun& parent, 
             record->point.type = PointType::regular;
         }
     } else if (start.point.empty()) {
-        if (parent.kind == RunKind::follow)
+        if (parent.is_followed())
             throw InputError(start.place, fmt::format("run '{}' has many points", start.run),
                              "name one: point = \"GR1\", or at = { PARAMETER = VALUE }");
         record = file.orbit(start.run, std::size_t{0});

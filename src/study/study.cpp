@@ -30,12 +30,29 @@ std::string_view name_of(RunKind kind) {
         return "orbit";
     case RunKind::follow:
         return "continue";
+    case RunKind::curve:
+        return "curve";
     }
     return "simulate";
 }
 
 std::vector<std::string> picture_kinds() {
     return {"bifurcation", "branch", "basin", "map", "history", "portrait", "spectrum", "regression", "scatter"};
+}
+
+bool BranchRequest::keeps_point() const {
+    const auto& monitors = settings.monitors;
+    return std::count_if(monitors.begin(), monitors.end(), [](const Monitor& one) { return one.fixed; }) <
+           static_cast<std::ptrdiff_t>(settings.free.size());
+}
+
+void BranchRequest::validate(RunKind kind, const Model& model) const {
+    BranchSettings known = settings;
+    if (kind == RunKind::curve && keeps_point()) {
+        known.kept.emplace();
+        known.kept->type = PointType::fold;
+    }
+    known.validate(model);
 }
 
 std::vector<std::string> picture_formats() {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <tuple>
 
 namespace graze {
 
@@ -33,8 +34,25 @@ void read_free(const StudyReader& reader, StudyRun& run, const TomlEntry& entry)
     }
 }
 
+/// Both parameters of a curve: the second is free, as those of `free` after it.
+void read_plane(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    BranchSettings& settings = run.branch.settings;
+    const auto items = reader.toml().entries(reader.toml().table(entry), entry.path);
+    if (items.size() != 2)
+        reader.fail(entry, fmt::format("{} names {} parameters", entry.path, items.size()),
+                    "name the two of the curve: along = { omega = [0, 3], V = [0, 1] }");
+    settings.parameter = parameter_named(reader, run.model, items[0], items[0].name);
+    const ParameterId second = parameter_named(reader, run.model, items[1], items[1].name);
+    std::tie(settings.least, settings.greatest) = reader.range(run.model, items[0]);
+    const auto [least, greatest] = reader.range(run.model, items[1]);
+    settings.free.push_back(second);
+    settings.free_bounds.push_back({second, least, greatest});
+}
+
 void read_along(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     BranchSettings& settings = run.branch.settings;
+    if (run.kind == RunKind::curve)
+        return read_plane(reader, run, entry);
     if (entry.node->is_string()) {
         settings.parameter = parameter_named(reader, run.model, entry, reader.toml().string(entry));
         return;
@@ -199,9 +217,14 @@ void read_branch(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
         for (const TomlEntry& item : reader.toml().entries(reader.toml().table(e), e.path))
             settings.monitors.push_back(read_monitor(reader, run.model, item));
     });
-    if (run.kind == RunKind::follow && !keys.contains("along"))
+    if (run.kind == RunKind::curve && !run.start)
+        throw InputError(entry.place, fmt::format("{} does not say where the curve begins", entry.path),
+                         "give start = { run = \"BRANCH\", point = \"SN1\" }");
+    if (run.is_followed() && !keys.contains("along"))
         throw InputError(entry.place, fmt::format("{} does not say what is followed", entry.path),
-                         "give along = { PARAMETER = [LEAST, GREATEST] }");
+                         run.kind == RunKind::curve
+                             ? "give along = { PARAMETER = [LEAST, GREATEST], OTHER = [LEAST, GREATEST] }"
+                             : "give along = { PARAMETER = [LEAST, GREATEST] }");
     if (run.kind == RunKind::orbit)
         for (const Monitor& monitor : settings.monitors)
             if (monitor.fixed || !monitor.crossings.empty() || monitor.least || monitor.greatest)
@@ -211,7 +234,7 @@ void read_branch(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
                                         monitor.name),
                             "leave that out, or choose kind = \"continue\"");
     try {
-        settings.validate(run.model);
+        branch.validate(run.kind, run.model);
         if (!run.start && !branch.has_table() && branch.signature.empty())
             run.attractor.validate(run.model);
     } catch (const InputError& error) {

@@ -17,10 +17,12 @@ enum Kinds : unsigned {
     basin = 1u << static_cast<unsigned>(RunKind::basin),
     orbit = 1u << static_cast<unsigned>(RunKind::orbit),
     follow = 1u << static_cast<unsigned>(RunKind::follow),
+    curve = 1u << static_cast<unsigned>(RunKind::curve),
+    followed = follow | curve,
     points = simulate | sweep | basin, ///< those whose points are motions
-    branches = orbit | follow,
+    branches = orbit | follow,         ///< that may begin by themselves
     settling = sweep | basin | branches,
-    every = points | branches,
+    every = points | branches | curve,
 };
 
 struct Key {
@@ -34,14 +36,14 @@ constexpr std::array keys_of_runs{
     Key{"text", every},
     Key{"model", every},
     Key{"set", every},
-    Key{"from", every},
-    Key{"mode", every},
+    Key{"from", points | branches},
+    Key{"mode", points | branches},
     Key{"start", every},
-    Key{"section", every},
-    Key{"bounds", every},
+    Key{"section", points | branches},
+    Key{"bounds", points | branches},
     Key{"tolerance", every},
-    Key{"order", every},
-    Key{"largest_step", every},
+    Key{"order", points | branches},
+    Key{"largest_step", points | branches},
     Key{"vary", points},
     Key{"draws", points},
     Key{"seed", points},
@@ -54,7 +56,7 @@ constexpr std::array keys_of_runs{
     Key{"events", simulate},
     Key{"greatest_speed", simulate},
     Key{"carry", sweep},
-    Key{"direction", sweep | follow},
+    Key{"direction", sweep | followed},
     Key{"keep", sweep | basin},
     Key{"cycles", settling},
     Key{"largest_period", settling},
@@ -64,14 +66,14 @@ constexpr std::array keys_of_runs{
     Key{"lyapunov_cycles", sweep | basin},
     Key{"signature", branches},
     Key{"table", branches},
-    Key{"monitors", branches},
-    Key{"accuracy", branches},
-    Key{"along", follow},
-    Key{"steps", follow},
-    Key{"stop", follow},
-    Key{"step", follow},
-    Key{"free", follow},
-    Key{"unphysical", branches},
+    Key{"monitors", orbit | followed},
+    Key{"accuracy", orbit | followed},
+    Key{"along", followed},
+    Key{"steps", followed},
+    Key{"stop", followed},
+    Key{"step", followed},
+    Key{"free", followed},
+    Key{"unphysical", orbit | followed},
 };
 
 /// Keys of runs of orbits that say how simulation settles on one.
@@ -89,7 +91,7 @@ void refuse_any(const StudyReader& reader, const RunKeys& keys, const Names& nam
 
 /// Several keys say where a run begins; all but one would be ignored.
 void check_beginning(const StudyReader& reader, RunKind kind, const RunKeys& keys) {
-    const bool branch = kind == RunKind::orbit || kind == RunKind::follow;
+    const bool branch = kind == RunKind::orbit || kind == RunKind::follow || kind == RunKind::curve;
     const auto refuse_two = [&](const char* one, const char* other) {
         if (keys.contains(one) && keys.contains(other))
             reader.fail(keys.at(other), fmt::format("`{}` has no effect here: the run has `{}`", other, one),
@@ -140,7 +142,7 @@ void check_keys_of_kind(const StudyReader& reader, RunKind kind, const RunKeys& 
         if (key->kinds & (1u << static_cast<unsigned>(kind)))
             continue;
         std::vector<std::string> kinds;
-        for (unsigned k = 0; k <= static_cast<unsigned>(RunKind::follow); ++k)
+        for (unsigned k = 0; k <= static_cast<unsigned>(RunKind::curve); ++k)
             if (key->kinds & (1u << k))
                 kinds.push_back(fmt::format("\"{}\"", name_of(static_cast<RunKind>(k))));
         reader.fail(entry, fmt::format("runs of kind \"{}\" have no `{}`", name_of(kind), name),
@@ -196,13 +198,18 @@ void check_start(const StudyReader& reader, const StudyRun& run, const StudyRun&
     if (start.direction && !start.coordinate)
         fail_start(start, "`direction` chooses among the points nearest to `at`, which is not given",
                    "write at = { PARAMETER = VALUE }, or leave it out");
-    if (start.direction && parent.kind != RunKind::sweep && parent.kind != RunKind::follow)
+    if (start.direction && parent.kind != RunKind::sweep && !parent.is_followed())
         fail_start(start, fmt::format("runs of kind \"{}\" have no direction", name_of(parent.kind)), "leave it out");
     if (!start.onto.empty() && !(parent.is_branch() && run.is_branch()))
         fail_start(start, "`onto` chooses a branch, and leads from an orbit to an orbit", "leave it out");
     if (!parent.is_branch() && start.point.find_first_not_of("0123456789") != std::string::npos)
         fail_start(start, fmt::format("points of runs of kind \"{}\" have no labels", name_of(parent.kind)),
                    "give the point's number, or at = { PARAMETER = VALUE }");
+    if (run.kind == RunKind::curve && !(parent.is_followed() && !start.point.empty()))
+        fail_start(start, "a curve begins at a special point of a branch",
+                   "give start = { run = \"BRANCH\", point = \"SN1\" }");
+    if (run.kind == RunKind::curve && !start.onto.empty())
+        fail_start(start, "`onto` has no effect here: a curve goes on along the points of one kind", "leave it out");
     if (run.is_branch() && parent.is_branch()) {
         const std::string leave = "leave it out";
         refuse_any(reader, keys, of_settling, "no orbit is settled on", leave);

@@ -356,9 +356,9 @@ StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const Study
     }
     if (!keys.contains("kind"))
         throw InputError(entry.place, fmt::format("{} has no kind", entry.path),
-                         "give kind = \"simulate\", \"sweep\", \"basin\", \"orbit\" or \"continue\"");
-    run.kind =
-        static_cast<RunKind>(reader.choice(keys.at("kind"), {"simulate", "sweep", "basin", "orbit", "continue"}));
+                         "give kind = \"simulate\", \"sweep\", \"basin\", \"orbit\", \"continue\" or \"curve\"");
+    run.kind = static_cast<RunKind>(
+        reader.choice(keys.at("kind"), {"simulate", "sweep", "basin", "orbit", "continue", "curve"}));
     check_keys_of_kind(reader, run.kind, keys);
     if (keys.contains("text"))
         run.text = reader.toml().string(keys.at("text"));

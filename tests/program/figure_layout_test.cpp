@@ -14,8 +14,8 @@
 
 namespace graze::testing {
 
-using ::testing::HasSubstr;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 namespace {
 
@@ -69,9 +69,10 @@ TEST(FigureLayout, NothingLiesOnAnythingElse) {
                     "Orbits of an oscillator with a stop, which meets it once or twice in each period", 2, {}};
                 figure.panels.assign(panels, panel_with(points));
                 figure.style = style;
-                if (style.height == 0 || panels < 3)
+                if (style.height == 0 || panels < 3) {
                     EXPECT_THAT(overlaps_of(layout_of(figure)), ElementsAre())
                         << style.width << ' ' << points << ' ' << panels;
+                }
             }
 }
 
@@ -132,8 +133,8 @@ TEST_P(ShippedPictures, NothingOverlapsAndNoNameIsRaw) {
         }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShippedPictures, ::testing::ValuesIn(shipped_studies()), [](const auto& info) {
-    std::string name = info.param;
+INSTANTIATE_TEST_SUITE_P(All, ShippedPictures, ::testing::ValuesIn(shipped_studies()), [](const auto& tested) {
+    std::string name = tested.param;
     std::replace(name.begin(), name.end(), '-', '_');
     return name;
 });

@@ -121,6 +121,70 @@ TEST_F(BranchRun, goes_from_rest_across_grazing_to_a_flip) {
     EXPECT_EQ(file.point("swept", 1)->result.signature, "impact");
 }
 
+const std::string curves_text = study_text + R"(
+[runs.touches]
+kind = "curve"
+start = { run = "free", point = "GR1" }
+along = { omega = [2.2, 4.5], amplitude = [0.1, 5] }
+direction = "both"
+
+[runs.flips]
+kind = "curve"
+start = { run = "impacting", point = "PD1" }
+along = { omega = [2.2, 4.5], e = [0.7, 0.9] }
+
+[runs.as_fast]
+kind = "curve"
+start = { run = "impacting", point = "UZ1" }
+along = { omega = [2.2, 4.5], amplitude = [0.1, 5] }
+monitors = { speed = { value = "v", at = "impact", fixed = true } }
+)";
+
+TEST_F(BranchRun, follows_special_points_in_two_parameters) {
+    for (const RunReport& report : run(curves_text))
+        EXPECT_EQ(report.problem, "") << report.name;
+    const ResultFile file(path_, ResultFile::Access::read);
+    const auto run_of = file.find_run("touches");
+    ASSERT_TRUE(run_of);
+    EXPECT_EQ(run_of->kind, "curve");
+    EXPECT_EQ(run_of->coordinates[0].name, "omega");
+    EXPECT_EQ(run_of->coordinates[1].name, "amplitude");
+    const auto touches = file.orbits("touches", false);
+    ASSERT_GT(touches.size(), 10u);
+    std::size_t ends = 0;
+    for (const OrbitRecord& one : touches) {
+        const double w = one.point.parameter * one.point.parameter, amplitude = one.point.solution.orbit.parameters[2];
+        EXPECT_NEAR(amplitude, 0.1 * std::hypot(1 - w, 2 * 0.02 * one.point.parameter), 1e-11);
+        ends += one.point.type == PointType::bound ? 1 : 0;
+    }
+    EXPECT_EQ(ends, 2u);
+    const auto flips = file.orbits("flips", false);
+    ASSERT_GT(flips.size(), 5u);
+    for (const OrbitRecord& one : flips) {
+        double off = 1;
+        for (const auto multiplier : one.point.solution.multipliers)
+            off = std::min(off, std::abs(multiplier + 1.0));
+        EXPECT_LT(off, 1e-9);
+    }
+    for (const OrbitRecord& one : file.orbits("as_fast", false))
+        EXPECT_NEAR(one.point.monitors[0], 0.5, 1e-10);
+}
+
+TEST_F(BranchRun, curves_say_what_they_need) {
+    const auto with = [&](const std::string& more) {
+        return refusal(study_text + "[runs.curve]\nkind = \"curve\"\n" + more);
+    };
+    const std::string along = "along = { omega = [2.2, 4.5], e = [0.5, 0.95] }\n",
+                      start = "start = { run = \"impacting\", point = \"PD1\" }\n";
+    EXPECT_THAT(with(along), HasSubstr("does not say where the curve begins"));
+    EXPECT_THAT(with(start), HasSubstr("does not say what is followed"));
+    EXPECT_THAT(with(start + "along = { omega = [2.2, 4.5] }\n"), HasSubstr("names 1 parameters"));
+    EXPECT_THAT(with("start = { run = \"rest\" }\n" + along), HasSubstr("special point of a branch"));
+    EXPECT_THAT(with(start + along + "signature = \"impact\"\n"), HasSubstr("have no `signature`"));
+    EXPECT_THAT(with("start = { run = \"free\", point = \"BD1\" }\n" + along), HasSubstr("cannot be followed"));
+    EXPECT_THAT(with(start + along + "free = [\"sigma\"]\n"), HasSubstr("2 further parameters are free"));
+}
+
 TEST_F(BranchRun, what_is_read_is_what_was_written) {
     std::vector<OrbitRecord> written, all;
     RunnerOptions options;

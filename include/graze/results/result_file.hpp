@@ -41,7 +41,10 @@ struct RunRecord {
     std::size_t points = 0; ///< planned
     RunStatus status = RunStatus::unfinished;
 
-    bool is_branch() const { return kind == "orbit" || kind == "continue"; }
+    /// Whether its points are orbits.
+    bool is_branch() const { return kind == "orbit" || is_followed(); }
+    /// Whether orbits are followed: along a branch, or a curve.
+    bool is_followed() const { return kind == "continue" || kind == "curve"; }
 };
 
 /// The result file of a study's folder, or the file itself.

@@ -17,7 +17,7 @@
 
 namespace graze {
 
-enum class RunKind { simulate, sweep, basin, orbit, follow }; ///< the last is called "continue" in studies
+enum class RunKind { simulate, sweep, basin, orbit, follow, curve }; ///< `follow` is called "continue" in studies
 std::string_view name_of(RunKind kind);
 
 /// Something that varies from point to point: a parameter or an initial state.
@@ -55,6 +55,10 @@ struct BranchRequest {
     BranchSettings settings;
 
     bool has_table() const { return !table.empty() || !table_text.empty(); }
+    /// Whether a curve holds what its first point is, rather than a monitor that is fixed.
+    bool keeps_point() const;
+    /// Of curves as if a point that can be kept was known already. @throws InputError as BranchSettings::validate
+    void validate(RunKind kind, const Model& model) const;
 };
 
 /// One named computation.
@@ -77,7 +81,10 @@ struct StudyRun {
     std::vector<std::string> value_names, value_units;
     std::vector<Expression> values; ///< in states and parameters
 
-    bool is_branch() const { return kind == RunKind::orbit || kind == RunKind::follow; }
+    /// Whether its points are orbits.
+    bool is_branch() const { return kind == RunKind::orbit || is_followed(); }
+    /// Whether orbits are followed: along a branch, or a curve.
+    bool is_followed() const { return kind == RunKind::follow || kind == RunKind::curve; }
 };
 
 /// One picture or table made from runs. What is not said is chosen by `kind` and the run.
