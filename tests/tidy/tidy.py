@@ -34,7 +34,7 @@ def batch_text(sources):
     return "\n".join(lines) + "\n"
 
 
-def look_at(batch, output):
+def look_at(batch, build, output):
     """What clang-tidy finds, and whether that is nothing."""
     first = batch[0]
     source = pathlib.Path(first["file"])
@@ -47,11 +47,11 @@ def look_at(batch, output):
         (folder / "compile_commands.json").write_text(json.dumps([dict(first, file=str(path), command=command)]))
         words = ["clang-tidy", "--quiet", f"--config-file={ROOT}/.clang-tidy", "-p", str(folder), str(path)]
     else:
-        words = ["clang-tidy", "--quiet", "-p", first["build"], first["file"]]
+        words = ["clang-tidy", "--quiet", "-p", str(build), first["file"]]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     if len(batch) > 1 and "[clang-diagnostic-error]" in done.stdout:
         middle = len(batch) // 2
-        halves = [look_at(batch[:middle], output), look_at(batch[middle:], output)]
+        halves = [look_at(batch[:middle], build, output), look_at(batch[middle:], build, output)]
         return "".join(text for text, _ in halves), all(clean for _, clean in halves)
     return done.stdout + (done.stderr if done.returncode else ""), done.returncode == 0
 
@@ -64,14 +64,14 @@ def main(build, output, jobs):
         # Kernels are one text, compiled for several processors.
         if source.is_relative_to(ROOT / "src") and source.name not in ("jet_avx2.cpp", "jet_avx512.cpp"):
             alone = source.name == "jet_baseline.cpp"
-            by_folder[source if alone else source.parent].append(dict(command, build=str(build)))
+            by_folder[source if alone else source.parent].append(command)
     batches = []
     for sources in by_folder.values():
         parts = -(-len(sources) // MOST)
         batches += [sources[part::parts] for part in range(parts)]
     clean = True
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for text, good in pool.map(lambda batch: look_at(batch, output), batches):
+        for text, good in pool.map(lambda batch: look_at(batch, build, output), batches):
             print(text, end="", flush=True)
             clean = clean and good
     if not batches:
