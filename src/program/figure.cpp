@@ -167,8 +167,7 @@ private:
                               entry.style == Style::dotted || entry.style == Style::impulses;
             const std::string colour = colour_text(entry.colour);
             if (entry.sampled && line)
-                text += fmt::format("set arrow from {} to {} nohead {} lc rgb '{}'\n", at({entry.box.left, y}),
-                                    at({right, y}), line_text(entry.style), colour);
+                text += sample_commands(entry, right, y, colour);
             else if (entry.sampled)
                 text += fmt::format("set label \"\" at {} point pt {} ps {:.3g} lw 1.2 lc rgb '{}'\n", at(middle),
                                     entry.style == Style::symbols   ? entry.symbol
@@ -179,6 +178,19 @@ private:
             text += fmt::format("set label \"{}\" at {} left {}\n", terminal_.text(rich(entry.title)),
                                 at({entry.title_left, y}), terminal_.font_text(legend_font(page_.font)));
         }
+        return text;
+    }
+
+    /// A line of a style, dash by dash: not all of gnuplot's terminals have arrows with dashes.
+    std::string sample_commands(const LegendEntry& entry, double right, double y, const std::string& colour) const {
+        const bool dashed = entry.style == FigureSeries::Style::dashed,
+                   dotted = entry.style == FigureSeries::Style::dotted;
+        const double length = dashed ? 4 : dotted ? 1 : right - entry.box.left, gap = dashed ? 2.2 : 2; // points
+        const std::string width = dotted ? "lw 1.1" : dashed ? "lw 1.3" : line_text(entry.style);
+        std::string text;
+        for (double x = entry.box.left; x < right; x += length + gap)
+            text += fmt::format("set arrow from {} to {} nohead {} lc rgb '{}'\n", at({x, y}),
+                                at({std::min(x + length, right), y}), width, colour);
         return text;
     }
 
