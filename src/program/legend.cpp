@@ -86,7 +86,8 @@ double place_legend(std::vector<LegendEntry>& entries, double left, double top, 
     const double start = left + (width - (static_cast<double>(columns) * step - gap_of_columns * size)) / 2;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const double x = start + step * static_cast<double>(i % columns);
-        const double y = top - row_height * size * static_cast<double>(i / columns + 1);
+        const std::size_t row = i / columns + 1;
+        const double y = top - row_height * size * static_cast<double>(row);
         Box& box = entries[i].box;
         box = {x, y, x + box.width(), y + box.height()};
         entries[i].title_left = x + entries[i].sample + (entries[i].sampled ? gap * size : 0);
