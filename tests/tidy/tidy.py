@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Runs clang-tidy on all sources, several of a folder at once: what they include is parsed once and not for each.
 
-usage: tidy.py BUILD OUTPUT JOBS
+usage: tidy.py BUILD OUTPUT JOBS [OPTION...]
 
 BUILD has compile_commands.json; what is put together goes to OUTPUT. Sources whose names collide are looked at in
-smaller parts.
+smaller parts. Options go to clang-tidy.
 """
 import collections
 import concurrent.futures
@@ -34,7 +34,7 @@ def batch_text(sources):
     return "\n".join(lines) + "\n"
 
 
-def look_at(batch, build, output):
+def look_at(batch, build, output, options):
     """What clang-tidy finds, and whether that is nothing."""
     first = batch[0]
     source = pathlib.Path(first["file"])
@@ -45,18 +45,18 @@ def look_at(batch, build, output):
         path.write_text(batch_text([c["file"] for c in batch]), encoding="utf-8")
         command = first["command"].replace(first["file"], str(path))
         (folder / "compile_commands.json").write_text(json.dumps([dict(first, file=str(path), command=command)]))
-        words = ["clang-tidy", "--quiet", f"--config-file={ROOT}/.clang-tidy", "-p", str(folder), str(path)]
+        words = ["clang-tidy", "--quiet", f"--config-file={ROOT}/.clang-tidy", "-p", str(folder), *options, str(path)]
     else:
-        words = ["clang-tidy", "--quiet", "-p", str(build), first["file"]]
+        words = ["clang-tidy", "--quiet", "-p", str(build), *options, first["file"]]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     if len(batch) > 1 and "[clang-diagnostic-error]" in done.stdout:
         middle = len(batch) // 2
-        halves = [look_at(batch[:middle], build, output), look_at(batch[middle:], build, output)]
+        halves = [look_at(half, build, output, options) for half in (batch[:middle], batch[middle:])]
         return "".join(text for text, _ in halves), all(clean for _, clean in halves)
     return done.stdout + (done.stderr if done.returncode else ""), done.returncode == 0
 
 
-def main(build, output, jobs):
+def main(build, output, jobs, options):
     commands = json.loads((build / "compile_commands.json").read_text())
     by_folder = collections.defaultdict(list)
     for command in sorted(commands, key=lambda c: c["file"]):
@@ -71,7 +71,7 @@ def main(build, output, jobs):
         batches += [sources[part::parts] for part in range(parts)]
     clean = True
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for text, good in pool.map(lambda batch: look_at(batch, build, output), batches):
+        for text, good in pool.map(lambda batch: look_at(batch, build, output, options), batches):
             print(text, end="", flush=True)
             clean = clean and good
     if not batches:
@@ -79,4 +79,4 @@ def main(build, output, jobs):
     sys.exit(0 if clean else 1)
 
 
-main(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve(), int(sys.argv[3]))
+main(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve(), int(sys.argv[3]), sys.argv[4:])
