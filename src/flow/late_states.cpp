@@ -24,7 +24,8 @@ constexpr double growth = 2;
 void LateStates::set_parameters(std::span<const double> parameters) {
     require_size(parameters.size(), system_.parameters(), "independent parameters");
     parameters_.assign(parameters.begin(), parameters.end());
-    couplings_.reset();
+    if (couplings_)
+        couplings_->set_parameters(parameters_);
     begin();
 }
 
