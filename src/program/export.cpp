@@ -71,10 +71,8 @@ Table table_of(ResultTable& given) {
         for (std::size_t c = 0; c < rows.columns(); ++c)
             if (rows.is_text(c))
                 table.add(rows.text(c));
-            else if (!rows.is_null(c) && std::isinf(rows.number(c)))
-                table.add(rows.number(c) > 0 ? "inf" : "-inf");
             else
-                table.add(rows.is_null(c) ? std::nan("") : rows.number(c));
+                table.add_extended(rows.is_null(c) ? std::nan("") : rows.number(c));
     return table;
 }
 

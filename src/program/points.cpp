@@ -255,8 +255,8 @@ private:
         add_multiplier(solution);
         for (std::size_t m = 0; !for_people_ && m < multipliers_; ++m) {
             const bool known = m < solution.multipliers.size();
-            add_number(known ? solution.multipliers[m].real() : nothing);
-            add_number(known ? solution.multipliers[m].imag() : nothing);
+            table_.add_extended(known ? solution.multipliers[m].real() : nothing);
+            table_.add_extended(known ? solution.multipliers[m].imag() : nothing);
         }
         if (with_reason_ && for_people_)
             table_.add(solution.certificate.admissible ? "yes" : is_unphysical(record) ? "no" : "limit");
@@ -272,7 +272,7 @@ private:
         if (with_detail_)
             table_.add(cut(detail_of(record)));
         for (const ResultColumn& monitor : monitors_)
-            add_number(monitor_of(point, monitor.name));
+            table_.add_extended(monitor_of(point, monitor.name));
         if (for_people_)
             return;
         table_.add(solution.residual);
@@ -312,13 +312,6 @@ private:
             if (values[m].name == name)
                 return monitors[m];
         return nothing;
-    }
-    /// One that is infinite is said to be so.
-    void add_number(double value) {
-        if (std::isinf(value))
-            table_.add(value > 0 ? "inf" : "-inf");
-        else
-            table_.add(value);
     }
     void add_truth(bool holds) {
         if (for_people_)

@@ -17,6 +17,13 @@ void Table::add(std::string_view text) {
     cells_.push_back({0, found->second});
 }
 
+void Table::add_extended(double value) {
+    if (std::isinf(value))
+        add(value > 0 ? "inf" : "-inf");
+    else
+        add(value);
+}
+
 bool Table::is_missing(std::size_t row, std::size_t column) const {
     return !is_text(row, column) && !std::isfinite(number(row, column));
 }

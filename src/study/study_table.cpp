@@ -20,12 +20,7 @@ using Cell = std::variant<double, std::string>;
 Cell cell_of(const ResultFile::Rows& rows, std::size_t column) {
     if (rows.is_text(column))
         return rows.text(column);
-    if (rows.is_null(column))
-        return nothing;
-    const double value = rows.number(column);
-    if (std::isinf(value))
-        return std::string(value > 0 ? "inf" : "-inf");
-    return value;
+    return rows.is_null(column) ? nothing : rows.number(column);
 }
 
 /// Whether an expression has this name in it.
@@ -56,7 +51,7 @@ public:
         for (std::size_t r = 0; r < rows_.size(); ++r) {
             for (const Cell& cell : rows_[r])
                 if (const double* number = std::get_if<double>(&cell))
-                    table.add(*number);
+                    table.add_extended(*number);
                 else
                     table.add(std::get<std::string>(cell));
             for (const StudyTable::Column& ratio : asked_->ratios)
@@ -128,7 +123,7 @@ private:
     }
     double number(std::size_t row, std::size_t column) const {
         const double* value = row < rows_.size() ? std::get_if<double>(&rows_[row][column]) : nullptr;
-        return value ? *value : nothing;
+        return value && std::isfinite(*value) ? *value : nothing;
     }
     double ratio_at(std::size_t row, const std::string& name) const {
         std::size_t column = heading_;

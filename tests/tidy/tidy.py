@@ -1,20 +1,52 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy on all sources, several of a folder at once: what they include is parsed once and not for each.
+"""Runs clang-tidy on all sources, several at once: what they include is parsed once and not for each.
 
 usage: tidy.py BUILD OUTPUT JOBS [OPTION...]
 
-BUILD has compile_commands.json; what is put together goes to OUTPUT. Sources whose names collide are looked at in
-smaller parts. Options go to clang-tidy.
+BUILD has compile_commands.json; what is put together goes to OUTPUT. Sources whose own names collide are never put
+together; where that was not seen, a batch is looked at in halves. Options go to clang-tidy.
 """
-import collections
 import concurrent.futures
 import json
 import pathlib
+import re
 import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-MOST = 12  # sources in a batch
+MOST = 16  # sources in a batch
+# What begins in the first column and declares something: a function, a constant, a type or another name for one.
+DECLARED = re.compile(r"^(?:(?:struct|class|enum class|using) (\w+)|[A-Za-z][^=;(){]*?\b(\w+)(?=[({=;]| =|\[))")
+
+
+def own_names(source):
+    """Names that no other source may have beside this one: those of its unnamed namespaces."""
+    names = set()
+    inside = False
+    for line in source.read_text(encoding="utf-8").splitlines():
+        if line == "namespace {":
+            inside = True
+        elif line == "}  // namespace":
+            inside = False
+        elif inside and (found := DECLARED.match(line)):
+            names.add(found[1] or found[2])
+    return names
+
+
+def batches_of(commands):
+    """The sources, each in the first batch that has room and none of its names. Folders stay together as far as that
+    goes: they include the same."""
+    batches = []
+    for command in commands:
+        names = own_names(pathlib.Path(command["file"]))
+        for members, taken in batches:
+            if len(members) < MOST and not names & taken:
+                members.append(command)
+                taken |= names
+                break
+        else:
+            batches.append(([command], names))
+    return [members for members, _ in batches]
 
 
 def batch_text(sources):
@@ -43,13 +75,19 @@ def look_at(batch, build, output, options):
         folder.mkdir(parents=True, exist_ok=True)
         path = folder / source.name
         path.write_text(batch_text([c["file"] for c in batch]), encoding="utf-8")
-        command = first["command"].replace(first["file"], str(path))
+        # All that any of them is given, and the headers that lie beside them.
+        words = dict.fromkeys(word for c in batch for word in c["command"].split() if word.startswith("-D"))
+        words.update(dict.fromkeys(f"-iquote{pathlib.Path(c['file']).parent}" for c in batch))
+        command = " ".join([first["command"].replace(first["file"], str(path)), *words])
         (folder / "compile_commands.json").write_text(json.dumps([dict(first, file=str(path), command=command)]))
-        words = ["clang-tidy", "--quiet", f"--config-file={ROOT}/.clang-tidy", "-p", str(folder), *options, str(path)]
+        words = ["clang-tidy", "--quiet", f"--config-file={ROOT}/.clang-tidy", "-p", str(folder)]
+        # A name of one source may well be a local one of the next.
+        words += ["--extra-arg=-Wno-shadow", *options, str(path)]
     else:
         words = ["clang-tidy", "--quiet", "-p", str(build), *options, first["file"]]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
-    if len(batch) > 1 and "[clang-diagnostic-error]" in done.stdout:
+    # Whatever is found is told of a source alone: it may come from looking at several.
+    if len(batch) > 1 and done.returncode != 0:
         middle = len(batch) // 2
         halves = [look_at(half, build, output, options) for half in (batch[:middle], batch[middle:])]
         return "".join(text for text, _ in halves), all(clean for _, clean in halves)
@@ -58,17 +96,14 @@ def look_at(batch, build, output, options):
 
 def main(build, output, jobs, options):
     commands = json.loads((build / "compile_commands.json").read_text())
-    by_folder = collections.defaultdict(list)
+    own = []
+    alone = []
     for command in sorted(commands, key=lambda c: c["file"]):
         source = pathlib.Path(command["file"])
         # Kernels are one text, compiled for several processors.
         if source.is_relative_to(ROOT / "src") and source.name not in ("jet_avx2.cpp", "jet_avx512.cpp"):
-            alone = source.name == "jet_baseline.cpp"
-            by_folder[source if alone else source.parent].append(command)
-    batches = []
-    for sources in by_folder.values():
-        parts = -(-len(sources) // MOST)
-        batches += [sources[part::parts] for part in range(parts)]
+            (alone if source.name == "jet_baseline.cpp" else own).append(command)
+    batches = [[command] for command in alone] + batches_of(own)
     clean = True
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         for text, good in pool.map(lambda batch: look_at(batch, build, output, options), batches):

@@ -22,6 +22,8 @@ public:
     /// Adds one cell; cells fill row after row. A number that is not finite counts as missing.
     void add(double value);
     void add(std::string_view text);
+    /// Adds a number; one that is infinite as the text "inf" or "-inf".
+    void add_extended(double value);
 
     const std::vector<Column>& columns() const { return columns_; }
     std::size_t rows() const { return columns_.empty() ? 0 : cells_.size() / columns_.size(); }
