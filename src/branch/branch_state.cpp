@@ -135,8 +135,11 @@ bool BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std
         measure_multipliers(settings_.monitors, result.solution.multipliers, result.monitors);
     result.arclength = arclength(at.arclength);
     result.stable = is_stable(result.solution);
-    tests = branch_tests({equations, evaluation, result.solution, at.tangent, at.determinant, result.monitors,
-                          settings_, settings_.kept ? held_.back().get() : nullptr});
+    std::vector<Degeneracy> degeneracies;
+    if (settings_.kept)
+        degeneracies = held_.back()->degeneracies(equations, evaluation);
+    tests = branch_tests(
+        {equations, evaluation, result.solution, at.tangent, at.determinant, result.monitors, settings_, degeneracies});
     return true;
 }
 

@@ -144,8 +144,10 @@ bool Continuation::newton(std::vector<double>& u, std::span<const double> row, d
         const double size = size_of(step_);
         if (!std::isfinite(size) || std::sqrt(product(moved, moved)) > allowed)
             return false;
-        // Newton's method squares what is wrong: a correction this small has been the last one.
-        if (size < options_.accuracy ||
+        // Newton's method squares what is wrong: a correction this small has been the last one. One that is no smaller
+        // than the one before is round-off.
+        constexpr double round_off = 1e-11;
+        if (size < options_.accuracy || (iterations > 2 && size < round_off && size > 0.5 * before) ||
             (iterations > 1 && size < 0.1 * before && size * size < options_.accuracy * 1e-4)) {
             pace_ = iterations <= good_iterations ? growth : shrinkage;
             return problem_->evaluate(u);

@@ -330,6 +330,12 @@ private:
             });
     }
 
+    /// A torus leaves the orbit as long as the pair is complex.
+    bool ends_torus_curve(const SpecialPoint& special) const {
+        return state_.settings().kept && state_.settings().kept->type == PointType::torus &&
+               (special.type == PointType::resonance_1 || special.type == PointType::resonance_2);
+    }
+
     /// Ends the branch where what was found says so.
     void judge(bool was_admissible) {
         // The branch ends in the special point itself, not beyond it.
@@ -351,6 +357,10 @@ private:
                 found[i].detail = back_on_regular;
                 cut_after(i);
                 return finish(BranchOutcome::returned, found[i].detail);
+            }
+            if (ends_torus_curve(found[i])) {
+                cut_after(i);
+                return finish(BranchOutcome::stopped, "beyond, the two multipliers are real");
             }
             if (is_among(found[i].type, state_.settings().stop_at)) {
                 cut_after(i);

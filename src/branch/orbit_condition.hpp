@@ -1,13 +1,22 @@
 #pragma once
 
+#include "graze/branch/special_point.hpp"
 #include "orbit/orbit_equations.hpp"
 
 #include <Eigen/Core>
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace graze {
+
+/// A number that is zero where points at which a condition holds are of a more special kind, and changes its sign
+/// there.
+struct Degeneracy {
+    PointType type = PointType::end;
+    double value = 0; ///< NaN where it has no meaning
+};
 
 /// A number of an orbit as a function of the unknowns of its equations, with its exact gradient, that is zero where the
 /// condition holds. One thing in many roles: a monitor that is held, the speed at which an event is to be met, what
@@ -25,18 +34,17 @@ public:
     /// Moves it to another segment, as where the signature has changed: the same quantity there.
     virtual void set_segment(std::optional<std::size_t>) {}
 
+    /// Of the points at which it holds, where it has been evaluated last: always as many, in the same order.
+    virtual std::vector<Degeneracy> degeneracies(const OrbitEquations&, const OrbitEvaluation&) { return {}; }
+
     /// What there is too much; zero where the condition holds.
     double value() const { return value_; }
     /// With respect to all unknowns.
     const Eigen::RowVectorXd& gradient() const { return gradient_; }
-    /// Zero where the points at which it holds are themselves of a more special kind, if that is known: of folds, at a
-    /// cusp. Changes its sign there.
-    std::optional<double> degeneracy() const { return degeneracy_; }
 
 protected:
     double value_ = 0;
     Eigen::RowVectorXd gradient_;
-    std::optional<double> degeneracy_;
 };
 
 } // namespace graze

@@ -2,6 +2,7 @@
 
 #include "branch/branch_state.hpp"
 #include "branch/grazing_switch.hpp"
+#include "branch/normal_form.hpp"
 #include "branch/orbit_quantity.hpp"
 #include "branch/other_branch.hpp"
 #include "branch/reordering.hpp"
@@ -78,6 +79,12 @@ void test_asymmetry(const TestedPoint& point, Tests& tests) {
         {.type = PointType::asymmetry, .value = tested ? point.at.system.antiperiodic_determinant() : nothing});
 }
 
+bool confirm_flip(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    if (const auto coefficient = flip_coefficient(state.problem().equations(), state.problem().evaluation()))
+        special.detail = fmt::format("{}critical, c = {:.6g}", *coefficient > 0 ? "super" : "sub", *coefficient);
+    return special.located;
+}
+
 std::unique_ptr<OrbitCondition> condition_of_flip(const OrbitEquations& equations, const OrbitEvaluation& at,
                                                   const SpecialPoint&) {
     return SingularCondition::of_multiplier(equations, at, -1);
@@ -129,7 +136,9 @@ void test_torus(const TestedPoint& point, Tests& tests) {
     tests.push_back(test);
 }
 
-bool confirm_torus(BranchState&, SpecialPoint& special, const BranchTest&) {
+bool confirm_torus(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    if (const auto coefficient = torus_coefficient(state.problem().equations(), state.problem().evaluation()))
+        special.detail = fmt::format("{}critical, d = {:.6g}", *coefficient < 0 ? "super" : "sub", *coefficient);
     const auto& multipliers = own_multipliers(special.solution);
     return special.located && std::any_of(multipliers.begin(), multipliers.end(), [](auto one) {
                return std::abs(one.imag()) > 1e-6 && std::abs(std::abs(one) - 1) < 1e-5;
@@ -283,11 +292,18 @@ std::vector<BranchStart> leave_order(const System& system, const SpecialPoint& p
     return {with_events_reordered(system, point, settings)};
 }
 
-// Cusps: where two folds meet.
+// What is more special still on a curve of special points, of which their own condition knows.
 
-void test_cusp(const TestedPoint& point, Tests& tests) {
-    if (is_kept(point, PointType::fold))
-        tests.push_back({.type = PointType::cusp, .value = point.kept->degeneracy().value_or(nothing)});
+template <PointType Type>
+void test_degeneracy(const TestedPoint& point, Tests& tests) {
+    for (const Degeneracy& one : point.degeneracies)
+        if (one.type == Type)
+            tests.push_back({.type = Type, .value = one.value});
+}
+
+bool confirm_generalised(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    special.detail = state.settings().kept->type == PointType::asymmetry ? "of a loss of symmetry" : "";
+    return special.located;
 }
 
 // Extrema of the period. Where a parameter fixes it, as the frequency of a force, it turns with the parameter at each
@@ -436,6 +452,7 @@ constexpr std::array table{
                        .may_be_kept = true,
                        .mark = 9},
               .test = test_flip,
+              .confirm = confirm_flip,
               .condition = condition_of_flip,
               .leave = leave_flip},
     PointRule{.kind = {.type = PointType::torus,
@@ -466,6 +483,7 @@ constexpr std::array table{
                        .may_be_kept = true,
                        .mark = 5},
               .test = test_asymmetry,
+              .confirm = confirm_flip,
               .condition = condition_of_flip,
               .leave = leave_asymmetry},
     PointRule{.kind = {.type = PointType::grazing,
@@ -519,7 +537,30 @@ constexpr std::array table{
               .condition = condition_of_guard,
               .leave = leave_order},
     PointRule{.kind = {.type = PointType::cusp, .short_name = "CP", .name = "cusp", .may_stop = true, .mark = 3},
-              .test = test_cusp},
+              .test = test_degeneracy<PointType::cusp>},
+    PointRule{.kind = {.type = PointType::generalised,
+                       .short_name = "GF",
+                       .name = "generalised flip",
+                       .may_stop = true,
+                       .mark = 11},
+              .test = test_degeneracy<PointType::generalised>,
+              .confirm = confirm_generalised},
+    PointRule{
+        .kind =
+            {.type = PointType::resonance_1, .short_name = "R1", .name = "1:1 resonance", .may_stop = true, .mark = 6},
+        .test = test_degeneracy<PointType::resonance_1>},
+    PointRule{
+        .kind =
+            {.type = PointType::resonance_2, .short_name = "R2", .name = "1:2 resonance", .may_stop = true, .mark = 6},
+        .test = test_degeneracy<PointType::resonance_2>},
+    PointRule{
+        .kind =
+            {.type = PointType::resonance_3, .short_name = "R3", .name = "1:3 resonance", .may_stop = true, .mark = 6},
+        .test = test_degeneracy<PointType::resonance_3>},
+    PointRule{
+        .kind =
+            {.type = PointType::resonance_4, .short_name = "R4", .name = "1:4 resonance", .may_stop = true, .mark = 6},
+        .test = test_degeneracy<PointType::resonance_4>},
     PointRule{
         .kind = {.type = PointType::extremum, .short_name = "EX", .name = "extremum", .may_stop = true, .mark = 1},
         .test = test_extremum,

@@ -42,7 +42,7 @@ struct TestedPoint {
     double determinant;              ///< of the equations bordered by the tangent
     std::span<const double> monitors;
     const BranchSettings& settings;
-    const OrbitCondition* kept; ///< what makes the branch a curve of special points; null: it is none
+    std::span<const Degeneracy> degeneracies; ///< of the points that a curve keeps
 };
 
 /// One kind of special points, all that is done for it: what the table has an entry for.

@@ -92,6 +92,18 @@ void drop_crossings_of_nothing(BranchState& state, std::vector<SpecialPoint>& fo
     });
 }
 
+void drop_multipliers_of_resonances(std::vector<SpecialPoint>& found, double length) {
+    constexpr double same_place = 1e-4;
+    const std::vector<SpecialPoint> all = found;
+    std::erase_if(found, [&](const SpecialPoint& one) {
+        return std::any_of(all.begin(), all.end(), [&](const SpecialPoint& other) {
+            const bool same = (one.type == PointType::fold && other.type == PointType::resonance_1) ||
+                              (one.type == PointType::flip && other.type == PointType::resonance_2);
+            return same && std::abs(one.arclength - other.arclength) < same_place * length;
+        });
+    });
+}
+
 void drop_folds_of_return(BranchState& state, std::vector<SpecialPoint>& found, double length) {
     constexpr double near = 0.05; // share of the step: both are located where they are ill-conditioned
     for (std::size_t i = 0; i < found.size(); ++i) {

@@ -25,6 +25,9 @@ void merge(std::vector<SpecialPoint>& found, double length);
 /// branch of orbits. A crossing near such a point is dropped if the equations are singular at that point itself.
 void drop_crossings_of_nothing(BranchState& state, std::vector<SpecialPoint>& found, double length);
 
+/// Where the pair that a curve keeps on the unit circle becomes real it is 1 or -1 twice: no fold or flip besides.
+void drop_multipliers_of_resonances(std::vector<SpecialPoint>& found, double length);
+
 /// Where a branch comes back to the one that it left, the parameter turns: no fold of its own.
 void drop_folds_of_return(BranchState& state, std::vector<SpecialPoint>& found, double length);
 

@@ -1,9 +1,12 @@
 #include "branch/singular_condition.hpp"
 
+#include "branch/normal_form.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
 
 namespace graze {
 
@@ -19,6 +22,24 @@ Eigen::VectorXd units_of_rows(const OrbitEquations& equations, const OrbitEvalua
     Eigen::VectorXd result(index(at.pieces.size()) * (n + 1));
     for (std::size_t k = 0; k < at.pieces.size(); ++k)
         result.segment(index(k) * (n + 1), n + 1) << at.pieces[k].condition_unit, at.scales.head(n);
+    return result;
+}
+
+using Multipliers = std::vector<std::complex<double>>;
+
+/// Two that belong together, conjugate or both real, whose sum and product are nearest to these.
+std::optional<std::pair<std::complex<double>, std::complex<double>>> pair_near(const Multipliers& all, double sum,
+                                                                               double product) {
+    std::optional<std::pair<std::complex<double>, std::complex<double>>> result;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t j = i + 1; j < all.size(); ++j) {
+            const double distance = std::abs(all[i] + all[j] - sum) + std::abs(all[i] * all[j] - product);
+            if ((all[i].imag() == 0) == (all[j].imag() == 0) && distance < nearest) {
+                nearest = distance;
+                result = {all[i], all[j]};
+            }
+        }
     return result;
 }
 
@@ -67,9 +88,8 @@ bool SingularCondition::evaluate(const OrbitEquations& equations, const OrbitEva
         !contract(equations, at, left, right, gradients))
         return false;
     gradient_ = -gradients.row(0);
-    // How the value changes along the null vector: zero where not even the second derivatives part the orbits.
-    if (multiplier_ > 0)
-        degeneracy_ = gradient_.head(right.size()).dot(in_units(right)) / right.norm();
+    along_ = gradient_.head(right.size()).dot(in_units(right)) / right.norm();
+    simplicity_ = matrix(equations, at, multiplier_).closing_product(left, right) / (left.norm() * right.norm());
     return std::isfinite(value_) && gradient_.allFinite();
 }
 
@@ -84,38 +104,64 @@ void SingularCondition::renew(const OrbitEquations& equations, const OrbitEvalua
     left_ = left;
 }
 
+std::vector<Degeneracy> SingularCondition::degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    if (multiplier_ > 0)
+        return {{PointType::cusp, along_}, {PointType::resonance_1, simplicity_}};
+    const double nothing = std::numeric_limits<double>::quiet_NaN();
+    return {{PointType::generalised, flip_coefficient(equations, at).value_or(nothing)},
+            {PointType::resonance_2, simplicity_}};
+}
+
 TorusCondition::TorusCondition(const OrbitEquations& equations, const OrbitEvaluation& at,
                                std::complex<double> multiplier)
-    : MultiplierCondition(equations, at), multiplier_(multiplier) {}
+    : MultiplierCondition(equations, at), sum_(2 * multiplier.real()), product_(std::norm(multiplier)) {}
 
 std::unique_ptr<OrbitCondition> TorusCondition::of_pair(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
-    std::optional<std::complex<double>> nearest;
-    const auto distance = [](std::complex<double> one) { return std::abs(std::log(std::abs(one))); };
-    for (const std::complex<double> one : CyclicMatrix(at.system, 1, ones, ones).multipliers())
-        if (one.imag() > 0 && (!nearest || distance(one) < distance(*nearest)))
-            nearest = one;
+    const auto nearest = pair_on_circle(equations, at);
     if (!nearest)
         return nullptr;
     return std::unique_ptr<OrbitCondition>(new TorusCondition(equations, at, *nearest));
 }
 
 bool TorusCondition::evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    CyclicMatrix::Multiplier one;
-    if (!matrix(equations, at, 1).multiplier_near(multiplier_, one) || !(one.value.imag() > 0))
+    const CyclicMatrix here = matrix(equations, at, 1);
+    const auto pair = pair_near(here.multipliers(), sum_, product_);
+    CyclicMatrix::Multiplier first, second;
+    Eigen::RowVectorXcd by_first, by_second;
+    if (!pair || !here.multiplier_near(pair->first, first) || !change_of(equations, at, first, by_first))
         return false;
-    multiplier_ = one.value;
-    value_ = std::norm(one.value) - 1;
-    // The multiplier changes by -l^T dA r; both vectors are complex.
+    if (pair->first.imag() != 0) {
+        gradient_ = 2 * (std::conj(first.value) * by_first).real();
+    } else {
+        if (!here.multiplier_near(pair->second, second) || !change_of(equations, at, second, by_second))
+            return false;
+        gradient_ = (first.value * by_second + second.value * by_first).real();
+    }
+    sum_ = (pair->first + pair->second).real();
+    product_ = (pair->first * pair->second).real();
+    value_ = product_ - 1;
+    return std::isfinite(value_) && gradient_.allFinite();
+}
+
+/// A multiplier changes by -l^T dA r; both vectors may be complex.
+bool TorusCondition::change_of(const OrbitEquations& equations, const OrbitEvaluation& at,
+                               const CyclicMatrix::Multiplier& one, Eigen::RowVectorXcd& change) {
     Eigen::MatrixXd left(one.left.size(), 2), by_real, by_imaginary;
     left << one.left.real(), one.left.imag();
     if (!contract(equations, at, left, one.right.real(), by_real) ||
         !contract(equations, at, left, one.right.imag(), by_imaginary))
         return false;
-    const Eigen::RowVectorXd real = by_imaginary.row(1) - by_real.row(0),
-                             imaginary = -by_real.row(1) - by_imaginary.row(0);
-    gradient_ = 2 * (one.value.real() * real + one.value.imag() * imaginary);
-    return std::isfinite(value_) && gradient_.allFinite();
+    change.resize(by_real.cols());
+    change.real() = by_imaginary.row(1) - by_real.row(0);
+    change.imag() = -by_real.row(1) - by_imaginary.row(0);
+    return true;
+}
+
+std::vector<Degeneracy> TorusCondition::degeneracies(const OrbitEquations&, const OrbitEvaluation&) {
+    return {{PointType::resonance_1, sum_ - 2},
+            {PointType::resonance_2, sum_ + 2},
+            {PointType::resonance_3, sum_ + 1},
+            {PointType::resonance_4, sum_}};
 }
 
 } // namespace graze

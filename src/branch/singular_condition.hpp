@@ -46,26 +46,36 @@ public:
     bool evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) override;
     /// The null vectors here become the borders, which stay far from singular however long the branch is.
     void renew(const OrbitEquations& equations, const OrbitEvaluation& at) override;
+    /// Of folds a cusp and the 1:1 resonance, of flips the generalised one and the 1:2 resonance.
+    std::vector<Degeneracy> degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at) override;
 
 private:
     SingularCondition(const OrbitEquations& equations, const OrbitEvaluation& at, double multiplier);
 
     double multiplier_;
     Eigen::VectorXd right_, left_; ///< the borders
+    /// Where it has been evaluated last: how the value changes along the null vector, zero where not even the second
+    /// derivatives part the orbits; and with the multiplier, zero where that is not simple.
+    double along_ = 0, simplicity_ = 0;
 };
 
-/// A pair of complex multipliers has the modulus 1, as where a torus leaves the orbit: the value is |mu|^2 - 1.
+/// A pair of complex multipliers has the modulus 1, as where a torus leaves the orbit: the value is their product less
+/// one. So it goes on smoothly where the pair becomes real at 1 or -1, beyond which nothing leaves the orbit.
 class TorusCondition final : public MultiplierCondition {
 public:
     /// Of the complex pair that is nearest to the unit circle. @return none when there is none
     static std::unique_ptr<OrbitCondition> of_pair(const OrbitEquations& equations, const OrbitEvaluation& at);
     /// Follows the pair from one evaluation to the next: it is the one nearest to where it was.
     bool evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) override;
+    /// Resonances 1:1 to 1:4.
+    std::vector<Degeneracy> degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at) override;
 
 private:
     TorusCondition(const OrbitEquations& equations, const OrbitEvaluation& at, std::complex<double> multiplier);
+    bool change_of(const OrbitEquations& equations, const OrbitEvaluation& at, const CyclicMatrix::Multiplier& one,
+                   Eigen::RowVectorXcd& change);
 
-    std::complex<double> multiplier_;
+    double sum_, product_; ///< of the pair
 };
 
 } // namespace graze

@@ -144,6 +144,10 @@ bool CyclicMatrix::bordered(const Eigen::VectorXd& b, const Eigen::VectorXd& c, 
     return true;
 }
 
+double CyclicMatrix::closing_product(const Eigen::VectorXd& left, const Eigen::VectorXd& right) const {
+    return left.tail(n_ + 1).dot(next_.back() * right.head(n_));
+}
+
 std::vector<std::complex<double>> CyclicMatrix::multipliers() const {
     CyclicSystem system = direct({});
     std::vector<std::pair<std::complex<double>, Eigen::Index>> all;

@@ -28,6 +28,9 @@ public:
     bool bordered(const Eigen::VectorXd& b, const Eigen::VectorXd& c, Eigen::VectorXd& right, Eigen::VectorXd& left,
                   double& value) const;
 
+    /// left^T (dA / d factor) right, times the factor's sign: zero where a multiplier that is the factor is not simple.
+    double closing_product(const Eigen::VectorXd& left, const Eigen::VectorXd& right) const;
+
     /// All that are finite. For a matrix that was made with the factor 1, as below.
     std::vector<std::complex<double>> multipliers() const;
     /// A multiplier with its vectors, scaled so that a change dA of the matrix changes it by -left^T dA right.

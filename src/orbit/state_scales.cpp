@@ -23,6 +23,7 @@ void StateScales::note(std::span<const double> state) {
 
 std::vector<double> StateScales::choose(std::span<const double> periods, const Eigen::MatrixXd& coupling) {
     constexpr double smallest_share = 1e-3; // of the size, for what hardly moves
+    constexpr double at_rest = 1e-14;
     constexpr double smallest_scale = 1e-2; // of the largest so far
     // What is smaller than the others by this is zero, by a symmetry, but for what has not decayed yet.
     constexpr double negligible = 1e-25;
@@ -33,7 +34,10 @@ std::vector<double> StateScales::choose(std::span<const double> periods, const E
     for (std::size_t i = 0; i < n; ++i) {
         double& scale = own[i];
         scale = periods[i] > 0 ? periods[i] : greatest_[i] - least_[i];
-        if (!(scale > smallest_share * sizes_[i]))
+        // Of what rests all along the orbit, as between the jumps of a map, nothing but its size is known.
+        if (!(scale > at_rest * sizes_[i]))
+            scale = sizes_[i];
+        else if (!(scale > smallest_share * sizes_[i]))
             scale = smallest_share * sizes_[i];
         if (!std::isfinite(scale))
             scale = 1;

@@ -24,6 +24,11 @@ enum class PointType {
     two_events,   ///< EE: two events happen at once
     guard,        ///< GU: the guard after a jump is about to choose another mode
     cusp,         ///< CP: on a curve of folds, two of them meet: it turns in both parameters
+    generalised,  ///< GF: on a curve of flips, or of losses of symmetry: what leaves is neither stable nor unstable yet
+    resonance_1,  ///< R1: on a curve of folds or torus points: two multipliers are 1
+    resonance_2,  ///< R2: on a curve of flips or torus points: two multipliers are -1
+    resonance_3,  ///< R3: on a curve of torus points: a pair of multipliers are third roots of 1
+    resonance_4,  ///< R4: on a curve of torus points: a pair of multipliers is i and -i
     extremum,     ///< EX: the period, where it is free, is longest or shortest; or a parameter, on a curve
     bound,        ///< BD: a bound that was given is reached
     crossing,     ///< UZ: a monitor takes a value that was asked for

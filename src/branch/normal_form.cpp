@@ -1,0 +1,171 @@
+#include "branch/normal_form.hpp"
+
+#include "orbit/cyclic_matrix.hpp"
+#include "orbit/eigen_index.hpp"
+#include "orbit/second_variation.hpp"
+
+#include <Eigen/Dense>
+
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::RowVectorXcd;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+
+/// The equations of an orbit about it, in units of the scales.
+class Expansion {
+public:
+    /// More unknowns than that are not written out as one matrix.
+    static constexpr std::size_t most_unknowns = 600;
+
+    Expansion(const OrbitEquations& equations, const OrbitEvaluation& at)
+        : equations_(equations), shifted_(at), variation_(equations),
+          columns_(at.scales.head(index(equations.layout().start_of(at.pieces.size())))), rows_(columns_.size()),
+          fixed_(MatrixXd::Zero(columns_.size(), columns_.size())), closing_(fixed_) {
+        const auto n = index(equations.layout().states()), pieces = index(at.pieces.size());
+        for (Eigen::Index k = 0; k < pieces; ++k) { // blocks are in these units already
+            const CyclicSystem::Block& block = at.system.block(static_cast<std::size_t>(k));
+            const Eigen::Index place = k * (n + 1);
+            rows_.segment(place, n + 1) << at.pieces[static_cast<std::size_t>(k)].condition_unit, at.scales.head(n);
+            fixed_.block(place, place, n + 1, n + 1) += block.own;
+            const bool closes = k + 1 == pieces;
+            (closes ? closing_ : fixed_).block(place, closes ? 0 : place + n + 1, n + 1, n) += block.next;
+        }
+    }
+
+    MatrixXcd closed_by(Complex factor) const { return fixed_ + factor * closing_; }
+    const MatrixXd& closing() const { return closing_; }
+    /// What starts gain along a vector, in the model's units.
+    double length_of_start(const VectorXcd& vector) const {
+        const auto n = index(equations_.layout().states());
+        return vector.head(n).cwiseProduct(columns_.head(n)).norm();
+    }
+
+    /// F_2(v, .), as a matrix. @return false where the motion cannot be followed
+    bool second(const VectorXcd& vector, MatrixXcd& result) {
+        const auto count = columns_.size();
+        MatrixXd real, imaginary = MatrixXd::Zero(count, count);
+        if (!contract(MatrixXd::Identity(count, count), vector.real(), real) ||
+            (vector.imag().squaredNorm() > 0 && !contract(MatrixXd::Identity(count, count), vector.imag(), imaginary)))
+            return false;
+        result = real + Complex(0, 1) * imaginary;
+        return true;
+    }
+
+    /// l^T F_3(v, v, .) by differences of fourth order.
+    bool third(const VectorXcd& left, const VectorXd& vector, RowVectorXcd& result) {
+        constexpr double step = 1e-3; // of the scales
+        MatrixXd weights(left.size(), 2), one, sum = MatrixXd::Zero(2, columns_.size());
+        weights << left.real(), left.imag();
+        const VectorXd here = shifted_.unknowns;
+        const auto at = [&](double length, double weight) {
+            shifted_.unknowns.head(columns_.size()) += length * columns_.cwiseProduct(vector);
+            const bool followed = contract(weights, vector, one);
+            shifted_.unknowns = here;
+            if (followed)
+                sum += weight / (12 * step) * one;
+            return followed;
+        };
+        if (!at(step, 8) || !at(-step, -8) || !at(2 * step, -1) || !at(-2 * step, 1))
+            return false;
+        result = sum.row(0) + Complex(0, 1) * sum.row(1);
+        return true;
+    }
+
+private:
+    bool contract(const MatrixXd& left, const VectorXd& right, MatrixXd& result) {
+        MatrixXd gradients;
+        if (!variation_.contract(equations_, shifted_, rows_.cwiseInverse().asDiagonal() * left,
+                                 right.cwiseProduct(columns_), gradients))
+            return false;
+        result = gradients.leftCols(columns_.size()) * columns_.asDiagonal();
+        return true;
+    }
+
+    const OrbitEquations& equations_;
+    OrbitEvaluation shifted_;
+    SecondVariation variation_;
+    VectorXd columns_, rows_;  ///< units of starts and durations, and of the equations
+    MatrixXd fixed_, closing_; ///< A(mu) = fixed + mu closing
+};
+
+/// Vectors that a singular matrix takes to zero from the right and from the left, by bordering it (Govaerts 2000).
+void null_vectors(const MatrixXcd& matrix, VectorXcd& right, VectorXcd& left) {
+    const Eigen::Index count = matrix.rows();
+    MatrixXcd bordered = MatrixXcd::Zero(count + 1, count + 1);
+    bordered.topLeftCorner(count, count) = matrix;
+    for (Eigen::Index i = 0; i < count; ++i) {
+        bordered(i, count) = std::cos(2.4 * static_cast<double>(i));
+        bordered(count, i) = std::cos(1.7 * static_cast<double>(i) + 1);
+    }
+    const VectorXcd last = VectorXcd::Unit(count + 1, count);
+    for (int repetition = 0; repetition < 2; ++repetition) { // the second with borders that are far from singular
+        right = bordered.partialPivLu().solve(last).head(count).normalized();
+        left = bordered.transpose().partialPivLu().solve(last).head(count).normalized();
+        bordered.col(count).head(count) = left.conjugate();
+        bordered.row(count).head(count) = right.adjoint();
+    }
+}
+
+/// F_3(q, q, q*) + 2 F_2(q, z_11) + F_2(q*, z_20), projected on the critical direction, where z_11 and z_20 are what
+/// the square of the motion along q adds to its mean and to its second harmonic.
+std::optional<Complex> cubic_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                         Complex multiplier) {
+    if (equations.layout().start_of(at.pieces.size()) > Expansion::most_unknowns)
+        return std::nullopt;
+    Expansion expansion(equations, at);
+    VectorXcd q, left;
+    null_vectors(expansion.closed_by(multiplier), q, left);
+    q /= expansion.length_of_start(q);
+    const Complex product = left.transpose() * (expansion.closing() * q);
+    const VectorXcd conjugate = q.conjugate();
+    MatrixXcd with_q;
+    RowVectorXcd with_real, with_imaginary = RowVectorXcd::Zero(q.size());
+    if (!q.allFinite() || !expansion.second(q, with_q) || !expansion.third(left, q.real(), with_real) ||
+        (multiplier.imag() != 0 && !expansion.third(left, q.imag(), with_imaginary)))
+        return std::nullopt;
+    const VectorXcd square = with_q * q, modulus = with_q * conjugate;
+    const VectorXcd mean = -expansion.closed_by(1).partialPivLu().solve(modulus);
+    const VectorXcd second = -expansion.closed_by(multiplier * multiplier).partialPivLu().solve(square);
+    // q q q* = (a a + b b) (a + i b) for q = a + i b; and F_2 is real.
+    const VectorXcd from_second = with_q.conjugate() * second + 2.0 * with_q * mean;
+    const Complex third = (with_real + with_imaginary) * q, rest = left.transpose() * from_second;
+    const Complex result = -(third + rest) / product;
+    if (!std::isfinite(result.real()) || !std::isfinite(result.imag()))
+        return std::nullopt;
+    return result;
+}
+
+} // namespace
+
+std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    const auto cubic = cubic_coefficient(equations, at, -1);
+    return cubic ? std::optional(cubic->real() / 6) : std::nullopt;
+}
+
+std::optional<double> torus_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    const auto multiplier = pair_on_circle(equations, at);
+    if (!multiplier)
+        return std::nullopt;
+    const auto cubic = cubic_coefficient(equations, at, *multiplier);
+    return cubic ? std::optional((std::conj(*multiplier) * *cubic).real() / 2) : std::nullopt;
+}
+
+std::optional<Complex> pair_on_circle(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    const VectorXd ones = VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
+    std::optional<Complex> nearest;
+    const auto distance = [](Complex one) { return std::abs(std::log(std::abs(one))); };
+    for (const Complex one : CyclicMatrix(at.system, 1, ones, ones).multipliers())
+        if (one.imag() > 0 && (!nearest || distance(one) < distance(*nearest)))
+            nearest = one;
+    return nearest;
+}
+
+} // namespace graze

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "orbit/orbit_equations.hpp"
+
+#include <complex>
+#include <optional>
+
+namespace graze {
+
+// Normal forms of orbits at which multipliers lie on the unit circle (Yu. A. Kuznetsov, "Elements of Applied
+// Bifurcation Theory", 2004, sections 5.4 and 8.7), for the map from one first start to the next. The critical vector's
+// starts have Euclidean length 1 in the model's units, and the adjoint one the product 1 with it.
+//
+// They are computed from the equations of all segments, in which the map is never formed: with A(mu) the matrix closed
+// by the factor mu, and F_2, F_3 the second and third derivatives of the equations by starts and durations. Second ones
+// are exact; third ones are differences of those.
+
+/// Coefficient c of the flip, w -> -w + c w^3: an orbit of twice the period leaves, stable for c > 0 if the one that it
+/// leaves had no other unstable direction (supercritical). Of the half of a symmetric orbit: an orbit without symmetry.
+/// @param at evaluation at an orbit with a multiplier -1. @return none where it cannot be computed
+std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at);
+
+/// Coefficient d of the torus, |w| -> |w| (1 + d |w|^2): it is stable for d < 0 (supercritical), likewise.
+/// @param at evaluation at an orbit with two multipliers on the unit circle
+std::optional<double> torus_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at);
+
+/// The complex multiplier, of those above the real axis, that is nearest to the unit circle; if there is one.
+std::optional<std::complex<double>> pair_on_circle(const OrbitEquations& equations, const OrbitEvaluation& at);
+
+} // namespace graze

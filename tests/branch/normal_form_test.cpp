@@ -1,0 +1,268 @@
+// Normal forms and points of codimension two: of maps, against what their derivatives by hand say, and of an impacting
+// motion, against how far the new branch has opened.
+
+#include "follow.hpp"
+#include "impact_oscillator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+using Complex = std::complex<double>;
+constexpr double pi = std::numbers::pi;
+
+/// States that rest but for what a map makes of them once in each unit of time.
+Model map_model(const std::string& parameters, const std::string& x, const std::string& y) {
+    return model_from(fmt::format(R"toml(
+[parameters]
+{}
+[states]
+x = 0
+y = 0
+clock = 0
+[modes.rest]
+rates = {{ x = 0, y = 0, clock = 1 }}
+watch = ["tick"]
+[events.tick]
+function = "1 - clock"
+[jumps.map]
+x = "{}"
+y = "{}"
+clock = 0
+[[transitions]]
+mode = "rest"
+event = "tick"
+jump = "map"
+next = "rest"
+label = "map"
+[initial]
+mode = "rest"
+)toml",
+                                  parameters, x, y));
+}
+
+Orbit fixed_point(const Model& model, double x, double y) {
+    return {parse_signature(model, "map"), model.parameter_values(), {{x, y, 0}}, {1}, {}};
+}
+
+double value_of(const Model& model, const OrbitSolution& solution, const std::string& parameter) {
+    return solution.orbit.parameters[model.independent_parameter(parameter).place()];
+}
+
+BranchSettings in_parameter(const Model& model, const std::string& name, double least, double greatest) {
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter(name);
+    settings.least = least;
+    settings.greatest = greatest;
+    return settings;
+}
+
+Branch curve_of(const Model& model, const SpecialPoint& point, BranchSettings settings, const std::string& further,
+                double least, double greatest, int direction) {
+    settings.kept = point;
+    settings.free = {model.independent_parameter(further)};
+    settings.free_bounds = {{settings.free[0], least, greatest}};
+    settings.direction = direction;
+    return follow_branch(model, point.solution.orbit, settings);
+}
+
+/// The number behind the last `=` of a detail.
+double coefficient_of(const SpecialPoint& point) {
+    return std::stod(point.detail.substr(point.detail.rfind('=') + 1));
+}
+
+TEST(NormalForm, flip_of_the_logistic_map_is_supercritical) {
+    const Model model = map_model("r = 2.5", "r*x*(1 - x)", "0.1*y");
+    const Branch branch = follow_branch(model, fixed_point(model, 0.6, 0), in_parameter(model, "r", 1.5, 3.4));
+    ASSERT_EQ(names(branch), "PD BD") << name_of(branch.outcome) << branch.detail << branch.points.size();
+    EXPECT_NEAR(branch.special[0].parameter, 3, 1e-12);
+    // f'' = -2 r and f''' = 0: c = (f'' / 2)^2 + f''' / 6.
+    EXPECT_NE(branch.special[0].detail.find("supercritical"), std::string::npos) << branch.special[0].detail;
+    EXPECT_NEAR(coefficient_of(branch.special[0]), 9, 1e-4);
+}
+
+TEST(NormalForm, cubic_terms_make_flips_subcritical) {
+    // x -> -(1 + p) x + q x^2 + s x^3: c = q^2 + s.
+    for (const double s : {-2.0, -0.5, 1.0}) {
+        const Model model =
+            map_model(fmt::format("p = -0.2\nq = 1.0\ns = {}", s), "-(1 + p)*x + q*x^2 + s*x^3", "0.1*y");
+        const Branch branch = follow_branch(model, fixed_point(model, 0, 0), in_parameter(model, "p", -0.5, 0.5));
+        ASSERT_EQ(names(branch), "PD BD");
+        EXPECT_NEAR(coefficient_of(branch.special[0]), 1 + s, 1e-5);
+        EXPECT_EQ(branch.special[0].detail.starts_with("super"), 1 + s > 0) << branch.special[0].detail;
+    }
+}
+
+TEST(NormalForm, generalised_flip_is_found_where_the_coefficient_vanishes) {
+    const Model model = map_model("p = -0.2\nq = 1.0\ns = -2", "-(1 + p)*x + q*x^2 + s*x^3", "0.1*y");
+    BranchSettings settings = in_parameter(model, "p", -0.5, 0.5);
+    const Branch branch = follow_branch(model, fixed_point(model, 0, 0), settings);
+    ASSERT_EQ(names(branch), "PD BD");
+    const Branch curve = curve_of(model, branch.special[0], settings, "s", -3, 0.5, 1);
+    EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
+    ASSERT_EQ(of_type(curve, PointType::generalised).size(), 1U) << names(curve);
+    EXPECT_NEAR(value_of(model, of_type(curve, PointType::generalised)[0].solution, "s"), -1, 1e-9);
+}
+
+/// Of Henon's map x -> y, y -> a - b x - y^2: fixed points y with trace -2 y and determinant b.
+Model henon(double a, double b) {
+    return map_model(fmt::format("a = {:.17g}\nb = {:.17g}", a, b), "y", "a - b*x - y^2");
+}
+
+TEST(NormalForm, henons_map_has_its_resonances) {
+    const double b = 0.3, y = 0.2, a = y * y + (1 + b) * y;
+    const Model model = henon(a, b);
+    BranchSettings settings = in_parameter(model, "a", -2, 5);
+    BranchSettings down = settings;
+    down.direction = -1;
+    const Branch up = follow_branch(model, fixed_point(model, y, y), settings),
+                 back = follow_branch(model, fixed_point(model, y, y), down);
+    const auto flips = of_type(up, PointType::flip), folds = of_type(back, PointType::fold);
+    ASSERT_EQ(flips.size(), 1U);
+    ASSERT_EQ(folds.size(), 1U);
+    EXPECT_NEAR(flips[0].parameter, 0.75 * (1 + b) * (1 + b), 1e-12);
+    EXPECT_NEAR(folds[0].parameter, -0.25 * (1 + b) * (1 + b), 1e-12);
+    const Branch of_flips = curve_of(model, flips[0], settings, "b", -0.5, 1.5, 1),
+                 of_folds = curve_of(model, folds[0], settings, "b", -0.5, 1.5, -1);
+    for (const BranchPoint& one : of_flips.points) {
+        const double at = value_of(model, one.solution, "b");
+        EXPECT_NEAR(one.parameter, 0.75 * (1 + at) * (1 + at), 1e-12 * (1 + one.parameter));
+    }
+    const auto second = of_type(of_flips, PointType::resonance_2);
+    ASSERT_EQ(second.size(), 1U) << names(of_flips);
+    EXPECT_NEAR(value_of(model, second[0].solution, "b"), 1, 1e-10);
+    EXPECT_NEAR(second[0].parameter, 3, 1e-10);
+    const auto first = of_type(of_folds, PointType::resonance_1);
+    ASSERT_EQ(first.size(), 1U) << names(of_folds);
+    EXPECT_NEAR(value_of(model, first[0].solution, "b"), 1, 1e-10);
+    EXPECT_NEAR(first[0].parameter, -1, 1e-10);
+}
+
+/// A map near z -> (1 + p) e^(i w) z + c_1 z |z|^2, seen askew: z is u + 0.3 u^2, and v.
+Model spiral(double p, double w) {
+    return map_model(fmt::format("p = {:.17g}\nw = {:.17g}\nk = -0.4", p, w),
+                     "(1 + p)*(cos(w)*x - sin(w)*y) + k*x*(x^2 + y^2) + 0.5*x^2 - 0.2*x*y",
+                     "(1 + p)*(sin(w)*x + cos(w)*y) + k*y*(x^2 + y^2) + 0.3*x^2 + 0.1*y^2");
+}
+
+/// Its coefficient by the second and third derivatives (Kuznetsov 2004, section 4.7), with q = (1, -i) / sqrt(2).
+double coefficient_of_spiral(double w, double k) {
+    const Complex i(0, 1), mu = std::exp(i * w);
+    using Pair = std::array<Complex, 2>;
+    const double s = 1 / std::numbers::sqrt2;
+    const Pair q{s, -i * s}, r{s, i * s};
+    const auto second = [](const Pair& u, const Pair& v) -> Pair {
+        return {u[0] * v[0] - 0.2 * (u[0] * v[1] + u[1] * v[0]), 0.6 * u[0] * v[0] + 0.2 * u[1] * v[1]};
+    };
+    const auto third = [k](const Pair& a, const Pair& b, const Pair& c) -> Pair {
+        // Of k x (x^2 + y^2) and k y (x^2 + y^2).
+        const auto one = [&](std::size_t m) {
+            const std::size_t n = 1 - m;
+            return k *
+                   (6.0 * a[m] * b[m] * c[m] + 2.0 * (a[m] * b[n] * c[n] + a[n] * b[m] * c[n] + a[n] * b[n] * c[m]));
+        };
+        return {one(0), one(1)};
+    };
+    // (factor - A)^-1 for A = [cos, -sin; sin, cos].
+    const auto solve = [&](Complex factor, const Pair& right) -> Pair {
+        const Complex d = factor - std::cos(w), o = std::sin(w), determinant = d * d + o * o;
+        return {(d * right[0] - o * right[1]) / determinant, (o * right[0] + d * right[1]) / determinant};
+    };
+    const Pair cubic = third(q, q, r), mean = second(q, solve(1, second(q, r))),
+               double_angle = second(r, solve(mu * mu, second(q, q)));
+    // p = q for a rotation: its product is with the conjugate.
+    Complex sum = 0;
+    for (std::size_t m : {0, 1})
+        sum += std::conj(q[m]) * (cubic[m] + 2.0 * mean[m] + double_angle[m]);
+    return (std::conj(mu) * sum).real() / 2;
+}
+
+TEST(NormalForm, torus_has_the_coefficient_of_its_map) {
+    for (const double w : {0.7, 1.1, 2.4}) {
+        const Model model = spiral(-0.1, w);
+        const Branch branch = follow_branch(model, fixed_point(model, 0, 0), in_parameter(model, "p", -0.3, 0.3));
+        ASSERT_EQ(names(branch), "NS BD") << w;
+        EXPECT_NEAR(branch.special[0].parameter, 0, 1e-12);
+        const double expected = coefficient_of_spiral(w, -0.4);
+        EXPECT_NEAR(coefficient_of(branch.special[0]), expected, 2e-6 * (1 + std::abs(expected))) << w;
+        EXPECT_EQ(branch.special[0].detail.starts_with("super"), expected < 0);
+    }
+}
+
+TEST(NormalForm, curve_of_torus_points_has_all_resonances_of_a_generalised_henon_map) {
+    // x -> y, y -> a - b x - y^2 + r x y: at fixed points y the trace is (r - 2) y and the determinant b - r y.
+    const double r = -0.1, y = 0.2, b = 0.5, a = y * (1 + b) + (1 - r) * y * y;
+    const Model model = map_model(fmt::format("a = {:.17g}\nb = 0.5\nr = -0.1", a), "y", "a - b*x - y^2 + r*x*y");
+    BranchSettings settings = in_parameter(model, "b", -2, 4);
+    const Branch branch = follow_branch(model, fixed_point(model, y, y), settings);
+    const auto torus = of_type(branch, PointType::torus);
+    ASSERT_EQ(torus.size(), 1U) << names(branch);
+    const auto at_trace = [&](double trace) { return trace / (r - 2); };
+    std::string both;
+    for (const int direction : {1, -1}) {
+        const Branch curve = curve_of(model, torus[0], settings, "a", -5, 5, direction);
+        EXPECT_EQ(curve.outcome, BranchOutcome::stopped) << names(curve) << curve.detail;
+        for (const BranchPoint& one : curve.points) {
+            const double at = one.solution.orbit.starts[0][0], determinant = one.parameter - r * at;
+            EXPECT_NEAR(determinant, 1, 1e-11);
+            EXPECT_NEAR(value_of(model, one.solution, "a"), at * (1 + one.parameter) + (1 - r) * at * at, 1e-11);
+        }
+        for (const SpecialPoint& point : curve.special) {
+            both += std::string(short_name(point.type)) + " ";
+            const double traces[] = {2, -2, -1, 0};
+            const auto which = static_cast<std::size_t>(point.type) - static_cast<std::size_t>(PointType::resonance_1);
+            ASSERT_LT(which, 4U) << short_name(point.type);
+            EXPECT_NEAR(point.solution.orbit.starts[0][0], at_trace(traces[which]), 1e-7) << short_name(point.type);
+        }
+    }
+    for (const char* one : {"R1", "R2", "R3", "R4"})
+        EXPECT_NE(both.find(one), std::string::npos) << one << " in " << both;
+    EXPECT_EQ(both.size(), 12U) << both;
+}
+
+TEST(NormalForm, coefficient_is_how_the_doubled_orbits_of_an_impact_oscillator_open) {
+    const Model model = oscillator_model(Oscillator(), 0.02);
+    BranchSettings settings = in_parameter(model, "sigma", -1, 1);
+    const Branch branch = follow_branch(model, settled(model, "phase0", 400).orbit, settings);
+    const auto flips = of_type(branch, PointType::flip);
+    ASSERT_EQ(flips.size(), 1U);
+    const double c = coefficient_of(flips[0]);
+    const BranchStart start = branches_at(model, flips[0], settings).front();
+    settings.steps = 6;
+    settings.continuation.largest_step = 2e-3;
+    const Branch doubled = follow(model, start, settings);
+    ASSERT_GE(doubled.points.size(), 4U);
+    double nearest = 1, farthest = 0;
+    for (const BranchPoint& one : doubled.points) {
+        // w^2 = (|mu| - 1) / c, where mu is the multiplier of the orbit that is left.
+        const Orbit& orbit = one.solution.orbit;
+        double square = 0;
+        for (std::size_t i = 0; i < model.states.size(); ++i) {
+            double twice = orbit.starts[1][i] - orbit.starts[0][i];
+            if (model.states[i].period)
+                twice = std::remainder(twice, 2 * pi);
+            square += 0.25 * twice * twice;
+        }
+        Orbit left = flips[0].solution.orbit;
+        left.parameters = orbit.parameters;
+        const OrbitSolution there = solve_orbit(model, left);
+        ASSERT_EQ(there.outcome, OrbitOutcome::converged) << there.detail;
+        double growth = -1;
+        for (const Complex multiplier : there.multipliers)
+            growth = std::max(growth, std::abs(multiplier) - 1);
+        const double off = std::abs(growth / (c * square) - 1);
+        EXPECT_LT(off, 0.2) << one.parameter;
+        nearest = std::min(nearest, off);
+        farthest = std::max(farthest, off);
+    }
+    EXPECT_LT(nearest, 0.01) << farthest;
+}
+
+} // namespace
+} // namespace graze
