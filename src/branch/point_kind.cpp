@@ -7,6 +7,7 @@
 #include "branch/other_branch.hpp"
 #include "branch/reordering.hpp"
 #include "branch/singular_condition.hpp"
+#include "branch/touch_sensitivity.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
 #include "orbit/certify.hpp"
@@ -306,6 +307,21 @@ bool confirm_generalised(BranchState& state, SpecialPoint& special, const Branch
     return special.located;
 }
 
+/// Where fold and flip curves of the impacting orbits end on that of the touches.
+void test_sensitivity(const TestedPoint& point, Tests& tests) {
+    const auto& kept = point.settings.kept;
+    if (!kept || kept->type != PointType::grazing || kept->at_end)
+        return;
+    const auto value =
+        touch_sensitivity(point.equations.simulation(), point.solution.orbit, kept->segment, kept->event, kept->time);
+    tests.push_back({.type = PointType::sensitivity, .value = value.value_or(nothing)});
+}
+
+bool confirm_sensitivity(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    special.detail = fmt::format("of an impact at {}", state.model().events[state.settings().kept->event].name);
+    return special.located;
+}
+
 // Extrema of the period. Where a parameter fixes it, as the frequency of a force, it turns with the parameter at each
 // fold, which says nothing more. A parameter that stands still, as the damping of a conservative model, fixes nothing.
 
@@ -561,6 +577,13 @@ constexpr std::array table{
         .kind =
             {.type = PointType::resonance_4, .short_name = "R4", .name = "1:4 resonance", .may_stop = true, .mark = 6},
         .test = test_degeneracy<PointType::resonance_4>},
+    PointRule{.kind = {.type = PointType::sensitivity,
+                       .short_name = "VS",
+                       .name = "vanishing sensitivity",
+                       .may_stop = true,
+                       .mark = 14},
+              .test = test_sensitivity,
+              .confirm = confirm_sensitivity},
     PointRule{
         .kind = {.type = PointType::extremum, .short_name = "EX", .name = "extremum", .may_stop = true, .mark = 1},
         .test = test_extremum,

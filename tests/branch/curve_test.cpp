@@ -269,6 +269,31 @@ TEST(Curves, of_folds_pass_the_cusp_of_duffings_oscillator) {
     EXPECT_EQ(of_type(over_frequency(force * 0.999), PointType::fold).size(), 0U);
 }
 
+TEST(Curves, of_touches_find_where_an_impact_does_not_act_on_the_next_one) {
+    // The free oscillator takes what an impact changes back to zero each half oscillation: at omega = 2 omega_d / k.
+    Oscillator known;
+    const Model model = oscillator_model(known, 1);
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("sigma");
+    settings.direction = -1;
+    settings.least = -1;
+    settings.greatest = 3;
+    const Branch branch = follow_branch(model, settled(model, "phase0", 400).orbit, settings);
+    ASSERT_EQ(names(branch), "GR");
+    settings.free_bounds = {{model.independent_parameter("omega"), 0.6, 3}};
+    settings.greatest = 30;
+    std::vector<double> found;
+    for (const int way : {1, -1})
+        for (const SpecialPoint& one :
+             of_type(curve_of(model, branch.special[0], settings, "omega", way), PointType::sensitivity))
+            found.push_back(value_of(model, one.solution, "omega"));
+    std::sort(found.begin(), found.end());
+    const double own = std::sqrt(1 - known.zeta * known.zeta);
+    ASSERT_EQ(found.size(), 3U);
+    for (const std::size_t k : {1U, 2U, 3U})
+        EXPECT_NEAR(found[3 - k], 2 * own / static_cast<double>(k), 1e-9) << k;
+}
+
 TEST(Curves, of_the_microactuator_have_their_published_values) {
     Model model = load_model("impact-microactuator");
     model.set_parameter("V", 0.1);
@@ -289,6 +314,17 @@ TEST(Curves, of_the_microactuator_have_their_published_values) {
     const SpecialPoint least = nearest(first, PointType::extremum, 0.17);
     EXPECT_NEAR(value_of(model, least.solution, "omega"), 0.48719539788245, 1e-12);
     EXPECT_NEAR(least.parameter, 0.17099889286674, 1e-13);
+    // Curves of folds and flips with one impact end where an impact does not act on the next one.
+    const Branch slower = curve_of(model, grazing, wide, "omega", -1);
+    const auto less = of_type(first, PointType::sensitivity), more = of_type(slower, PointType::sensitivity);
+    std::vector<SpecialPoint> joints(less);
+    joints.insert(joints.end(), more.begin(), more.end());
+    for (const auto& [omega, voltage] :
+         {std::pair(0.61364946180363, 0.58163432990654), std::pair(0.48780870043972, 0.17106668895821)})
+        EXPECT_TRUE(std::any_of(joints.begin(), joints.end(), [&](const SpecialPoint& one) {
+            return std::abs(one.parameter - voltage) < 1e-9 &&
+                   std::abs(value_of(model, one.solution, "omega") - omega) < 1e-9;
+        })) << omega;
     // Curves of flips and folds end on it, where it has a multiplier -1 or 1.
     for (std::size_t i = 0; i < 3; ++i) {
         const SpecialPoint& point = branch.special[i];
