@@ -167,10 +167,19 @@ int rank_of(const DrawnPoint& point) {
     return (point.look == Look::unphysical ? 4 : 0) + (kind.changes || kind.limits ? 0 : 2) + (kind.leads_on ? 0 : 1);
 }
 
+/// Whether a point is marked: all those with a symbol are, unless types or labels are chosen.
+bool is_marked(const StudyPicture& picture, const DrawnPoint& point) {
+    const auto names = [&](std::string_view name) {
+        return std::find(picture.points.begin(), picture.points.end(), name) != picture.points.end();
+    };
+    return kind_of(point.type).mark != 0 &&
+           (picture.points.empty() || names(short_name(point.type)) || names(point.label));
+}
+
 /// @param kept what it is a curve of; none: it is a branch, drawn by how stable orbits are
 /// @param labels colour of the labels
-void add_branch(FigurePanel& panel, const std::vector<DrawnPoint>& points, const std::optional<PointType>& kept,
-                std::size_t value, std::size_t colour, std::size_t labels) {
+void add_branch(FigurePanel& panel, const StudyPicture& picture, const std::vector<DrawnPoint>& points,
+                const std::optional<PointType>& kept, std::size_t value, std::size_t colour, std::size_t labels) {
     // What is unphysical lies beneath.
     const std::vector<Stretch> stretches = stretches_of(points);
     for (const bool unphysical : {true, false})
@@ -189,13 +198,13 @@ void add_branch(FigurePanel& panel, const std::vector<DrawnPoint>& points, const
         }
     std::set<int> symbols;
     for (const DrawnPoint& point : points)
-        if (kind_of(point.type).mark != 0)
+        if (is_marked(picture, point))
             symbols.insert(kind_of(point.type).mark);
     for (const int symbol : symbols) {
         FigureSeries series{"", FigureSeries::Style::symbols, colour, {}};
         series.symbol = symbol;
         for (const DrawnPoint& point : points)
-            if (kind_of(point.type).mark == symbol) {
+            if (kind_of(point.type).mark == symbol && is_marked(picture, point)) {
                 const PlanePoint here{point.x, point.y[value]};
                 series.points.push_back(here);
                 panel.labels.push_back({here, point.label, labels, rank_of(point)});
@@ -261,7 +270,7 @@ Figure branch_picture(const StudyPicture& picture, const ResultFile& file) {
             panel.title = (values.size() > 1 ? fmt::format("({}) ", static_cast<char>('a' + v)) : std::string()) +
                           (runs.size() == 1 ? shown_name(picture, runs.front().record.name) : std::string());
         for (std::size_t r = 0; r < runs.size(); ++r)
-            add_branch(panel, points[r], kept[r], v, r, runs.size() > 1 ? r : FigureSeries::black);
+            add_branch(panel, picture, points[r], kept[r], v, r, runs.size() > 1 ? r : FigureSeries::black);
         add_legend(panel, picture, runs, points, kept);
         figure.panels.push_back(std::move(panel));
     }

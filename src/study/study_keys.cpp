@@ -157,7 +157,7 @@ void check_keys_of_picture(const StudyReader& reader, const std::string& kind, c
         {"group", {"regression"}},
         {"successive", {"regression"}},
         {"at", {"history", "portrait", "spectrum"}},
-        {"points", {"history", "portrait"}},
+        {"points", {"history", "portrait", "branch"}},
     };
     for (const auto& [name, kinds] : of_kinds)
         for (const TomlEntry& key : keys)

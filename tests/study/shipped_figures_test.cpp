@@ -10,12 +10,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 namespace graze {
 namespace {
@@ -109,6 +111,40 @@ TEST(ShippedFigures, ladders_of_grazings_of_the_microactuator) {
         EXPECT_EQ(results.study.runs.front().model.events[point.event].name, "front");
         EXPECT_NEAR(point.parameter, computed[impacts], 1e-12);
         EXPECT_FALSE(point.at_end);
+    }
+}
+
+std::size_t end_parameter(const ShippedResults& results, const char* name) {
+    return results.study.runs.front().model.independent_parameter(name).place();
+}
+
+TEST(ShippedFigures, map_of_the_microactuator) {
+    ShippedResults results("microactuator");
+    results.run({"touches_1", "touches_3", "flips_1"});
+    const Table joints = make_table(results.table("joints"), results.file());
+    // Two joints and the lowest voltage, by the published values; columns label, omega, V.
+    const std::vector<std::array<double, 2>> expected{{0.61364946180363, 0.58163432990654},
+                                                      {0.48780870043972, 0.17106668895821},
+                                                      {0.48719539788245, 0.17099889286674}};
+    ASSERT_EQ(joints.rows(), 4U);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        for (std::size_t column = 0; column < 2; ++column)
+            EXPECT_NEAR(joints.number(i + 1, column + 1), expected[i][column], 1e-9) << i;
+    // The curve of flips with one impact ends at the first joint, by its own equations.
+    const SpecialPoint end = results.point("flips_1", "GR1");
+    EXPECT_NEAR(end.solution.orbit.parameters[end_parameter(results, "omega")], expected[0][0], 1e-12);
+    EXPECT_NEAR(end.solution.orbit.parameters[end_parameter(results, "V")], expected[0][1], 1e-12);
+    // Slowly, touches come near to the static pull-in voltage 2 d / 3 sqrt(k d / (3 alpha)).
+    for (const char* run : {"touches_1", "touches_3"}) {
+        double slowest = 1, voltage = 0;
+        auto rows = StoredRun(results.file(), run, {}).rows({.quantities = {"omega", "V"}});
+        while (rows.next())
+            if (rows.number(0) < slowest) {
+                slowest = rows.number(0);
+                voltage = rows.number(1);
+            }
+        EXPECT_NEAR(slowest, 0.05, 1e-12);
+        EXPECT_NEAR(voltage, 0.3849, 0.02) << run;
     }
 }
 

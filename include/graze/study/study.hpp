@@ -98,7 +98,8 @@ struct StudyPicture {
     std::vector<std::string> directions;                            ///< of sweeps; empty: all
     std::optional<std::pair<double, double>> x_range, y_range, fit; ///< fit: range of x of a regression
     std::vector<std::pair<std::string, double>> at; ///< points nearest to these, of histories, portraits, spectra
-    std::vector<std::string> points; ///< of histories and portraits of branches: labels, or numbers, of orbits
+    /// Of histories and portraits: labels, or numbers, of orbits. Of branches: labels or types that are marked.
+    std::vector<std::string> points;
     bool logarithmic_x = false, logarithmic_y = false;
     bool successive = false; ///< regression: each value against the one before it in the same point
     std::string group;       ///< coordinate by which a regression is split
