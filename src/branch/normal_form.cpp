@@ -151,18 +151,18 @@ std::optional<double> flip_coefficient(const OrbitEquations& equations, const Or
 }
 
 std::optional<double> torus_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    const auto multiplier = pair_on_circle(equations, at);
+    const VectorXd ones = VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
+    const auto multiplier = pair_on_circle(CyclicMatrix(at.system, 1, ones, ones).multipliers());
     if (!multiplier)
         return std::nullopt;
     const auto cubic = cubic_coefficient(equations, at, *multiplier);
     return cubic ? std::optional((std::conj(*multiplier) * *cubic).real() / 2) : std::nullopt;
 }
 
-std::optional<Complex> pair_on_circle(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    const VectorXd ones = VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
+std::optional<Complex> pair_on_circle(const std::vector<Complex>& multipliers) {
     std::optional<Complex> nearest;
     const auto distance = [](Complex one) { return std::abs(std::log(std::abs(one))); };
-    for (const Complex one : CyclicMatrix(at.system, 1, ones, ones).multipliers())
+    for (const Complex one : multipliers)
         if (one.imag() > 0 && (!nearest || distance(one) < distance(*nearest)))
             nearest = one;
     return nearest;

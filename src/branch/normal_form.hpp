@@ -4,6 +4,7 @@
 
 #include <complex>
 #include <optional>
+#include <vector>
 
 namespace graze {
 
@@ -25,6 +26,6 @@ std::optional<double> flip_coefficient(const OrbitEquations& equations, const Or
 std::optional<double> torus_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at);
 
 /// The complex multiplier, of those above the real axis, that is nearest to the unit circle; if there is one.
-std::optional<std::complex<double>> pair_on_circle(const OrbitEquations& equations, const OrbitEvaluation& at);
+std::optional<std::complex<double>> pair_on_circle(const std::vector<std::complex<double>>& multipliers);
 
 } // namespace graze

@@ -112,15 +112,15 @@ std::vector<Degeneracy> SingularCondition::degeneracies(const OrbitEquations& eq
             {PointType::resonance_2, simplicity_}};
 }
 
-TorusCondition::TorusCondition(const OrbitEquations& equations, const OrbitEvaluation& at,
-                               std::complex<double> multiplier)
-    : MultiplierCondition(equations, at), sum_(2 * multiplier.real()), product_(std::norm(multiplier)) {}
+TorusCondition::TorusCondition(const OrbitEquations& equations, const OrbitEvaluation& at, double sum, double product)
+    : MultiplierCondition(equations, at), sum_(sum), product_(product) {}
 
 std::unique_ptr<OrbitCondition> TorusCondition::of_pair(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    const auto nearest = pair_on_circle(equations, at);
-    if (!nearest)
+    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
+    const auto one = pair_on_circle(CyclicMatrix(at.system, 1, ones, ones).multipliers());
+    if (!one)
         return nullptr;
-    return std::unique_ptr<OrbitCondition>(new TorusCondition(equations, at, *nearest));
+    return std::unique_ptr<OrbitCondition>(new TorusCondition(equations, at, 2 * one->real(), std::norm(*one)));
 }
 
 bool TorusCondition::evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) {

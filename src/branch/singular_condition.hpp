@@ -63,7 +63,8 @@ private:
 /// one. So it goes on smoothly where the pair becomes real at 1 or -1, beyond which nothing leaves the orbit.
 class TorusCondition final : public MultiplierCondition {
 public:
-    /// Of the complex pair that is nearest to the unit circle. @return none when there is none
+    /// Of the complex pair that is nearest to the unit circle, or that becomes complex there. @return none when there
+    /// is none
     static std::unique_ptr<OrbitCondition> of_pair(const OrbitEquations& equations, const OrbitEvaluation& at);
     /// Follows the pair from one evaluation to the next: it is the one nearest to where it was.
     bool evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) override;
@@ -71,7 +72,7 @@ public:
     std::vector<Degeneracy> degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at) override;
 
 private:
-    TorusCondition(const OrbitEquations& equations, const OrbitEvaluation& at, std::complex<double> multiplier);
+    TorusCondition(const OrbitEquations& equations, const OrbitEvaluation& at, double sum, double product);
     bool change_of(const OrbitEquations& equations, const OrbitEvaluation& at, const CyclicMatrix::Multiplier& one,
                    Eigen::RowVectorXcd& change);
 

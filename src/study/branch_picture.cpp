@@ -69,6 +69,8 @@ std::optional<PointType> kept_of(const StoredRun& run) {
     if (run.record.kind != name_of(RunKind::curve))
         return std::nullopt;
     const StudyRun asked = stored_run(run.record);
+    if (asked.start && point_type(asked.start->onto))
+        return point_type(asked.start->onto);
     const auto parent = asked.start ? run.file->find_run(asked.start->run) : std::nullopt;
     return parent ? orbit_to_start_from(*asked.start, stored_run(*parent), *run.file).point.type : PointType::regular;
 }

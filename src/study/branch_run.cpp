@@ -129,13 +129,16 @@ std::vector<Part> parts_of_curve(const StudyRun& run, const SpecialPoint& point)
     std::vector<Part> parts = both_directions(run, taken_over(run, point.solution.orbit));
     if (!run.branch.keeps_point())
         return parts;
-    if (!kind_of(point.type).may_be_kept)
+    SpecialPoint kept = point;
+    kept.type = point_type(run.start->onto).value_or(point.type);
+    if (!kind_of(kept.type).may_be_kept)
         throw InputError(run.start->place,
                          fmt::format("points of type {} ({}) cannot be followed as a curve", short_name(point.type),
                                      name_of(point.type)),
-                         "choose another point, or hold a monitor: fixed = true");
+                         "say which curve through it is meant: onto = \"SN\"; or choose another point, or hold a "
+                         "monitor: fixed = true");
     for (Part& part : parts)
-        part.kept = point;
+        part.kept = kept;
     return parts;
 }
 

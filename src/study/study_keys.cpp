@@ -208,8 +208,15 @@ void check_start(const StudyReader& reader, const StudyRun& run, const StudyRun&
     if (run.kind == RunKind::curve && !(parent.is_followed() && !start.point.empty()))
         fail_start(start, "a curve begins at a special point of a branch",
                    "give start = { run = \"BRANCH\", point = \"SN1\" }");
-    if (run.kind == RunKind::curve && !start.onto.empty())
-        fail_start(start, "`onto` has no effect here: a curve goes on along the points of one kind", "leave it out");
+    const bool curve = run.kind == RunKind::curve, of_curves = point_type(start.onto).has_value();
+    if (curve && !start.onto.empty() && (!of_curves || !run.branch.keeps_point()))
+        fail_start(
+            start,
+            fmt::format("`onto = \"{}\"` has no effect here: a curve goes on along points of one kind", start.onto),
+            run.branch.keeps_point() ? "leave it out, or name the kind: \"SN\", \"PD\" or \"SB\"" : "leave it out");
+    if (!curve && of_curves)
+        fail_start(start, fmt::format("`onto = \"{}\"` chooses a curve, and this is none", start.onto),
+                   "follow it with kind = \"curve\", or choose \"same\", \"other\" or \"twin\"");
     if (run.is_branch() && parent.is_branch()) {
         const std::string leave = "leave it out";
         refuse_any(reader, keys, of_settling, "no orbit is settled on", leave);

@@ -178,7 +178,7 @@ void read_start(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
         } else if (item.name == "point") {
             start.point = item.node->is_integer() ? std::to_string(reader.count(item)) : reader.toml().string(item);
         } else if (item.name == "onto") {
-            reader.choice(item, {"same", "other", "twin"});
+            reader.choice(item, {"same", "other", "twin", "SN", "PD", "SB"});
             start.onto = reader.toml().string(item);
         } else {
             const auto at = reader.toml().entries(reader.toml().table(item), item.path);

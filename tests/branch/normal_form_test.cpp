@@ -142,6 +142,19 @@ TEST(NormalForm, henons_map_has_its_resonances) {
     ASSERT_EQ(first.size(), 1U) << names(of_folds);
     EXPECT_NEAR(value_of(model, first[0].solution, "b"), 1, 1e-10);
     EXPECT_NEAR(first[0].parameter, -1, 1e-10);
+    // From the resonance on along the folds and flips.
+    SpecialPoint along = first[0];
+    along.type = PointType::fold;
+    const Branch folds_again = curve_of(model, along, settings, "b", -0.5, 1.5, 1);
+    EXPECT_GT(folds_again.points.size(), 5U) << folds_again.detail;
+    for (const BranchPoint& on : folds_again.points)
+        EXPECT_NEAR(on.parameter, -0.25 * std::pow(1 + value_of(model, on.solution, "b"), 2), 1e-11);
+    SpecialPoint point = second[0];
+    point.type = PointType::flip;
+    const Branch flips_again = curve_of(model, point, settings, "b", -0.5, 1.5, 1);
+    EXPECT_GT(flips_again.points.size(), 5U) << flips_again.detail;
+    for (const BranchPoint& on : flips_again.points)
+        EXPECT_NEAR(on.parameter, 0.75 * std::pow(1 + value_of(model, on.solution, "b"), 2), 1e-11);
 }
 
 /// A map near z -> (1 + p) e^(i w) z + c_1 z |z|^2, seen askew: z is u + 0.3 u^2, and v.

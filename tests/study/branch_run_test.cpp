@@ -140,6 +140,27 @@ along = { omega = [2.2, 4.5], amplitude = [0.1, 5] }
 monitors = { speed = { value = "v", at = "impact", fixed = true } }
 )";
 
+TEST_F(BranchRun, curves_are_chosen_where_several_meet) {
+    const std::string onto = "point = \"PD1\", onto = \"";
+    const auto with = [&](const std::string& which) {
+        std::string text = curves_text;
+        const std::string plain = "point = \"PD1\"";
+        text.replace(text.find(plain, text.find("[runs.flips]")), plain.size(), onto + which + "\"");
+        return text;
+    };
+    run(curves_text);
+    const auto plain = ResultFile(path_, ResultFile::Access::read).orbits("flips", false);
+    std::filesystem::remove(path_);
+    run(with("PD"));
+    const auto chosen = ResultFile(path_, ResultFile::Access::read).orbits("flips", false);
+    ASSERT_EQ(chosen.size(), plain.size());
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+        EXPECT_EQ(chosen[i].point.parameter, plain[i].point.parameter);
+    // What chooses a branch says nothing of a curve.
+    EXPECT_THROW(run(with("other")), InputError);
+    EXPECT_THROW(run(with("GR")), InputError);
+}
+
 TEST_F(BranchRun, follows_special_points_in_two_parameters) {
     for (const RunReport& report : run(curves_text))
         EXPECT_EQ(report.problem, "") << report.name;

@@ -41,7 +41,7 @@ struct StartFrom {
     double value = 0;
     std::optional<std::string> direction; ///< "up" or "down"
     std::string point;                    ///< of runs of orbits: a label such as "GR1", or a number
-    std::string onto;                     ///< "same", "other", "twin", or empty: chosen by type and parameter
+    std::string onto; ///< "same", "other", "twin", of curves a type; or empty: chosen by type and parameter
     Place place;
 };
 
