@@ -1,6 +1,7 @@
 #include "graze/study/study.hpp"
 
 #include "graze/symbolic/file_name.hpp"
+#include "graze/symbolic/printable.hpp"
 #include "graze/symbolic/text_file.hpp"
 #include "results/run_names.hpp"
 #include "study/start_point.hpp"
@@ -200,9 +201,11 @@ private:
             mistakes_.attempt([&] { require_free_name(run.name, run.is_branch(), names_, run.place); });
         if (all)
             mistakes_.attempt([&] { check_order(); });
+        for (const TomlEntry& entry : run_entries_)
+            with_key(mistakes_, keys_[entry.name], "start", [&](const TomlEntry& start) { check_parent(start); });
         for (const StudyRun& run : study_.runs)
-            if (run.start)
-                mistakes_.attempt([&] { check_start_of(run); });
+            if (const StudyRun* parent = run.start ? study_.find_run(run.start->run) : nullptr)
+                mistakes_.attempt([&] { check_start(reader_, run, *parent, keys_[run.name]); });
     }
 
     void add_run(const TomlEntry& entry) {
@@ -231,10 +234,11 @@ private:
             study_.runs = in_order(std::move(study_.runs));
     }
 
-    void check_start_of(const StudyRun& run) {
-        require_run(run.start->run, names_, run.start->place);
-        if (const StudyRun* parent = study_.find_run(run.start->run))
-            check_start(reader_, run, *parent, keys_[run.name]);
+    /// Of runs that could not be read too. What is no text is told there.
+    void check_parent(const TomlEntry& start) const {
+        if (const toml::table* keys = start.node->as_table())
+            if (const auto name = (*keys)["run"].value<std::string>(); name && !name->empty() && is_plain_text(*name))
+                require_run(*name, names_, start.place);
     }
 
     void add_picture(const TomlEntry& entry) {

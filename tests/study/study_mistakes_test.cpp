@@ -50,7 +50,7 @@ cycles = 0
 speed = 1
 [runs.c]
 kind = "continue"
-along = { omega = [2, 3] }
+along = { omga = [2, 3] }
 start = { run = "d" }
 [pictures.p]
 kind = "histogram"
@@ -65,9 +65,9 @@ columns = ["x", "x"]
                 ElementsAre("3: unknown key 'colour'", "6: runs.a.time is -3, not positive", "7: unknown name 'y'",
                             "7: unknown name 'z'", HasSubstr("8: "), "11: runs.b.vary.omega goes from 3 to 2",
                             "12: runs.b.cycles is 0", "13: unknown key 'speed' in runs.b",
-                            "17: the study has no run 'd'", "19: pictures.p.kind cannot be 'histogram'",
-                            HasSubstr("21: a picture with a width"), "22: the study has no run 'e'",
-                            "26: there is another column 'x'"));
+                            "16: the model has no parameter 'omga'", "17: the study has no run 'd'",
+                            "19: pictures.p.kind cannot be 'histogram'", HasSubstr("21: a picture with a width"),
+                            "22: the study has no run 'e'", "26: there is another column 'x'"));
 }
 
 TEST(StudyMistakes, of_a_run_do_not_follow_those_who_refer_to_it) {
