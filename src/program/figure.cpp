@@ -4,6 +4,7 @@
 #include "program/curve.hpp"
 #include "program/figure_layout.hpp"
 #include "program/gnuplot_text.hpp"
+#include "program/mingled_dots.hpp"
 #include "program/output_file.hpp"
 #include "program/picture.hpp"
 #include "program/process.hpp"
@@ -17,9 +18,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
-#include <set>
-#include <unordered_set>
 #include <utility>
 
 namespace graze {
@@ -29,8 +27,6 @@ namespace {
 constexpr double dots_per_inch = 200, points_per_inch = 72, svg_per_inch = 96;
 constexpr double usual_font = 9;      ///< points: for which the widths of lines are given
 constexpr double dash_of_cairo = 1.6; ///< for dashes as long as those of legends
-/// Dots closer than this share of a panel are one.
-constexpr double grain = 1.0 / 2000;
 /// By how much of a panel's size a line may be moved.
 constexpr double unseen = 1e-4;
 /// That of Okabe and Ito (2008), whose colours the colour-blind tell apart too; brown and grey in the place of yellow
@@ -283,7 +279,7 @@ private:
         for (const FigureSeries& series : panel.series) {
             if (series.style == FigureSeries::Style::dots) {
                 if (!dots)
-                    add(mingled_dots(panel, layout), dots_style(panel));
+                    add(dots_text(panel, layout), dots_style(panel));
                 dots = true;
                 continue;
             }
@@ -339,67 +335,12 @@ private:
                " lc rgb variable";
     }
 
-    struct Dot {
-        std::uint64_t square; ///< about as large as a dot
-        std::uint64_t order;
-        bool on_top;
-        PlanePoint at;
-        std::size_t series;
-    };
-
-    /// Of each square the dots of one series come last: which one is as if by chance, so that where series lie on one
-    /// another each is seen, however many dots it has.
-    static void mingle(std::vector<Dot>& dots) {
-        std::map<std::uint64_t, std::set<std::size_t>> present;
-        for (const Dot& dot : dots)
-            present[dot.square].insert(dot.series);
-        for (Dot& dot : dots) {
-            const std::set<std::size_t>& there = present[dot.square];
-            const auto top = static_cast<std::ptrdiff_t>(mixed(dot.square) % there.size());
-            dot.on_top = *std::next(there.begin(), top) == dot.series;
-        }
-        std::stable_sort(dots.begin(), dots.end(), [](const Dot& a, const Dot& b) {
-            return std::pair(a.on_top, a.order) < std::pair(b.on_top, b.order);
-        });
-    }
-
-    /// Dots of all series, of those that nobody could tell apart only one.
-    static std::string mingled_dots(const FigurePanel& panel, const PanelLayout& layout) {
-        constexpr double dot_size = 1.2; // points
-        std::vector<Dot> dots;
-        const auto cell = [](double column, double row) {
-            return static_cast<std::uint64_t>(column) << 32 | static_cast<std::uint64_t>(row);
-        };
-        for (std::size_t s = 0; s < panel.series.size(); ++s) {
-            const FigureSeries& series = panel.series[s];
-            if (series.style != FigureSeries::Style::dots)
-                continue;
-            std::unordered_set<std::uint64_t> taken;
-            for (const PlanePoint& point : series.points) {
-                const double x = layout.x.share(point.x), y = layout.y.share(point.y);
-                if (!is_drawn(point, panel) || !(x >= 0 && x <= 1 && y >= 0 && y <= 1))
-                    continue;
-                const std::uint64_t place = cell(x / grain, y / grain);
-                const std::uint64_t square =
-                    cell(x * layout.frame.width() / dot_size, y * layout.frame.height() / dot_size);
-                if (taken.insert(place).second)
-                    dots.push_back({square, mixed(place * 31 + s), false, point, s});
-            }
-        }
-        mingle(dots);
+    static std::string dots_text(const FigurePanel& panel, const PanelLayout& layout) {
         std::string text;
-        for (const Dot& dot : dots)
+        for (const MingledDot& dot : mingled_dots(panel, layout))
             text +=
                 fmt::format("{:.7g} {:.7g} {}\n", dot.at.x, dot.at.y, colour_number(panel.series[dot.series].colour));
         return text;
-    }
-
-    /// SplitMix64 (Steele, Lea and Flood 2014).
-    static std::uint64_t mixed(std::uint64_t value) {
-        value += 0x9e3779b97f4a7c15u;
-        value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9u;
-        value = (value ^ (value >> 27)) * 0x94d049bb133111ebu;
-        return value ^ (value >> 31);
     }
 
     const Figure* figure_;
