@@ -4,6 +4,7 @@
 #include "program/curve.hpp"
 #include "program/figure_layout.hpp"
 #include "program/gnuplot_text.hpp"
+#include "program/mingled_dots.hpp"
 #include "program/output_file.hpp"
 #include "program/picture.hpp"
 #include "program/process.hpp"
@@ -17,9 +18,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
-#include <set>
-#include <unordered_set>
 #include <utility>
 
 namespace graze {
@@ -27,8 +25,10 @@ namespace graze {
 namespace {
 
 constexpr double dots_per_inch = 200, points_per_inch = 72, svg_per_inch = 96;
-/// Dots closer than this share of a panel are one.
-constexpr double grain = 1.0 / 2000;
+constexpr double usual_font = 9;      ///< points: for which the widths of lines are given
+constexpr double dash_of_cairo = 1.6; ///< for dashes as long as those of legends
+/// By how much of a panel's size a line may be moved.
+constexpr double unseen = 1e-4;
 /// That of Okabe and Ito (2008), whose colours the colour-blind tell apart too; brown and grey in the place of yellow
 /// and black.
 constexpr std::array<std::uint32_t, 8> palette{0x0072b2, 0xd55e00, 0x009e73, 0xe69f00,
@@ -58,25 +58,29 @@ Terminal terminal_of(const Figure& figure, const FigureLayout& page, const std::
     require_quotable(figure.style.font);
     terminal.font = figure.style.font.empty() ? "sans" : figure.style.font;
     const double width = page.width / points_per_inch, height = page.height / points_per_inch;
+    const double stroke = page.font / usual_font; // lines become thicker as letters become larger
     if (ending == "png") {
         const double scale = dots_per_inch / svg_per_inch;
-        terminal.command =
-            fmt::format("pngcairo noenhanced size {:.0f},{:.0f} fontscale {:.4g} linewidth {:.4g} pointscale {:.4g}",
-                        width * dots_per_inch, height * dots_per_inch, scale, scale, scale);
+        terminal.command = fmt::format(
+            "pngcairo noenhanced size {:.0f},{:.0f} fontscale {:.4g} linewidth {:.4g} pointscale {:.4g} "
+            "dashlength {:.4g}",
+            width * dots_per_inch, height * dots_per_inch, scale, scale * stroke, scale, dash_of_cairo * stroke);
     } else if (ending == "pdf") {
         terminal.point = 0.75;
-        terminal.command =
-            fmt::format("pdfcairo enhanced size {:.4f}in,{:.4f}in fontscale 0.75 linewidth 1.5", width, height);
+        terminal.command = fmt::format("pdfcairo enhanced size {:.4f}in,{:.4f}in fontscale 0.75 linewidth {:.4g} "
+                                       "dashlength {:.4g}",
+                                       width, height, 1.5 * stroke, dash_of_cairo * stroke);
     } else if (ending == "tex") {
         terminal.point = 0.75;
         terminal.latex = true;
         terminal.font = figure.style.font;
-        terminal.command = fmt::format("cairolatex pdf input size {:.4f}in,{:.4f}in linewidth 1.5", width, height);
+        terminal.command = fmt::format("cairolatex pdf input size {:.4f}in,{:.4f}in linewidth {:.4g} dashlength {:.4g}",
+                                       width, height, 1.5 * stroke, dash_of_cairo * stroke);
     } else {
         terminal.letters = svg_per_inch / points_per_inch;
         terminal.point = 7.2 / (page.font * terminal.letters);
-        terminal.command = fmt::format("svg enhanced size {:.0f},{:.0f} background rgb 'white'", width * svg_per_inch,
-                                       height * svg_per_inch);
+        terminal.command = fmt::format("svg enhanced size {:.0f},{:.0f} linewidth {:.4g} background rgb 'white'",
+                                       width * svg_per_inch, height * svg_per_inch, stroke);
     }
     terminal.command += ' ' + terminal.font_text(page.font);
     return terminal;
@@ -112,10 +116,18 @@ private:
         return fmt::format("screen {:.6f},{:.6f}", point.x / page_.width, point.y / page_.height);
     }
 
+    /// LaTeX is told the size of letters in the text: gnuplot's own would not reach it.
+    std::string text_of(const RichText& rich, double size) const {
+        const std::string text = terminal_.text(rich);
+        return terminal_.latex && size != page_.font
+                   ? fmt::format("\\\\fontsize{{{:.4g}}}{{{:.4g}}}\\\\selectfont{{}}{}", size, 1.2 * size, text)
+                   : text;
+    }
+
     std::string text_command(const PlacedText& placed) const {
         using Align = PlacedText::Align;
         const char* align = placed.align == Align::left ? "left" : placed.align == Align::centre ? "center" : "right";
-        return fmt::format("set label \"{}\" at {} {}{} {}\n", terminal_.text(placed.text), at(placed.at), align,
+        return fmt::format("set label \"{}\" at {} {}{} {}\n", text_of(placed.text, placed.size), at(placed.at), align,
                            placed.upright ? " rotate by 90" : "", terminal_.font_text(placed.size));
     }
 
@@ -124,7 +136,7 @@ private:
         case FigureSeries::Style::dashed:
             return "lw 1.3 dt (7,4)";
         case FigureSeries::Style::dotted:
-            return "lw 0.9 dt 3";
+            return "lw 1.1 dt (2,3.5)";
         case FigureSeries::Style::impulses:
             return "lw 1.1";
         default:
@@ -132,7 +144,8 @@ private:
         }
     }
 
-    std::string style_text(const FigureSeries& series) const {
+    /// @param over how many series are drawn over this one
+    std::string style_text(const FigureSeries& series, std::size_t over) const {
         const std::string colour = fmt::format("lc rgb '{}'", colour_text(series.colour));
         switch (series.style) {
         case FigureSeries::Style::dots:
@@ -141,8 +154,12 @@ private:
             return fmt::format("with points pt 6 ps {:.3g} lw 1.2 {}", circle_size(series.colour), colour);
         case FigureSeries::Style::symbols:
             return fmt::format("with points pt {} ps {:.3g} lw 1.2 {}", series.symbol, symbol_, colour);
-        case FigureSeries::Style::impulses:
-            return fmt::format("with linespoints pt 7 ps {:.3g} lw 1.1 {}", 0.5 * symbol_, colour);
+        case FigureSeries::Style::impulses: {
+            // Spectra may coincide: the first are drawn wide, so that each is seen beside those on it.
+            const auto wider = static_cast<double>(over);
+            return fmt::format("with linespoints pt 7 ps {:.3g} lw {:.3g} {}", (0.45 + 0.2 * wider) * symbol_,
+                               1.1 + 0.6 * wider, colour);
+        }
         case FigureSeries::Style::cells:
             return fmt::format("with boxxyerror fs solid 1 noborder {}", colour);
         default:
@@ -153,6 +170,8 @@ private:
     /// Circles of different colours may lie in one place, where each is to be seen.
     double circle_size(std::size_t colour) const {
         constexpr double wider = 0.4;
+        if (colour >= FigureSeries::grey)
+            return symbol_;
         return symbol_ * (1 + wider * static_cast<double>(colour % 3));
     }
 
@@ -175,7 +194,7 @@ private:
                                     : entry.style == Style::cells   ? 5
                                                                     : 7,
                                     (entry.style == Style::cells ? 1.4 : 1) * symbol_, colour);
-            text += fmt::format("set label \"{}\" at {} left {}\n", terminal_.text(rich(entry.title)),
+            text += fmt::format("set label \"{}\" at {} left {}\n", text_of(entry.text, legend_font(page_.font)),
                                 at({entry.title_left, y}), terminal_.font_text(legend_font(page_.font)));
         }
         return text;
@@ -185,7 +204,11 @@ private:
     std::string sample_commands(const LegendEntry& entry, double right, double y, const std::string& colour) const {
         const bool dashed = entry.style == FigureSeries::Style::dashed,
                    dotted = entry.style == FigureSeries::Style::dotted;
-        const double length = dashed ? 4 : dotted ? 1 : right - entry.box.left, gap = dashed ? 2.2 : 2; // points
+        const double stroke = page_.font / usual_font;
+        const double length = dashed   ? 4 * stroke
+                              : dotted ? stroke
+                                       : right - entry.box.left,
+                     gap = (dashed ? 2.2 : 2) * stroke; // points
         const std::string width = dotted ? "lw 1.1" : dashed ? "lw 1.3" : line_text(entry.style);
         std::string text;
         for (double x = entry.box.left; x < right; x += length + gap)
@@ -198,9 +221,9 @@ private:
         std::string text;
         for (const PlacedLabel& label : places.labels) {
             const PlanePoint middle{(label.box.left + label.box.right) / 2, (label.box.low + label.box.high) / 2};
-            text +=
-                fmt::format("set label \"{}\" at {} center {} tc rgb '{}' front\n", terminal_.text(rich(label.text)),
-                            at(middle), terminal_.font_text(label_font(page_.font)), colour_text(label.colour));
+            text += fmt::format("set label \"{}\" at {} center {} tc rgb '{}' front\n",
+                                text_of(rich(label.text), label_font(page_.font)), at(middle),
+                                terminal_.font_text(label_font(page_.font)), colour_text(label.colour));
             if (label.led)
                 text += fmt::format("set arrow from {} to {} nohead lw 0.5 lc rgb '#606060' front\n",
                                     at(label.leader_start), at(label.leader_end));
@@ -229,9 +252,10 @@ private:
             text += text_command(placed);
         text += legend_commands(layout.legend);
         for (const double mark : panel.marks)
-            text += fmt::format("set arrow from first {0:.10g},graph 0 to first {0:.10g},graph 1 nohead lw 0.5 dt 3 lc "
-                                "rgb '#808080'\n",
-                                mark);
+            text += fmt::format(
+                "set arrow from first {0:.10g},graph 0 to first {0:.10g},graph 1 nohead lw 0.5 dt (2,3.5) lc "
+                "rgb '#808080'\n",
+                mark);
         text += label_commands(layout.labels);
         const std::string plots = plot_commands(panel, layout);
         if (!plots.empty())
@@ -255,99 +279,68 @@ private:
         for (const FigureSeries& series : panel.series) {
             if (series.style == FigureSeries::Style::dots) {
                 if (!dots)
-                    add(mingled_dots(panel, layout), dots_style(panel));
+                    add(dots_text(panel, layout), dots_style(panel));
                 dots = true;
                 continue;
             }
             if (cells && series.style == FigureSeries::Style::symbols) // seen on any colour
-                add(data_text(series, panel), fmt::format("with points pt 7 ps {:.3g} lc rgb 'white'", 2 * symbol_));
-            add(data_text(series, panel), style_text(series));
+                add(data_text(series, panel, layout),
+                    fmt::format("with points pt 7 ps {:.3g} lc rgb 'white'", 2 * symbol_));
+            add(data_text(series, panel, layout),
+                style_text(series, static_cast<std::size_t>(&panel.series.back() - &series)));
         }
         return data.empty() ? "" : "plot " + plots + '\n' + data;
     }
 
-    static std::string data_text(const FigureSeries& series, const FigurePanel& panel) {
+    /// The points of a line that shows the same: of others so near that they are level gnuplot moves some to whole
+    /// dots, which is seen as a notch.
+    static Polyline thinned(const Polyline& line, const PanelLayout& layout) {
+        if (layout.x.logarithmic || layout.y.logarithmic)
+            return line;
+        return simplified(line, layout.x.high - layout.x.low, layout.y.high - layout.y.low, unseen);
+    }
+
+    static std::string data_text(const FigureSeries& series, const FigurePanel& panel, const PanelLayout& layout) {
+        using Style = FigureSeries::Style;
+        const bool line = series.style == Style::line || series.style == Style::dashed || series.style == Style::dotted;
         std::string text;
         for (const PlaneBox& cell : series.cells)
             text += fmt::format("{:.10g} {:.10g} {:.10g} {:.10g} {:.10g} {:.10g}\n", (cell.left + cell.right) / 2,
                                 (cell.low + cell.high) / 2, cell.left, cell.right, cell.low, cell.high);
-        const Polyline points = smoothed(series.points, series.along, series.corners);
-        for (const PlanePoint& point : points)
-            text += is_drawn(point, panel) ? fmt::format("{:.10g} {:.10g}\n", point.x, point.y) : std::string("\n");
+        Polyline piece;
+        const auto write = [&] {
+            for (const PlanePoint& point : line ? thinned(piece, layout) : piece)
+                text += fmt::format("{:.10g} {:.10g}\n", point.x, point.y);
+            piece.clear();
+        };
+        for (const PlanePoint& point : smoothed(series.points, series.along, series.corners))
+            if (is_drawn(point, panel)) {
+                piece.push_back(point);
+            } else {
+                write();
+                text += '\n';
+            }
+        write();
         return text;
     }
 
-    static constexpr std::size_t crowd = 20000;
+    static constexpr std::size_t few = 1000, crowd = 20000;
 
     std::string dots_style(const FigurePanel& panel) const {
         std::size_t points = 0;
         for (const FigureSeries& series : panel.series)
             points += series.style == FigureSeries::Style::dots ? series.points.size() : 0;
-        return (points > crowd ? std::string("with dots") : fmt::format("with points pt 7 ps {:.3g}", 0.17 * symbol_)) +
+        const double size = points > few ? 0.17 : 0.22;
+        return (points > crowd ? std::string("with dots") : fmt::format("with points pt 7 ps {:.3g}", size * symbol_)) +
                " lc rgb variable";
     }
 
-    struct Dot {
-        std::uint64_t square; ///< about as large as a dot
-        std::uint64_t order;
-        bool on_top;
-        PlanePoint at;
-        std::size_t series;
-    };
-
-    /// Of each square the dots of one series come last: which one is as if by chance, so that where series lie on one
-    /// another each is seen, however many dots it has.
-    static void mingle(std::vector<Dot>& dots) {
-        std::map<std::uint64_t, std::set<std::size_t>> present;
-        for (const Dot& dot : dots)
-            present[dot.square].insert(dot.series);
-        for (Dot& dot : dots) {
-            const std::set<std::size_t>& there = present[dot.square];
-            const auto top = static_cast<std::ptrdiff_t>(mixed(dot.square) % there.size());
-            dot.on_top = *std::next(there.begin(), top) == dot.series;
-        }
-        std::stable_sort(dots.begin(), dots.end(), [](const Dot& a, const Dot& b) {
-            return std::pair(a.on_top, a.order) < std::pair(b.on_top, b.order);
-        });
-    }
-
-    /// Dots of all series, of those that nobody could tell apart only one.
-    static std::string mingled_dots(const FigurePanel& panel, const PanelLayout& layout) {
-        constexpr double dot_size = 1.2; // points
-        std::vector<Dot> dots;
-        const auto cell = [](double column, double row) {
-            return static_cast<std::uint64_t>(column) << 32 | static_cast<std::uint64_t>(row);
-        };
-        for (std::size_t s = 0; s < panel.series.size(); ++s) {
-            const FigureSeries& series = panel.series[s];
-            if (series.style != FigureSeries::Style::dots)
-                continue;
-            std::unordered_set<std::uint64_t> taken;
-            for (const PlanePoint& point : series.points) {
-                const double x = layout.x.share(point.x), y = layout.y.share(point.y);
-                if (!is_drawn(point, panel) || !(x >= 0 && x <= 1 && y >= 0 && y <= 1))
-                    continue;
-                const std::uint64_t place = cell(x / grain, y / grain);
-                const std::uint64_t square =
-                    cell(x * layout.frame.width() / dot_size, y * layout.frame.height() / dot_size);
-                if (taken.insert(place).second)
-                    dots.push_back({square, mixed(place * 31 + s), false, point, s});
-            }
-        }
-        mingle(dots);
+    static std::string dots_text(const FigurePanel& panel, const PanelLayout& layout) {
         std::string text;
-        for (const Dot& dot : dots)
+        for (const MingledDot& dot : mingled_dots(panel, layout))
             text +=
                 fmt::format("{:.7g} {:.7g} {}\n", dot.at.x, dot.at.y, colour_number(panel.series[dot.series].colour));
         return text;
-    }
-
-    /// SplitMix64 (Steele, Lea and Flood 2014).
-    static std::uint64_t mixed(std::uint64_t value) {
-        value += 0x9e3779b97f4a7c15u;
-        value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9u;
-        value = (value ^ (value >> 27)) * 0x94d049bb133111ebu;
-        return value ^ (value >> 31);
     }
 
     const Figure* figure_;

@@ -37,29 +37,37 @@ Box box_of(const PlacedText& text) {
     return {left, text.at.y - height / 2, left + length, text.at.y + height / 2};
 }
 
+bool is_one_word(const std::string& text) {
+    return text.find(' ') == std::string::npos;
+}
+
 /// What stands beside an axis: words and symbol, or less of it, so that it fits into two lines.
 std::vector<RichText> axis_label(const std::string& name, const std::string& words, const std::string& unit, int power,
-                                 double room) {
-    RichText tail;
+                                 double room, const std::vector<std::string>& symbols) {
+    RichText bracket, tail; // the same behind a blank
     if (!unit.empty() || power != 0) {
-        tail = rich(" (") + (power != 0 ? rich_power(power) : RichText{}) +
-               rich(power != 0 && !unit.empty() ? " " : "") + rich_unit(unit) + rich(")");
+        bracket = rich("(") + (power != 0 ? rich_power(power) : RichText{}) +
+                  rich(power != 0 && !unit.empty() ? " " : "") + rich_unit(unit) + rich(")");
+        tail = rich(" ") + bracket;
     }
-    const RichText symbol = rich_name(name);
-    const bool is_symbol = !symbol.empty() && symbol.front().look == TextRun::Look::italic;
+    const RichText symbol = is_one_word(name) ? rich_name(name) : rich_words(name, symbols);
+    const bool is_symbol = is_one_word(name) && !symbol.empty() && symbol.front().look == TextRun::Look::italic;
     const RichText end = (is_symbol ? symbol : RichText{}) + tail;
     if (words.empty() && width_of(symbol + tail) <= room)
         return {symbol + tail};
     const std::string text = words.empty() ? letters_of(symbol) : words;
     if (!words.empty() || !is_symbol) {
         const RichText blank = rich(is_symbol ? " " : "");
-        if (width_of(rich(text) + blank + end) <= room)
-            return {rich(text) + blank + end};
+        const auto with_end = [&](const std::string& words_before) {
+            return rich_words(words_before, symbols) + blank + end;
+        };
+        if (width_of(with_end(text)) <= room)
+            return {with_end(text)};
         const std::vector<std::string> lines = wrapped(text, room, 3);
-        if (lines.size() == 1 && width_of(end) <= room) // the unit's line begins without its blank
-            return {rich(lines[0]), is_symbol ? end : RichText(tail.begin() + (tail.empty() ? 0 : 1), tail.end())};
-        if (lines.size() == 2 && width_of(rich(lines[1]) + blank + end) <= room)
-            return {rich(lines[0]), rich(lines[1]) + blank + end};
+        if (lines.size() == 1 && width_of(end) <= room)
+            return {rich_words(lines[0], symbols), is_symbol ? end : bracket};
+        if (lines.size() == 2 && width_of(with_end(lines[1])) <= room)
+            return {rich_words(lines[0], symbols), with_end(lines[1])};
     }
     return {symbol + tail};
 }
@@ -136,8 +144,10 @@ private:
         const FigurePanel& panel = figure_->panels[p];
         const double width = frame_width_ / font(), height = frame_height_ / font();
         titles_[p] = wrapped(panel.title, width, 2);
-        x_labels_[p] = axis_label(panel.x_label, panel.x_words, panel.x_unit, page_.panels[p].x.power, width);
-        y_labels_[p] = axis_label(panel.y_label, panel.y_words, panel.y_unit, page_.panels[p].y.power, height);
+        x_labels_[p] =
+            axis_label(panel.x_label, panel.x_words, panel.x_unit, page_.panels[p].x.power, width, figure_->symbols);
+        y_labels_[p] =
+            axis_label(panel.y_label, panel.y_words, panel.y_unit, page_.panels[p].y.power, height, figure_->symbols);
     }
     double room_above(std::size_t p) const { return font() * (line * static_cast<double>(titles_[p].size()) + 0.5); }
     double room_of_axis(std::size_t p) const {
@@ -162,12 +172,14 @@ private:
         frame_width_ = std::max(least_height, (page_.width - beside) / static_cast<double>(columns_));
         for (std::size_t p = 0; p < page_.panels.size(); ++p) {
             PanelLayout& panel = page_.panels[p];
-            const double legend = place_legend(panel.legend, 0, 0, column_width(column_of(p)), font());
+            const double legend =
+                place_legend(panel.legend, 0, 0, column_width(column_of(p)), font(), figure_->symbols);
             above_[row_of(p)] = std::max(above_[row_of(p)], room_above(p));
             below_[row_of(p)] = std::max(below_[row_of(p)], room_of_axis(p) + legend + gap_of_panels * font());
         }
         title_height_ = font() * (margin + title_size * line * static_cast<double>(figure_title().size()));
-        legend_height_ = place_legend(page_.legend, margin * font(), 0, page_.width - 2 * margin * font(), font());
+        legend_height_ =
+            place_legend(page_.legend, margin * font(), 0, page_.width - 2 * margin * font(), font(), figure_->symbols);
         const double around = title_height_ + legend_height_ + std::accumulate(above_.begin(), above_.end(), 0.0) +
                               std::accumulate(below_.begin(), below_.end(), 0.0);
         frame_height_ =
@@ -186,13 +198,13 @@ private:
         double y = page_.height - font() * margin / 2;
         for (const std::string& text : figure_title()) {
             y -= title_size * line * font() / 2;
-            PlacedText placed{rich(text), {page_.width / 2, y}, title_size * font()};
+            PlacedText placed{rich_words(text, figure_->symbols), {page_.width / 2, y}, title_size * font()};
             placed.box = box_of(placed);
             page_.title.push_back(placed);
             y -= title_size * line * font() / 2;
         }
         place_legend(page_.legend, margin * font(), legend_height_ + 0.3 * font(), page_.width - 2 * margin * font(),
-                     font());
+                     font(), figure_->symbols);
     }
 
     void place(std::size_t p) {
@@ -208,7 +220,8 @@ private:
         frame.high = top - above_[row_of(p)];
         frame.low = frame.high - frame_height_;
         write(p);
-        place_legend(panel.legend, left, frame.low - room_of_axis(p), column_width(column_of(p)), font());
+        place_legend(panel.legend, left, frame.low - room_of_axis(p), column_width(column_of(p)), font(),
+                     figure_->symbols);
         panel.labels = place_labels(figure_->panels[p], frame, panel.x, panel.y, font());
     }
 
@@ -226,7 +239,7 @@ private:
         const double middle = (frame.left + frame.right) / 2;
         double y = frame.high + font() * (0.3 + line * (static_cast<double>(titles_[p].size()) - 0.5));
         for (const std::string& text : titles_[p]) {
-            add(panel, rich(text), {middle, y}, Align::centre, false);
+            add(panel, rich_words(text, figure_->symbols), {middle, y}, Align::centre, false);
             y -= line * font();
         }
         for (const PanelAxis::Tic& tic : panel.x.tics)

@@ -199,6 +199,9 @@ std::string text_of(const Facts& facts, bool all, std::size_t width) {
     const std::vector<std::string> runs = facts.names("run"), pictures = facts.names("picture");
     if (!runs.empty())
         text += list_of_runs(facts, width);
+    for (const std::string& run : runs)
+        if (const std::string failure = facts.text("run", run, "failure"); !failure.empty())
+            text += '\n' + wrapped(fmt::format("run {} failed: {}", run, failure), width) + '\n';
     if (!pictures.empty())
         text += '\n' +
                 wrapped(fmt::format("{} picture{}: {}", pictures.size(), pictures.size() == 1 ? "" : "s",

@@ -1,7 +1,5 @@
 #include "program/legend.hpp"
 
-#include "program/rich_text.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,7 +40,7 @@ std::vector<LegendEntry> legend_entries(const FigurePanel& panel) {
             return entry.title == series.title && entry.colour == series.colour;
         });
         if (!series.title.empty() && !empty && !known)
-            entries.push_back({series.title, series.style, series.colour, series.symbol});
+            entries.push_back({series.title, {}, series.style, series.colour, series.symbol});
     }
     const auto styles = static_cast<std::size_t>(std::count_if(entries.begin(), entries.end(), is_of_style));
     const std::size_t others = entries.size() - styles;
@@ -55,7 +53,7 @@ std::vector<LegendEntry> legend_entries(const FigurePanel& panel) {
         if (is_of_style(entry) || seen < most - 1)
             fewer.push_back(entry);
         if (!is_of_style(entry) && ++seen == most)
-            fewer.push_back({fmt::format("and {} more", others - most + 1), {}, FigureSeries::black, 0, false});
+            fewer.push_back({fmt::format("and {} more", others - most + 1), {}, {}, FigureSeries::black, 0, false});
     }
     return fewer;
 }
@@ -67,7 +65,8 @@ bool same_legend(const std::vector<LegendEntry>& one, const std::vector<LegendEn
         });
 }
 
-double place_legend(std::vector<LegendEntry>& entries, double left, double top, double width, double font) {
+double place_legend(std::vector<LegendEntry>& entries, double left, double top, double width, double font,
+                    const std::vector<std::string>& symbols) {
     if (entries.empty())
         return 0;
     const double size = legend_font(font);
@@ -76,8 +75,8 @@ double place_legend(std::vector<LegendEntry>& entries, double left, double top, 
         entry.sample = sample_of(entry) * size;
         const double before = entry.sample + (entry.sampled ? gap * size : 0);
         const std::vector<std::string> lines = wrapped(entry.title, (width - before) / size, 1);
-        entry.title = lines.empty() ? "" : lines.front();
-        entry.box = {0, 0, before + width_of(rich(entry.title)) * size, row_height * size};
+        entry.text = rich_words(lines.empty() ? "" : lines.front(), symbols);
+        entry.box = {0, 0, before + width_of(entry.text) * size, row_height * size};
         widest = std::max(widest, entry.box.right);
     }
     const double step = widest + gap_of_columns * size;

@@ -126,6 +126,57 @@ RichText rich_name(const std::string& name) {
     return result;
 }
 
+namespace {
+
+/// The end of a unit's exponent, as of ^-1 behind a letter; where it would begin if there is none.
+std::size_t power_at(const std::string& text, std::size_t begin) {
+    if (begin == 0 || begin >= text.size() || text[begin] != '^' ||
+        std::isalpha(static_cast<unsigned char>(text[begin - 1])) == 0)
+        return begin;
+    const std::size_t digits = begin + (text.compare(begin, 2, "^-") == 0 ? 2 : 1);
+    const std::size_t end = std::min(text.find_first_not_of("0123456789", digits), text.size());
+    return end > digits ? end : begin;
+}
+
+} // namespace
+
+RichText rich_words(const std::string& text, const std::vector<std::string>& symbols) {
+    const auto in_name = [&](std::size_t i) {
+        return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) != 0 || text[i] == '_');
+    };
+    const auto follows = [&](std::size_t at, std::string_view word) {
+        return text.compare(at, word.size(), word) == 0 && !in_name(at + word.size());
+    };
+    RichText result;
+    std::string words;
+    for (std::size_t i = 0; i < text.size();) {
+        std::size_t end = i;
+        while (in_name(end))
+            ++end;
+        const std::string name = text.substr(i, end - i);
+        const bool known = std::find(symbols.begin(), symbols.end(), name) != symbols.end();
+        const RichText symbol = known ? rich_name(name) : RichText{};
+        const bool indexed = symbol.size() > 1;
+        const bool after_number = i >= 2 && text[i - 1] == ' ' && std::isdigit(static_cast<unsigned char>(text[i - 2]));
+        const bool valued = follows(end, " =") || follows(end, " up") || follows(end, " down");
+        if (known && symbol.front().look == Look::italic && (indexed || (valued && !after_number))) {
+            result = result + rich(words) + symbol;
+            words.clear();
+        } else {
+            words += name;
+        }
+        i = end;
+        if (const std::size_t power = power_at(text, i); power > i) {
+            result = result + rich(words) + RichText{{text.substr(i + 1, power - i - 1), Look::raised}};
+            words.clear();
+            i = power;
+        }
+        while (i < text.size() && !in_name(i))
+            words += text[i++];
+    }
+    return result + rich(words);
+}
+
 RichText rich_unit(const std::string& unit) {
     RichText result;
     for (std::size_t i = 0; i < unit.size();) {
@@ -166,9 +217,14 @@ double width_of(const RichText& text) {
 }
 
 std::vector<std::string> wrapped(const std::string& text, double width, std::size_t most) {
-    std::vector<std::string> lines;
+    std::vector<std::string> lines, parts;
     std::istringstream words(text);
-    for (std::string word; words >> word;) {
+    for (std::string word; words >> word;)
+        if (!parts.empty() && (word == "=" || parts.back().ends_with(" =") || parts.back().ends_with("Fig.")))
+            parts.back() += ' ' + word;
+        else
+            parts.push_back(word);
+    for (std::string& word : parts) {
         while (width_of_letters(word) > width && word.size() > 1)
             drop_letter(word);
         if (!lines.empty() && width_of_letters(lines.back() + ' ' + word) <= width)

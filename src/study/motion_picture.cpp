@@ -75,6 +75,8 @@ private:
         const std::size_t index = portrait_ ? figure_.panels.size() : value;
         if (index >= figure_.panels.size()) {
             figure_.panels.push_back(panel_of(*picture_, run, x, y, value));
+            figure_.panels.back().roomy_y = true;
+            figure_.panels.back().roomy_x = portrait_;
             if (portrait_)
                 figure_.panels.back().title = fmt::format("({}) {}", static_cast<char>('a' + index), title);
         }

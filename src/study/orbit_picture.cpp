@@ -183,6 +183,14 @@ std::string title_with_parameter(const StudyPicture& picture, const StoredRun& r
     return title;
 }
 
+/// What ends a segment; a transition without a label of its own is called by its event alone, behind its mode.
+std::string shown_end(const StudyPicture& picture, const DrawnOrbit& orbit, std::size_t segment) {
+    const std::string& end = orbit.motion[segment].end;
+    const std::string mode = orbit.model.modes[orbit.motion[segment].mode].name + ":";
+    const bool given = shown_name(picture, end) != shown_name({}, end);
+    return shown_name(picture, !given && end.starts_with(mode) ? end.substr(mode.size()) : end);
+}
+
 /// @param colour of all segments; none: one for each, which those of an image in the second half share
 void add_curves(FigurePanel& panel, const StudyPicture& picture, const DrawnOrbit& orbit, std::size_t value,
                 std::optional<std::size_t> colour, const std::string& title) {
@@ -193,7 +201,7 @@ void add_curves(FigurePanel& panel, const StudyPicture& picture, const DrawnOrbi
         std::string name = s == 0 ? title : "";
         if (!colour && kinds <= most_titles && s < kinds)
             name = fmt::format("{} {} → {}", s + 1, shown_name(picture, orbit.model.modes[orbit.motion[s].mode].name),
-                               shown_name(picture, orbit.motion[s].end));
+                               shown_end(picture, orbit, s));
         panel.series.push_back({name, FigureSeries::Style::line, colour.value_or(s % kinds), curves.line(s)});
     }
     panel.series.push_back({"", FigureSeries::Style::dotted, FigureSeries::black, curves.jumps()});
@@ -225,31 +233,35 @@ FigurePanel panel_of(const StudyPicture& picture, const DrawnOrbit& orbit, std::
 Figure orbit_picture(const StudyPicture& picture, const ResultFile& file, bool portrait) {
     Figure figure;
     std::vector<DrawnOrbit> orbits;
-    std::vector<std::string> titles, units;
+    std::vector<std::string> titles;
+    bool all_alone = true; // each is the only one of its run
     for (const std::string& name : picture.runs) {
         const StoredRun run(file, name, picture.place);
         for (OrbitRecord& record : shown_orbits(file, run, picture)) {
             const std::string title = title_with_parameter(picture, run, record);
-            titles.push_back(picture.runs.size() > 1 ? shown_name(picture, name) + ", " + title : title);
+            const bool has_name = run.record.kind == "orbit";
+            all_alone = all_alone && has_name;
+            titles.push_back(picture.runs.size() > 1 && !has_name ? shown_name(picture, name) + ", " + title : title);
             orbits.push_back(drawn_orbit(run, std::move(record), picture, portrait));
         }
     }
+    const bool together = all_alone && orbits.size() > 1; // to be compared, one panel has them all
     for (std::size_t o = 0; o < orbits.size(); ++o) {
         const DrawnOrbit& orbit = orbits[o];
         const Axes& axes = orbit.axes;
         const bool over_time = axes.over_time;
         for (std::size_t v = over_time ? 0 : 1; v < axes.values.size(); ++v) {
-            const std::size_t index = over_time ? v : figure.panels.size();
+            const std::size_t index = over_time ? v : together ? v - 1 : figure.panels.size();
             if (index >= figure.panels.size()) {
                 figure.panels.push_back(panel_of(picture, orbit, v));
                 const bool several = orbits.size() > 1;
-                if (!over_time || !several)
+                if (!several || (!over_time && !together))
                     figure.panels.back().title =
                         (several ? fmt::format("({}) ", static_cast<char>('a' + index)) : std::string()) + titles[o];
                 figure.panels.back().roomy_y = true;
                 figure.panels.back().roomy_x = !over_time;
             }
-            const bool by_segment = !over_time || orbits.size() == 1;
+            const bool by_segment = orbits.size() == 1 || (!over_time && !together);
             add_curves(figure.panels[index], picture, orbit, v, by_segment ? std::nullopt : std::optional(o),
                        by_segment ? "" : titles[o]);
         }

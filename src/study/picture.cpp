@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 namespace graze {
 
 StudyPicture default_picture(const RunRecord& run) {
@@ -47,6 +49,19 @@ bool shows_branches(const StudyPicture& picture, const ResultFile& file) {
                      "choose branch, portrait, history or scatter");
 }
 
+/// Names of parameters and states, for them to be set as such in what the study says.
+std::vector<std::string> symbols_of(const StudyPicture& picture, const ResultFile& file) {
+    std::set<std::string> names;
+    for (const std::string& run : picture.runs) {
+        const Model model = StoredRun(file, run, picture.place).model;
+        for (const Parameter& parameter : model.parameters)
+            names.insert(parameter.name);
+        for (const State& state : model.states)
+            names.insert(state.name);
+    }
+    return {names.begin(), names.end()};
+}
+
 } // namespace
 
 ResultPicture make_picture(const StudyPicture& given, const ResultFile& file) {
@@ -75,6 +90,7 @@ ResultPicture make_picture(const StudyPicture& given, const ResultFile& file) {
     else
         result.figure = bifurcation_picture(picture, file);
     result.figure.title = picture.title;
+    result.figure.symbols = symbols_of(picture, file);
     result.figure.style = picture.style;
     return result;
 }

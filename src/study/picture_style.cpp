@@ -44,11 +44,12 @@ void read_font(const StudyReader& reader, const TomlEntry& entry, FigureStyle& s
         style.font = reader.toml().line(entry);
         return;
     }
-    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path, {"name", "size"}))
+    reader.each_of(entry, {"name", "size"}, [&](const TomlEntry& item) {
         if (item.name == "name")
             style.font = reader.toml().line(item);
         else
             style.font_size = reader.positive(Model(), item);
+    });
 }
 
 } // namespace
@@ -65,10 +66,10 @@ void check_style(const FigureStyle& style, const Place& place) {
 
 bool read_style(const StudyReader& reader, const TomlEntry& entry, StudyPicture& picture) {
     if (entry.name == "names") {
-        for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path)) {
+        reader.each_of(entry, {}, [&](const TomlEntry& item) {
             require_plain_line(item.name, "name", item.place);
             picture.names.emplace_back(item.name, reader.toml().line(item));
-        }
+        });
     } else if (entry.name == "x_label") {
         picture.x_label = reader.toml().line(entry);
     } else if (entry.name == "y_label") {

@@ -3,6 +3,7 @@
 #include "graze/model/named_value.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/study/stored_study.hpp"
+#include "graze/symbolic/transform.hpp"
 #include "graze/trajectory/recorder.hpp"
 #include "graze/trajectory/trajectory.hpp"
 
@@ -70,6 +71,18 @@ private:
     std::vector<double> parameters_, inputs_, work_, row_;
 };
 
+/// What a study called a value of its own is found among those, all else in the model.
+Expression value_of(const StoredRun& run, const Model& model, const std::string& name, const Place& place) {
+    const bool of_model = model.find_state(name) || model.find_parameter(name) || model.find_quantity(name);
+    if (run.has_value(name) && !of_model) {
+        const StudyRun asked = stored_run(run.record);
+        for (std::size_t i = 0; i < asked.value_names.size(); ++i)
+            if (asked.value_names[i] == name)
+                return named_value(model, to_string(asked.values[i]), place).value;
+    }
+    return named_value(model, name, place).value;
+}
+
 } // namespace
 
 std::vector<std::vector<double>> dense_motion(const StoredRun& run, const PointRecord& point,
@@ -104,7 +117,7 @@ std::vector<std::vector<double>> dense_motion(const StoredRun& run, const PointR
     std::vector<Expression> values;
     const Expression none = Graph::create()->number(0); // stands for time, which is no function of the state
     for (const std::string& name : names)
-        values.push_back(name == "t" ? none : named_value(model, name, place).value);
+        values.push_back(name == "t" ? none : value_of(run, model, name, place));
     const Simulation simulation{System(model)};
     const std::vector<double> parameters = model.parameter_values();
     DenseRecorder recorder(simulation.system().function_of(values), parameters, model.periods(), duration);

@@ -135,6 +135,15 @@ Figure scatter_picture(const StudyPicture& picture, const ResultFile& file) {
             figure.panels[v].series.push_back(std::move(series));
         }
     }
+    constexpr std::size_t most_circles = 300; // of more none would be told from its neighbours
+    for (FigurePanel& panel : figure.panels) {
+        std::size_t points = 0;
+        for (const FigureSeries& series : panel.series)
+            points += series.points.size();
+        for (FigureSeries& series : panel.series)
+            if (points > most_circles)
+                series.style = FigureSeries::Style::dots;
+    }
     return figure;
 }
 

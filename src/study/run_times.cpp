@@ -1,6 +1,7 @@
 #include "graze/study/run_times.hpp"
 
 #include "graze/symbolic/file_name.hpp"
+#include "graze/symbolic/printable.hpp"
 #include "study/settings_fields.hpp"
 
 #include <fmt/chrono.h>
@@ -11,6 +12,10 @@ namespace {
 
 std::string key_of(const std::string& run) {
     return "times of " + run;
+}
+
+std::string key_of_failure(const std::string& run) {
+    return "failure of run " + run;
 }
 
 template <class Fields, class Times>
@@ -34,6 +39,18 @@ void note_times(ResultFile& file, const std::string& run, const RunTimes& times)
     SettingsWriter fields;
     describe(fields, times);
     file.set_note(key_of(run), fields.text());
+}
+
+void note_failure(ResultFile& file, const std::string& run, const std::string& problem) {
+    if (!problem.empty() || failure_of(file, run))
+        file.set_note(key_of_failure(run), problem);
+}
+
+std::optional<std::string> failure_of(const ResultFile& file, const std::string& run) {
+    const auto note = file.note(key_of_failure(run));
+    if (!note || note->empty())
+        return std::nullopt;
+    return printable_line(*note);
 }
 
 std::optional<RunTimes> times_of(const ResultFile& file, const std::string& run) {

@@ -253,6 +253,7 @@ private:
             --progress_.branches_left;
         else
             progress_.study_done += planned_points(run) - work.counted;
+        note_failure(file, run.name, work.report.problem);
         if (!work.times)
             return;
         work.times->seconds += work.report.seconds;

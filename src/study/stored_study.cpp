@@ -193,7 +193,7 @@ void store_study(const Study& study, ResultFile& file) {
 }
 
 std::optional<ParameterValues> stored_set(const ResultFile& file) {
-    const Place place{"stored study", 0, 0};
+    const Place place{file.path(), 0, 0};
     const auto note = file.note(key_of_study);
     if (!note)
         return std::nullopt;
@@ -207,7 +207,7 @@ std::optional<ParameterValues> stored_set(const ResultFile& file) {
 }
 
 Study stored_study(const ResultFile& file) {
-    const Place place{"stored study", 0, 0};
+    const Place place{file.path(), 0, 0};
     Study study;
     study.file = file.path();
     const Json json = parse_json(file.note(key_of_study).value_or("{}"), place);

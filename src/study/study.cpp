@@ -1,9 +1,9 @@
 #include "graze/study/study.hpp"
 
 #include "graze/symbolic/file_name.hpp"
+#include "graze/symbolic/printable.hpp"
 #include "graze/symbolic/text_file.hpp"
 #include "results/run_names.hpp"
-#include "study/picture_style.hpp"
 #include "study/start_point.hpp"
 #include "study/study_reader.hpp"
 
@@ -36,10 +36,6 @@ std::string_view name_of(RunKind kind) {
     return "simulate";
 }
 
-std::vector<std::string> picture_kinds() {
-    return {"bifurcation", "branch", "basin", "map", "history", "portrait", "spectrum", "regression", "scatter"};
-}
-
 bool BranchRequest::keeps_point() const {
     const auto& monitors = settings.monitors;
     return std::count_if(monitors.begin(), monitors.end(), [](const Monitor& one) { return one.fixed; }) <
@@ -59,12 +55,16 @@ std::vector<std::string> picture_formats() {
     return {"png", "svg", "pdf", "tex"};
 }
 
+void require_run(const std::string& name, const std::vector<std::string>& names, const Place& place) {
+    if (std::find(names.begin(), names.end(), name) == names.end())
+        throw InputError(place, fmt::format("the study has no run '{}'", name), study_name_remedy(name, names));
+}
+
 std::vector<StudyRun> in_order(std::vector<StudyRun> runs) {
     const std::vector<std::string> names = names_of(runs);
     for (const StudyRun& run : runs)
-        if (run.start && std::find(names.begin(), names.end(), run.start->run) == names.end())
-            throw InputError(run.start->place, fmt::format("the study has no run '{}'", run.start->run),
-                             study_name_remedy(run.start->run, names));
+        if (run.start)
+            require_run(run.start->run, names, run.start->place);
     std::vector<StudyRun> ordered;
     const auto is_done = [&](const std::string& name) {
         return std::any_of(ordered.begin(), ordered.end(), [&](const StudyRun& run) { return run.name == name; });
@@ -83,35 +83,6 @@ std::vector<StudyRun> in_order(std::vector<StudyRun> runs) {
 }
 
 namespace {
-
-void check_pictures(const Study& study) {
-    const std::vector<std::string> names = names_of(study.runs);
-    for (const StudyPicture& picture : study.pictures)
-        for (const std::string& run : picture.runs)
-            if (std::find(names.begin(), names.end(), run) == names.end())
-                throw InputError(picture.place, fmt::format("the study has no run '{}'", run),
-                                 study_name_remedy(run, names));
-}
-
-/// One point, or a list of points, each given by one coordinate.
-void read_points(const StudyReader& reader, const TomlEntry& entry, StudyPicture& picture) {
-    const Model none;
-    const auto points = entry.node->is_array() ? reader.toml().elements(entry) : std::vector<TomlEntry>{entry};
-    for (const TomlEntry& point : points)
-        for (const TomlEntry& at : reader.toml().entries(reader.toml().table(point), point.path)) {
-            require_plain_line(at.name, "coordinate", at.place);
-            picture.at.emplace_back(at.name, reader.number(none, at));
-        }
-}
-
-void read_logarithmic(const StudyReader& reader, const TomlEntry& entry, StudyPicture& picture) {
-    for (const std::string& axis : reader.strings(entry)) {
-        picture.logarithmic_x = picture.logarithmic_x || axis == "x";
-        picture.logarithmic_y = picture.logarithmic_y || axis == "y";
-        if (axis != "x" && axis != "y")
-            reader.fail(entry, fmt::format("there is no axis '{}'", axis), "name x, y or both");
-    }
-}
 
 /// Values that change nothing are mistakes.
 void check_given(const Study& study) {
@@ -147,128 +118,166 @@ void check_given(const Study& study) {
     }
 }
 
-} // namespace
-
-StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
-    const Model none;
-    StudyPicture picture;
-    picture.name = entry.name;
-    picture.place = entry.place;
-    require_file_name(picture.name, "name of a picture", entry.place);
-    const std::vector<TomlEntry> items = reader.toml().entries(
-        reader.toml().table(entry), entry.path,
-        {"kind",    "title",   "run",     "runs",    "x",      "y",           "samples", "directions",
-         "x_range", "y_range", "fit",     "at",      "points", "logarithmic", "format",  "successive",
-         "group",   "names",   "x_label", "y_label", "size",   "font"});
-    for (const TomlEntry& item : items) {
-        const std::string& key = item.name;
-        if (read_style(reader, item, picture))
-            continue;
-        if (key == "kind") {
-            const std::vector<std::string> kinds = picture_kinds();
-            picture.kind = kinds[reader.choice(item, kinds)];
-        } else if (key == "title") {
-            picture.title = reader.toml().line(item);
-        } else if (key == "run" || key == "runs") {
-            picture.runs = reader.strings(item);
-        } else if (key == "x") {
-            picture.x = reader.toml().line(item);
-        } else if (key == "y") {
-            picture.y = reader.strings(item);
-        } else if (key == "samples") {
-            picture.samplings = reader.strings(item);
-        } else if (key == "directions") {
-            picture.directions = reader.strings(item);
-        } else if (key == "x_range") {
-            picture.x_range = reader.range(none, item);
-        } else if (key == "y_range") {
-            picture.y_range = reader.range(none, item);
-        } else if (key == "fit") {
-            picture.fit = reader.range(none, item);
-        } else if (key == "at") {
-            read_points(reader, item, picture);
-        } else if (key == "points") {
-            picture.points = reader.strings(item);
-        } else if (key == "logarithmic") {
-            read_logarithmic(reader, item, picture);
-        } else if (key == "successive") {
-            picture.successive = reader.toml().boolean(item);
-        } else if (key == "group") {
-            picture.group = reader.toml().line(item);
-        } else {
-            const std::vector<std::string> formats = picture_formats();
-            picture.format = formats[reader.choice(item, formats)];
-        }
+/// Reads one study. A mistake in one of its runs, pictures or tables leaves the others to be read.
+class WholeStudy {
+public:
+    WholeStudy(const std::string& file, const ParameterValues& set) : reader_(file) {
+        study_.file = file;
+        study_.set = set;
+        defaults_.given = set;
     }
-    check_keys_of_picture(reader, picture.kind, items);
-    if (picture.runs.empty())
-        throw InputError(entry.place, fmt::format("{} shows no run", entry.path), "give run = \"NAME\"");
-    return picture;
-}
+
+    Study read(const toml::table& root) {
+        defaults_.whole = mistakes_.attempt([&] { read_head(root); });
+        check_head();
+        if (runs_ && mistakes_.attempt([&] { run_entries_ = entries_of(*runs_); }))
+            read_runs();
+        if (pictures_)
+            mistakes_.attempt(
+                [&] { StudyReader::each(entries_of(*pictures_), [&](const auto& e) { add_picture(e); }); });
+        if (tables_)
+            mistakes_.attempt([&] { StudyReader::each(entries_of(*tables_), [&](const auto& e) { add_table(e); }); });
+        mistakes_.throw_noted();
+        return std::move(study_);
+    }
+
+private:
+    std::vector<TomlEntry> entries_of(const TomlEntry& group) const {
+        return reader_.toml().entries(reader_.toml().table(group), group.path);
+    }
+
+    void read_head(const toml::table& root) {
+        const TomlReader& toml = reader_.toml();
+        StudyReader::each(toml.entries(root, ""), [&](const TomlEntry& entry) {
+            toml.require_known(entry, "",
+                               {"name", "text", "source", "model", "set", "values", "runs", "pictures", "tables"});
+            if (entry.name == "name")
+                study_.name = toml.string(entry), name_place_ = toml.place(*entry.node);
+            else if (entry.name == "text")
+                study_.text = toml.string(entry);
+            else if (entry.name == "source")
+                study_.source = toml.string(entry);
+            else if (entry.name == "model") {
+                defaults_.model = toml.string(entry);
+                defaults_.model_place = toml.place(*entry.node);
+            } else if (entry.name == "set")
+                defaults_.set = entry;
+            else if (entry.name == "values")
+                defaults_.values = entry;
+            else
+                (entry.name == "runs" ? runs_ : entry.name == "pictures" ? pictures_ : tables_) = entry;
+        });
+    }
+
+    /// What is missing; a key that could not be read may have been that.
+    void check_head() {
+        if (!study_.name.empty())
+            mistakes_.attempt(
+                [&] { require_file_name(study_.name, "name of a study, which its folder bears", name_place_); });
+        else if (defaults_.whole)
+            mistakes_.attempt([&] {
+                throw InputError(Place{study_.file, 1, 1}, "the study has no name",
+                                 "give name = \"...\" in its first line");
+            });
+        if (!runs_ && defaults_.whole)
+            mistakes_.attempt([&] {
+                throw InputError(Place{study_.file, 1, 1}, "the study has no runs", "add a table [runs.NAME]");
+            });
+    }
+
+    void read_runs() {
+        for (const TomlEntry& entry : run_entries_)
+            names_.push_back(entry.name);
+        mistakes_.attempt([&] {
+            if (names_.empty())
+                throw InputError(runs_->place, "the study has no runs", "add a table [runs.NAME]");
+        });
+        for (const TomlEntry& entry : run_entries_)
+            mistakes_.attempt([&] { add_run(entry); });
+        const bool all = mistakes_.none();
+        if (all)
+            mistakes_.attempt([&] { check_given(study_); });
+        for (const StudyRun& run : study_.runs)
+            mistakes_.attempt([&] { require_free_name(run.name, run.is_branch(), names_, run.place); });
+        if (all)
+            mistakes_.attempt([&] { check_order(); });
+        for (const TomlEntry& entry : run_entries_)
+            with_key(mistakes_, keys_[entry.name], "start", [&](const TomlEntry& start) { check_parent(start); });
+        for (const StudyRun& run : study_.runs)
+            if (const StudyRun* parent = run.start ? study_.find_run(run.start->run) : nullptr)
+                mistakes_.attempt([&] { check_start(reader_, run, *parent, keys_[run.name]); });
+    }
+
+    void add_run(const TomlEntry& entry) {
+        std::optional<StudyRun> run = read_run(reader_, entry, defaults_, keys_[entry.name]);
+        if (!run)
+            return;
+        for (const Variation& axis : run->axes)
+            values_ += axis.values.size();
+        constexpr std::size_t most = 20'000'000; // of all runs, which are in memory at once
+        if (values_ > most) {
+            mistakes_.attempt([&] {
+                throw InputError(entry.place, fmt::format("the study varies things through more than {} values", most),
+                                 "take larger steps, or make several studies");
+            });
+            mistakes_.throw_noted();
+        }
+        study_.runs.push_back(std::move(*run));
+    }
+
+    /// Runs that start from each other have no order; those that start from nothing are told one by one.
+    void check_order() {
+        const bool known = std::all_of(study_.runs.begin(), study_.runs.end(), [&](const StudyRun& run) {
+            return !run.start || study_.find_run(run.start->run);
+        });
+        if (known)
+            study_.runs = in_order(std::move(study_.runs));
+    }
+
+    /// Of runs that could not be read too. What is no text is told there.
+    void check_parent(const TomlEntry& start) const {
+        if (const toml::table* keys = start.node->as_table())
+            if (const auto name = (*keys)["run"].value<std::string>(); name && !name->empty() && is_plain_text(*name))
+                require_run(*name, names_, start.place);
+    }
+
+    void add_picture(const TomlEntry& entry) {
+        picture_names_.push_back(entry.name);
+        study_.pictures.push_back(read_picture(reader_, entry));
+        const StudyPicture& picture = study_.pictures.back();
+        Mistakes mistakes;
+        bool all = true;
+        for (const std::string& name : picture.runs) {
+            mistakes.attempt([&] { require_run(name, names_, picture.place); });
+            all = all && study_.find_run(name);
+        }
+        mistakes.throw_noted();
+        if (all)
+            check_shown_names(reader_, study_, picture, entry);
+    }
+
+    void add_table(const TomlEntry& entry) {
+        study_.tables.push_back(read_table(reader_, entry));
+        check_table(study_, study_.tables.back(), names_, picture_names_);
+    }
+
+    StudyReader reader_;
+    Study study_;
+    StudyDefaults defaults_;
+    Mistakes mistakes_;
+    Place name_place_;
+    std::optional<TomlEntry> runs_, pictures_, tables_;
+    std::vector<TomlEntry> run_entries_;
+    std::vector<std::string> names_, picture_names_; ///< also of those that could not be read
+    std::map<std::string, RunKeys> keys_;
+    std::size_t values_ = 0; ///< through which things vary
+};
+
+} // namespace
 
 Study parse_study(std::string_view text, const std::string& file, const ParameterValues& set) {
     const toml::table root = parse_toml(text, file);
-    const StudyReader reader(file);
-    const TomlReader& toml = reader.toml();
-    Study study;
-    study.file = file;
-    study.set = set;
-    StudyDefaults defaults;
-    defaults.given = set;
-    Place name_place;
-    std::optional<TomlEntry> runs, pictures, tables;
-    for (const TomlEntry& entry :
-         toml.entries(root, "", {"name", "text", "source", "model", "set", "values", "runs", "pictures", "tables"})) {
-        if (entry.name == "name")
-            study.name = toml.string(entry), name_place = toml.place(*entry.node);
-        else if (entry.name == "text")
-            study.text = toml.string(entry);
-        else if (entry.name == "source")
-            study.source = toml.string(entry);
-        else if (entry.name == "model") {
-            defaults.model = toml.string(entry);
-            defaults.model_place = toml.place(*entry.node);
-        } else if (entry.name == "set")
-            defaults.set = entry;
-        else if (entry.name == "values")
-            defaults.values = entry;
-        else
-            (entry.name == "runs" ? runs : entry.name == "pictures" ? pictures : tables) = entry;
-    }
-    if (study.name.empty())
-        throw InputError(Place{file, 1, 1}, "the study has no name", "give name = \"...\" in its first line");
-    require_file_name(study.name, "name of a study, which its folder bears", name_place);
-    if (!runs)
-        throw InputError(Place{file, 1, 1}, "the study has no runs", "add a table [runs.NAME]");
-    std::map<std::string, RunKeys> keys;
-    std::size_t values = 0;
-    for (const TomlEntry& entry : toml.entries(toml.table(*runs), "runs")) {
-        study.runs.push_back(read_run(reader, entry, defaults, keys[entry.name]));
-        for (const Variation& axis : study.runs.back().axes)
-            values += axis.values.size();
-        constexpr std::size_t most = 20'000'000; // of all runs, which are in memory at once
-        if (values > most)
-            throw InputError(entry.place, fmt::format("the study varies things through more than {} values", most),
-                             "take larger steps, or make several studies");
-    }
-    if (study.runs.empty())
-        throw InputError(runs->place, "the study has no runs", "add a table [runs.NAME]");
-    check_given(study);
-    for (const StudyRun& run : study.runs)
-        require_free_name(run.name, run.is_branch(), names_of(study.runs), run.place);
-    study.runs = in_order(std::move(study.runs));
-    for (const StudyRun& run : study.runs)
-        if (run.start)
-            check_start(reader, run, run_named(study, run.start->run), keys[run.name]);
-    if (pictures)
-        for (const TomlEntry& entry : toml.entries(toml.table(*pictures), "pictures"))
-            study.pictures.push_back(read_picture(reader, entry));
-    check_pictures(study);
-    if (tables)
-        for (const TomlEntry& entry : toml.entries(toml.table(*tables), "tables"))
-            study.tables.push_back(read_table(reader, entry));
-    check_tables(study);
-    return study;
+    return WholeStudy(file, set).read(root);
 }
 
 bool is_study_text(std::string_view text, const std::string& file) {

@@ -26,12 +26,12 @@ ParameterId parameter_named(const StudyReader& reader, const Model& model, const
 /// Further parameters with their bounds.
 void read_free(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     BranchSettings& settings = run.branch.settings;
-    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path)) {
+    reader.each_of(entry, {}, [&](const TomlEntry& item) {
         const ParameterId parameter = parameter_named(reader, run.model, item, item.name);
         const auto [least, greatest] = reader.range(run.model, item);
         settings.free.push_back(parameter);
         settings.free_bounds.push_back({parameter, least, greatest});
-    }
+    });
 }
 
 /// Both parameters of a curve: the second is free, as those of `free` after it.
@@ -41,12 +41,17 @@ void read_plane(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
     if (items.size() != 2)
         reader.fail(entry, fmt::format("{} names {} parameters", entry.path, items.size()),
                     "name the two of the curve: along = { omega = [0, 3], V = [0, 1] }");
-    settings.parameter = parameter_named(reader, run.model, items[0], items[0].name);
-    const ParameterId second = parameter_named(reader, run.model, items[1], items[1].name);
-    std::tie(settings.least, settings.greatest) = reader.range(run.model, items[0]);
-    const auto [least, greatest] = reader.range(run.model, items[1]);
-    settings.free.push_back(second);
-    settings.free_bounds.push_back({second, least, greatest});
+    reader.each(items, [&](const TomlEntry& item) {
+        const ParameterId parameter = parameter_named(reader, run.model, item, item.name);
+        const auto [least, greatest] = reader.range(run.model, item);
+        if (item.name == items[0].name) {
+            settings.parameter = parameter;
+            std::tie(settings.least, settings.greatest) = std::pair(least, greatest);
+        } else {
+            settings.free.push_back(parameter);
+            settings.free_bounds.push_back({parameter, least, greatest});
+        }
+    });
 }
 
 void read_along(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
@@ -69,12 +74,12 @@ void read_along(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
 
 void read_step(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     ContinuationOptions& options = run.branch.settings.continuation;
-    for (const TomlEntry& item :
-         reader.toml().entries(reader.toml().table(entry), entry.path, {"first", "smallest", "largest", "angle"}))
+    reader.each_of(entry, {"first", "smallest", "largest", "angle"}, [&](const TomlEntry& item) {
         (item.name == "first"      ? options.first_step
          : item.name == "smallest" ? options.smallest_step
          : item.name == "largest"  ? options.largest_step
                                    : options.largest_angle) = reader.positive(run.model, item);
+    });
 }
 
 void read_stop(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
@@ -122,9 +127,7 @@ Monitor read_monitor(const StudyReader& reader, const Model& model, const TomlEn
         return monitor;
     }
     std::size_t kinds = 0;
-    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path,
-                                                       {"value", "start", "duration", "maximum", "minimum", "mean",
-                                                        "norm", "multiplier", "at", "fixed", "report", "bounds"})) {
+    const auto read = [&](const TomlEntry& item) {
         if (item.name == "at") {
             monitor.segment =
                 item.node->is_integer() ? std::to_string(reader.count(item, 1)) : reader.toml().string(item);
@@ -144,7 +147,11 @@ Monitor read_monitor(const StudyReader& reader, const Model& model, const TomlEn
             ++kinds;
             read_monitor_kind(reader, model, item, monitor);
         }
-    }
+    };
+    reader.each_of(entry,
+                   {"value", "start", "duration", "maximum", "minimum", "mean", "norm", "multiplier", "at", "fixed",
+                    "report", "bounds"},
+                   read);
     if (kinds != 1)
         reader.fail(entry, fmt::format("{} is measured in {} ways", entry.path, kinds),
                     "give one of value, start, duration, maximum, minimum, mean, norm or multiplier");
@@ -180,13 +187,11 @@ void note_set(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) 
             run.branch.set.push_back(*place);
 }
 
-void read_branch(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {
+void read_branch(const StudyReader& reader, StudyRun& run, const RunKeys& keys) {
     BranchRequest& branch = run.branch;
     BranchSettings& settings = branch.settings;
-    const auto with = [&](const char* key, auto use) {
-        if (const auto found = keys.find(key); found != keys.end())
-            use(found->second);
-    };
+    Mistakes mistakes;
+    const auto with = [&](const char* key, auto use) { with_key(mistakes, keys, key, use); };
     with("signature", [&](const TomlEntry& e) {
         branch.signature = reader.toml().string(e);
         branch.signature_place = reader.inside(e);
@@ -214,9 +219,14 @@ void read_branch(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
     settings.monitors = usual_monitors(run.model);
     with("monitors", [&](const TomlEntry& e) {
         settings.monitors.clear();
-        for (const TomlEntry& item : reader.toml().entries(reader.toml().table(e), e.path))
-            settings.monitors.push_back(read_monitor(reader, run.model, item));
+        reader.each_of(
+            e, {}, [&](const TomlEntry& item) { settings.monitors.push_back(read_monitor(reader, run.model, item)); });
     });
+    mistakes.throw_noted();
+}
+
+void check_branch(const StudyReader& reader, const StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {
+    const BranchRequest& branch = run.branch;
     if (run.kind == RunKind::curve && !run.start)
         throw InputError(entry.place, fmt::format("{} does not say where the curve begins", entry.path),
                          "give start = { run = \"BRANCH\", point = \"SN1\" }");
@@ -226,7 +236,7 @@ void read_branch(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
                              ? "give along = { PARAMETER = [LEAST, GREATEST], OTHER = [LEAST, GREATEST] }"
                              : "give along = { PARAMETER = [LEAST, GREATEST] }");
     if (run.kind == RunKind::orbit)
-        for (const Monitor& monitor : settings.monitors)
+        for (const Monitor& monitor : branch.settings.monitors)
             if (monitor.fixed || !monitor.crossings.empty() || monitor.least || monitor.greatest)
                 reader.fail(keys.at("monitors"),
                             fmt::format("monitor '{}' is fixed, reported or bounded, and a run of kind \"orbit\" "

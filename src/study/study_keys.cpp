@@ -84,37 +84,16 @@ constexpr std::array of_integration{"order", "largest_step"};
 template <class Names>
 void refuse_any(const StudyReader& reader, const RunKeys& keys, const Names& names, const std::string& why,
                 const std::string& remedy) {
+    Mistakes mistakes;
     for (const char* name : names)
-        if (const auto found = keys.find(name); found != keys.end())
-            reader.fail(found->second, fmt::format("`{}` has no effect here: {}", name, why), remedy);
+        with_key(mistakes, keys, name, [&](const TomlEntry& entry) {
+            reader.fail(entry, fmt::format("`{}` has no effect here: {}", name, why), remedy);
+        });
+    mistakes.throw_noted();
 }
 
-/// Several keys say where a run begins; all but one would be ignored.
-void check_beginning(const StudyReader& reader, RunKind kind, const RunKeys& keys) {
-    const bool branch = kind == RunKind::orbit || kind == RunKind::follow || kind == RunKind::curve;
-    const auto refuse_two = [&](const char* one, const char* other) {
-        if (keys.contains(one) && keys.contains(other))
-            reader.fail(keys.at(other), fmt::format("`{}` has no effect here: the run has `{}`", other, one),
-                        "leave one of them out");
-    };
-    if (kind == RunKind::simulate && keys.contains("sample")) {
-        const bool periods = keys.contains("periods") || keys.contains("skip");
-        if (keys.contains("section") && !periods)
-            reader.fail(keys.at("section"),
-                        "`section` has no effect here: no periods are counted, and `sample` is given", "leave it out");
-    }
-    if (keys.contains("events") && !keys.contains("contacts") && !keys.contains("greatest_speed"))
-        reader.fail(keys.at("events"),
-                    "`events` has no effect here: it says which contacts count, and none are counted",
-                    "leave it out, or give `contacts` or `greatest_speed`");
-    refuse_two("start", "from");
-    refuse_two("start", "mode");
-    refuse_two("start", "signature");
-    refuse_two("start", "table");
-    refuse_two("table", "from");
-    refuse_two("table", "mode");
-    if (!branch)
-        return;
+/// What is never settled on an orbit, or never integrated, has no settings for it.
+void check_unused(const StudyReader& reader, RunKind kind, const RunKeys& keys) {
     const std::string leave = "leave it out";
     if (keys.contains("signature") || keys.contains("table"))
         refuse_any(reader, keys, of_settling, "no orbit is settled on", leave);
@@ -124,6 +103,37 @@ void check_beginning(const StudyReader& reader, RunKind kind, const RunKeys& key
     if (keys.contains("table"))
         refuse_any(reader, keys, of_integration, "no motion leads to the orbit; `tolerance` is that of the orbit",
                    leave);
+}
+
+/// Several keys say where a run begins; all but one would be ignored.
+void check_beginning(const StudyReader& reader, RunKind kind, const RunKeys& keys) {
+    Mistakes mistakes;
+    const auto refuse = [&](const char* key, const std::string& problem, const std::string& remedy) {
+        mistakes.attempt([&] { reader.fail(keys.at(key), problem, remedy); });
+    };
+    const auto refuse_two = [&](const char* one, const char* other) {
+        if (keys.contains(one) && keys.contains(other))
+            refuse(other, fmt::format("`{}` has no effect here: the run has `{}`", other, one),
+                   "leave one of them out");
+    };
+    if (kind == RunKind::simulate && keys.contains("sample")) {
+        const bool periods = keys.contains("periods") || keys.contains("skip");
+        if (keys.contains("section") && !periods)
+            refuse("section", "`section` has no effect here: no periods are counted, and `sample` is given",
+                   "leave it out");
+    }
+    if (keys.contains("events") && !keys.contains("contacts") && !keys.contains("greatest_speed"))
+        refuse("events", "`events` has no effect here: it says which contacts count, and none are counted",
+               "leave it out, or give `contacts` or `greatest_speed`");
+    refuse_two("start", "from");
+    refuse_two("start", "mode");
+    refuse_two("start", "signature");
+    refuse_two("start", "table");
+    refuse_two("table", "from");
+    refuse_two("table", "mode");
+    if (kind == RunKind::orbit || kind == RunKind::follow || kind == RunKind::curve)
+        mistakes.attempt([&] { check_unused(reader, kind, keys); });
+    mistakes.throw_noted();
 }
 
 } // namespace
@@ -136,6 +146,7 @@ std::vector<std::string> run_keys() {
 }
 
 void check_keys_of_kind(const StudyReader& reader, RunKind kind, const RunKeys& keys) {
+    Mistakes mistakes;
     for (const auto& [name, entry] : keys) {
         const auto* key = std::find_if(keys_of_runs.begin(), keys_of_runs.end(),
                                        [&, &name = name](const Key& one) { return name == one.name; });
@@ -145,9 +156,12 @@ void check_keys_of_kind(const StudyReader& reader, RunKind kind, const RunKeys& 
         for (unsigned k = 0; k <= static_cast<unsigned>(RunKind::curve); ++k)
             if (key->kinds & (1u << k))
                 kinds.push_back(fmt::format("\"{}\"", name_of(static_cast<RunKind>(k))));
-        reader.fail(entry, fmt::format("runs of kind \"{}\" have no `{}`", name_of(kind), name),
-                    fmt::format("leave it out; it belongs to {}", fmt::join(kinds, ", ")));
+        with_key(mistakes, keys, key->name, [&](const TomlEntry& wrong) {
+            reader.fail(wrong, fmt::format("runs of kind \"{}\" have no `{}`", name_of(kind), wrong.name),
+                        fmt::format("leave it out; it belongs to {}", fmt::join(kinds, ", ")));
+        });
     }
+    mistakes.throw_noted();
     check_beginning(reader, kind, keys);
 }
 
@@ -159,11 +173,12 @@ void check_keys_of_picture(const StudyReader& reader, const std::string& kind, c
         {"at", {"history", "portrait", "spectrum"}},
         {"points", {"history", "portrait", "branch"}},
     };
-    for (const auto& [name, kinds] : of_kinds)
-        for (const TomlEntry& key : keys)
+    reader.each(keys, [&](const TomlEntry& key) {
+        for (const auto& [name, kinds] : of_kinds)
             if (!kind.empty() && key.name == name && std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
                 reader.fail(key, fmt::format("pictures of kind \"{}\" have no `{}`", kind, name),
                             fmt::format("leave it out; it belongs to {}", fmt::join(kinds, ", ")));
+    });
 }
 
 namespace {

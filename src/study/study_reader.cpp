@@ -71,9 +71,12 @@ std::vector<std::string> StudyReader::strings(const TomlEntry& entry) const {
     if (entry.node->is_string())
         return {toml_.line(entry)};
     std::vector<std::string> result;
-    for (const TomlEntry& item : toml_.elements(entry))
-        result.push_back(toml_.line(item));
+    each(toml_.elements(entry), [&](const TomlEntry& item) { result.push_back(toml_.line(item)); });
     return result;
+}
+
+std::vector<TomlEntry> StudyReader::items(const TomlEntry& entry) const {
+    return entry.node->is_array() ? toml_.elements(entry) : std::vector<TomlEntry>{entry};
 }
 
 std::size_t StudyReader::choice(const TomlEntry& entry, const std::vector<std::string>& words) const {
@@ -123,8 +126,7 @@ void read_variation_table(const StudyReader& reader, const Model& model, const T
     std::size_t points = 0;
     double offset = 0;
     std::optional<std::pair<double, double>> draws;
-    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path,
-                                                       {"from", "to", "step", "points", "scale", "random", "offset"})) {
+    const auto read = [&](const TomlEntry& item) {
         if (item.name == "from")
             from = reader.number(model, item);
         else if (item.name == "to")
@@ -139,7 +141,8 @@ void read_variation_table(const StudyReader& reader, const Model& model, const T
             offset = reader.number(model, item);
         else
             draws = reader.range(model, item);
-    }
+    };
+    reader.each_of(entry, {"from", "to", "step", "points", "scale", "random", "offset"}, read);
     const double least = draws ? draws->first : from.value_or(1);
     if (variation.logarithmic && !(least > 0))
         reader.fail(entry, fmt::format("{} begins at {} on a logarithmic scale", entry.path, least),
@@ -186,8 +189,8 @@ Variation read_variation(const StudyReader& reader, const Model& model, const To
                          study_name_remedy(entry.name, known));
     }
     if (entry.node->is_array()) {
-        for (const TomlEntry& item : reader.toml().elements(entry))
-            variation.values.push_back(reader.number(model, item));
+        reader.each(reader.toml().elements(entry),
+                    [&](const TomlEntry& item) { variation.values.push_back(reader.number(model, item)); });
         std::sort(variation.values.begin(), variation.values.end());
         if (variation.values.empty() ||
             std::adjacent_find(variation.values.begin(), variation.values.end()) != variation.values.end())

@@ -3,6 +3,7 @@
 #include "graze/model/named_value.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/study/study.hpp"
+#include "graze/symbolic/input_errors.hpp"
 #include "model/model_file_toml.hpp"
 
 #include <map>
@@ -12,7 +13,7 @@
 
 namespace graze {
 
-/// Reads what studies are made of; every mistake is an InputError with its place.
+/// Reads what studies are made of; every mistake is an InputError with its place, several are InputErrors.
 class StudyReader {
 public:
     explicit StudyReader(std::string file) : toml_(file), file_(std::move(file)) {}
@@ -33,6 +34,26 @@ public:
     std::size_t choice(const TomlEntry& entry, const std::vector<std::string>& words) const;
     [[noreturn]] void fail(const TomlEntry& entry, const std::string& problem, const std::string& remedy) const;
 
+    /// Does something with each entry by itself, and tells the mistakes of all of them.
+    template <class Work>
+    static void each(const std::vector<TomlEntry>& entries, const Work& work) {
+        Mistakes mistakes;
+        for (const TomlEntry& entry : entries)
+            mistakes.attempt([&] { work(entry); });
+        mistakes.throw_noted();
+    }
+    /// The same with those of a table. @param known the only keys that it may have; none: any
+    template <class Work>
+    void each_of(const TomlEntry& table, std::initializer_list<std::string_view> known, const Work& work) const {
+        each(toml_.entries(toml_.table(table), table.path), [&](const TomlEntry& entry) {
+            if (known.size() > 0)
+                toml_.require_known(entry, table.path, known);
+            work(entry);
+        });
+    }
+    /// The items of a list, or what stands there in the place of a list of one.
+    std::vector<TomlEntry> items(const TomlEntry& entry) const;
+
 private:
     TomlReader toml_;
     std::string file_;
@@ -44,16 +65,33 @@ struct StudyDefaults {
     Place model_place;
     std::optional<TomlEntry> set, values;
     ParameterValues given; ///< in the place of what the study says
+    bool whole = true;     ///< whether all that the study begins with could be read
 };
 
 using RunKeys = std::map<std::string, TomlEntry>;
 
+/// Does something with a key of a run, if it is there. @return false for a mistake, which is noted
+template <class Work>
+bool with_key(Mistakes& mistakes, const RunKeys& keys, const char* key, const Work& work) {
+    const auto found = keys.find(key);
+    return found == keys.end() || mistakes.attempt([&] { work(found->second); });
+}
+
 /// @param keys receives those of the run, for checks that need other runs
-StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const StudyDefaults& defaults, RunKeys& keys);
+/// @return nothing where only a mistake elsewhere keeps it from being read
+std::optional<StudyRun> read_run(const StudyReader& reader, const TomlEntry& entry, const StudyDefaults& defaults,
+                                 RunKeys& keys);
 StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry);
 StudyTable read_table(const StudyReader& reader, const TomlEntry& entry);
+/// @throws InputError for `names` that name nothing of what the picture, the table `entry`, shows
+void check_shown_names(const StudyReader& reader, const Study& study, const StudyPicture& picture,
+                       const TomlEntry& entry);
+/// @param names of all runs, of which the study has those that could be read
 /// @throws InputError for a table that does not go with the study's runs, or whose file a picture writes
-void check_tables(const Study& study);
+void check_table(const Study& study, const StudyTable& table, const std::vector<std::string>& names,
+                 const std::vector<std::string>& pictures);
+/// @param names of all runs @throws InputError unless it is one of them
+void require_run(const std::string& name, const std::vector<std::string>& names, const Place& place);
 /// Each run after the one that it starts from, otherwise in their order.
 /// @throws InputError for a run that starts from one that is not there, or from itself
 std::vector<StudyRun> in_order(std::vector<StudyRun> runs);
@@ -61,7 +99,9 @@ std::vector<StudyRun> in_order(std::vector<StudyRun> runs);
 Variation read_variation(const StudyReader& reader, const Model& model, const TomlEntry& entry, bool& random);
 
 /// What only runs of kind orbit and continue say.
-void read_branch(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys);
+void read_branch(const StudyReader& reader, StudyRun& run, const RunKeys& keys);
+/// @throws InputError when they do not go together
+void check_branch(const StudyReader& reader, const StudyRun& run, const TomlEntry& entry, const RunKeys& keys);
 /// Remembers which parameters a run itself sets.
 void note_set(const StudyReader& reader, StudyRun& run, const TomlEntry& entry);
 /// Keys that runs of any kind have.

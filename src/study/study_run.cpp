@@ -35,18 +35,18 @@ Model model_of(const StudyReader& reader, const std::string& name, const Place& 
 /// @param given parameters that keep the values that they have
 void set_values(const StudyReader& reader, Model& model, const TomlEntry& entry, bool initial,
                 const ParameterValues& given = {}) {
-    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path)) {
+    reader.each_of(entry, {}, [&](const TomlEntry& item) {
         const bool is_given =
             std::any_of(given.begin(), given.end(), [&](const auto& one) { return one.first == item.name; });
         if (is_given && model.find_independent_parameter(item.name))
-            continue;
+            return;
         const double value = reader.number(model, item);
         try {
             initial ? model.set_initial(item.name, value) : model.set_parameter(item.name, value);
         } catch (const InputError& error) {
             throw InputError(item.place, error.problem(), error.remedy());
         }
-    }
+    });
 }
 
 std::size_t section_index(const StudyReader& reader, const Model& model, const TomlEntry& entry) {
@@ -80,8 +80,7 @@ Sampling read_sampling(const StudyReader& reader, const Model& model, const Toml
     sampling.name = entry.name;
     require_plain_line(sampling.name, "name of a sampling", entry.place);
     bool placed = false;
-    for (const TomlEntry& item : reader.toml().entries(
-             reader.toml().table(entry), entry.path, {"section", "maxima", "minima", "extrema", "contacts", "image"})) {
+    reader.each_of(entry, {"section", "maxima", "minima", "extrema", "contacts", "image"}, [&](const TomlEntry& item) {
         if (item.name == "image") {
             const std::string name = reader.toml().string(item);
             const std::vector<std::string> known = names_of(model.symmetries);
@@ -90,7 +89,7 @@ Sampling read_sampling(const StudyReader& reader, const Model& model, const Toml
                 reader.fail(item, fmt::format("model '{}' declares no symmetry '{}'", model.name, name),
                             study_name_remedy(name, known));
             sampling.symmetry = static_cast<std::size_t>(found - known.begin());
-            continue;
+            return;
         }
         if (placed)
             reader.fail(entry, fmt::format("{} is taken in two places", entry.path), "make two samplings of it");
@@ -107,7 +106,7 @@ Sampling read_sampling(const StudyReader& reader, const Model& model, const Toml
                                  : item.name == "minima" ? Direction::rising
                                                          : Direction::both;
         }
-    }
+    });
     if (!placed)
         reader.fail(entry, fmt::format("{} does not say where", entry.path),
                     "give one of section, maxima, minima, extrema or contacts");
@@ -116,22 +115,22 @@ Sampling read_sampling(const StudyReader& reader, const Model& model, const Toml
 
 void read_samplings(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     if (entry.node->is_table()) {
-        for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path))
-            run.samplings.push_back(read_sampling(reader, run.model, item));
+        reader.each_of(entry, {},
+                       [&](const TomlEntry& item) { run.samplings.push_back(read_sampling(reader, run.model, item)); });
         return;
     }
     const auto items = entry.node->is_string() ? std::vector<TomlEntry>{entry} : reader.toml().elements(entry);
-    for (const TomlEntry& item : items) {
+    reader.each(items, [&](const TomlEntry& item) {
         Sampling sampling;
         sampling.section = sampling.name = run.model.sections[section_index(reader, run.model, item)].name;
         run.samplings.push_back(sampling);
-    }
+    });
 }
 
 void read_values(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     std::set<std::string> taken;
     const auto items = entry.node->is_string() ? std::vector<TomlEntry>{entry} : reader.toml().elements(entry);
-    for (const TomlEntry& item : items) {
+    reader.each(items, [&](const TomlEntry& item) {
         std::string text = reader.toml().line(item), name;
         Place place = reader.inside(item);
         if (const std::size_t equals = text.find('='); equals != std::string::npos) {
@@ -150,26 +149,25 @@ void read_values(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
         run.value_names.push_back(name);
         run.value_units.push_back(value.unit);
         run.values.push_back(value.value);
-    }
+    });
 }
 
 void read_bounds(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path)) {
+    reader.each_of(entry, {}, [&](const TomlEntry& item) {
         const auto state = run.model.find_state(item.name);
         if (!state)
             throw InputError(item.place, fmt::format("the model has no state '{}'", item.name),
                              "give bounds of states: { q = [-1, 1] }");
         const auto [least, greatest] = reader.range(run.model, item);
         run.attractor.bounds.push_back({*state, least, greatest});
-    }
+    });
     run.transient.bounds = run.attractor.bounds;
 }
 
 void read_start(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     StartFrom start;
     start.place = entry.place;
-    for (const TomlEntry& item :
-         reader.toml().entries(reader.toml().table(entry), entry.path, {"run", "at", "direction", "point", "onto"})) {
+    reader.each_of(entry, {"run", "at", "direction", "point", "onto"}, [&](const TomlEntry& item) {
         if (item.name == "run") {
             start.run = reader.toml().string(item);
         } else if (item.name == "direction") {
@@ -187,7 +185,7 @@ void read_start(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
             start.coordinate = at.front().name;
             start.value = reader.number(run.model, at.front());
         }
-    }
+    });
     if (start.run.empty())
         reader.fail(entry, fmt::format("{} names no run", entry.path), "write { run = \"NAME\", at = { V = 1 } }");
     run.start = start;
@@ -195,12 +193,12 @@ void read_start(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
 
 void read_vary(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, bool& random) {
     double points = static_cast<double>(std::max<std::size_t>(run.draws, 1));
-    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path)) {
+    reader.each_of(entry, {}, [&](const TomlEntry& item) {
         run.axes.push_back(read_variation(reader, run.model, item, random));
         points *= static_cast<double>(std::max<std::size_t>(run.axes.back().values.size(), 1));
         if (points > most_points) // before the next axis takes room
             reader.fail(entry, "there would be more than a thousand million points", "take larger steps");
-    }
+    });
     const bool swept = run.kind == RunKind::sweep && !run.axes.empty();
     if (points / static_cast<double>(swept ? std::max<std::size_t>(run.axes.front().values.size(), 1) : 1) >
         most_chains)
@@ -211,21 +209,19 @@ void read_vary(const StudyReader& reader, StudyRun& run, const TomlEntry& entry,
 }
 
 void read_skip(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path, {"time", "periods"})) {
+    reader.each_of(entry, {"time", "periods"}, [&](const TomlEntry& item) {
         if (item.name == "time")
             run.transient.skip_time = reader.positive(run.model, item);
         else
             run.transient.skip_periods = reader.count(item);
-    }
+    });
 }
 
 /// Keys whose order does not matter once the model is known.
-void read_settings(const StudyReader& reader, StudyRun& run, const std::map<std::string, TomlEntry>& keys) {
+void read_settings(const StudyReader& reader, StudyRun& run, const RunKeys& keys) {
     const Model& model = run.model;
-    const auto with = [&](const char* key, auto use) {
-        if (const auto found = keys.find(key); found != keys.end())
-            use(found->second);
-    };
+    Mistakes mistakes;
+    const auto with = [&](const char* key, auto use) { with_key(mistakes, keys, key, use); };
     AttractorOptions& attractor = run.attractor;
     TransientOptions& transient = run.transient;
     with("direction", [&](const TomlEntry& e) {
@@ -251,6 +247,7 @@ void read_settings(const StudyReader& reader, StudyRun& run, const std::map<std:
     with("largest_step", [&](const TomlEntry& e) { run.simulation.largest_step = reader.positive(model, e); });
     with("draws", [&](const TomlEntry& e) { run.draws = reader.count(e, 1); });
     with("seed", [&](const TomlEntry& e) { run.seed = reader.count(e); });
+    mistakes.throw_noted();
 }
 
 /// What the user left to us.
@@ -294,7 +291,6 @@ void complete(StudyRun& run, const TomlEntry& entry) {
                          "give vary = { PARAMETER = { from = A, to = B, step = S } }");
 }
 
-/// The model, with parameters, initial state and mode as the run asks for.
 void read_model(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const StudyDefaults& defaults,
                 const RunKeys& keys) {
     if (keys.contains("model"))
@@ -304,32 +300,42 @@ void read_model(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
         run.model = model_of(reader, defaults.model, defaults.model_place, run.model_path);
     else
         throw InputError(entry.place, fmt::format("{} has no model", entry.path), "give model = \"NAME\" or a path");
+}
+
+/// Parameters, initial state and mode of the model, as the run asks for.
+void read_beginning(const StudyReader& reader, StudyRun& run, const StudyDefaults& defaults, const RunKeys& keys) {
     // Before the others, whose expressions may depend on them.
     for (const auto& [name, value] : defaults.given)
         if (run.model.find_independent_parameter(name))
             run.model.set_parameter(name, value);
+    Mistakes mistakes;
     if (defaults.set)
-        set_values(reader, run.model, *defaults.set, false, defaults.given);
-    if (keys.contains("set")) {
-        set_values(reader, run.model, keys.at("set"), false, defaults.given);
-        note_set(reader, run, keys.at("set"));
-    }
-    if (keys.contains("from"))
-        set_values(reader, run.model, keys.at("from"), true);
-    if (keys.contains("mode")) {
+        mistakes.attempt([&] { set_values(reader, run.model, *defaults.set, false, defaults.given); });
+    with_key(mistakes, keys, "set", [&](const TomlEntry& set) {
+        set_values(reader, run.model, set, false, defaults.given);
+        note_set(reader, run, set);
+    });
+    with_key(mistakes, keys, "from", [&](const TomlEntry& from) { set_values(reader, run.model, from, true); });
+    with_key(mistakes, keys, "mode", [&](const TomlEntry& mode) {
         try {
-            run.model.set_initial_mode(reader.toml().string(keys.at("mode")));
+            run.model.set_initial_mode(reader.toml().string(mode));
         } catch (const InputError& error) {
-            reader.fail(keys.at("mode"), error.problem(), error.remedy());
+            reader.fail(mode, error.problem(), error.remedy());
         }
-    }
+    });
+    mistakes.throw_noted();
 }
 
-/// What varies, with draws where it does so at random.
-void read_axes(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {
+/// What varies, with draws where it does so at random. @return whether anything does
+bool read_axes(const StudyReader& reader, StudyRun& run, const RunKeys& keys) {
     bool random = false;
     if (keys.contains("vary"))
         read_vary(reader, run, keys.at("vary"), random);
+    return random;
+}
+
+void check_draws(const StudyReader& reader, const StudyRun& run, bool random, const TomlEntry& entry,
+                 const RunKeys& keys) {
     if (random && run.draws == 0)
         reader.fail(keys.at("vary"), fmt::format("{} does not say how many values to draw", entry.path),
                     "give draws = N");
@@ -340,44 +346,75 @@ void read_axes(const StudyReader& reader, StudyRun& run, const TomlEntry& entry,
         reader.fail(keys.at("seed"), fmt::format("{} draws nothing", entry.path), "leave it out, or give draws = N");
 }
 
+/// The keys that a run has, and what it is.
+void read_keys(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, RunKeys& keys) {
+    const std::vector<std::string> known = run_keys();
+    Mistakes mistakes;
+    mistakes.attempt([&] { require_file_name(run.name, "name of a run", entry.place); });
+    mistakes.attempt([&] {
+        reader.each_of(entry, {}, [&](const TomlEntry& item) {
+            if (std::find(known.begin(), known.end(), item.name) == known.end())
+                throw InputError(item.place, fmt::format("unknown key '{}' in {}", item.name, entry.path),
+                                 study_name_remedy(item.name, known));
+            keys.emplace(item.name, item);
+        });
+        if (!keys.contains("kind"))
+            throw InputError(entry.place, fmt::format("{} has no kind", entry.path),
+                             "give kind = \"simulate\", \"sweep\", \"basin\", \"orbit\", \"continue\" or \"curve\"");
+    });
+    with_key(mistakes, keys, "kind", [&](const TomlEntry& kind) {
+        run.kind =
+            static_cast<RunKind>(reader.choice(kind, {"simulate", "sweep", "basin", "orbit", "continue", "curve"}));
+        check_keys_of_kind(reader, run.kind, keys);
+    });
+    with_key(mistakes, keys, "text", [&](const TomlEntry& text) { run.text = reader.toml().string(text); });
+    mistakes.throw_noted();
+}
+
+/// All that needs the model.
+void read_contents(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const StudyDefaults& defaults,
+                   const RunKeys& keys) {
+    Mistakes mistakes;
+    mistakes.attempt([&] { read_beginning(reader, run, defaults, keys); });
+    with_key(mistakes, keys, "section", [&](const TomlEntry& section) {
+        run.attractor.section = run.model.sections[section_index(reader, run.model, section)].name;
+    });
+    const bool settings = mistakes.attempt([&] { read_settings(reader, run, keys); });
+    bool random = false;
+    if (mistakes.attempt([&] { random = read_axes(reader, run, keys); }) && settings)
+        mistakes.attempt([&] { check_draws(reader, run, random, entry, keys); });
+    with_key(mistakes, keys, "start", [&](const TomlEntry& start) { read_start(reader, run, start); });
+    with_key(mistakes, keys, "sample", [&](const TomlEntry& sample) { read_samplings(reader, run, sample); });
+    if (keys.contains("values"))
+        mistakes.attempt([&] { read_values(reader, run, keys.at("values")); });
+    else if (defaults.values)
+        mistakes.attempt([&] { read_values(reader, run, *defaults.values); });
+    if (run.is_branch())
+        mistakes.attempt([&] { read_branch(reader, run, keys); });
+    mistakes.throw_noted();
+}
+
 } // namespace
 
-StudyRun read_run(const StudyReader& reader, const TomlEntry& entry, const StudyDefaults& defaults, RunKeys& keys) {
+std::optional<StudyRun> read_run(const StudyReader& reader, const TomlEntry& entry, const StudyDefaults& defaults,
+                                 RunKeys& keys) {
     StudyRun run;
     run.name = entry.name;
     run.place = entry.place;
-    require_file_name(run.name, "name of a run", entry.place);
-    const std::vector<std::string> known = run_keys();
-    for (TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path)) {
-        if (std::find(known.begin(), known.end(), item.name) == known.end())
-            throw InputError(item.place, fmt::format("unknown key '{}' in {}", item.name, entry.path),
-                             study_name_remedy(item.name, known));
-        keys.emplace(item.name, std::move(item));
+    Mistakes mistakes;
+    const bool has_keys = mistakes.attempt([&] { read_keys(reader, run, entry, keys); });
+    // A key that could not be read may have been the one that names the model.
+    const bool says_model = keys.contains("model") || !defaults.model.empty();
+    if (!says_model && !(has_keys && defaults.whole)) {
+        mistakes.throw_noted();
+        return std::nullopt;
     }
-    if (!keys.contains("kind"))
-        throw InputError(entry.place, fmt::format("{} has no kind", entry.path),
-                         "give kind = \"simulate\", \"sweep\", \"basin\", \"orbit\", \"continue\" or \"curve\"");
-    run.kind = static_cast<RunKind>(
-        reader.choice(keys.at("kind"), {"simulate", "sweep", "basin", "orbit", "continue", "curve"}));
-    check_keys_of_kind(reader, run.kind, keys);
-    if (keys.contains("text"))
-        run.text = reader.toml().string(keys.at("text"));
-    read_model(reader, run, entry, defaults, keys);
-    if (keys.contains("section"))
-        run.attractor.section = run.model.sections[section_index(reader, run.model, keys.at("section"))].name;
-    read_settings(reader, run, keys);
-    read_axes(reader, run, entry, keys);
-    if (keys.contains("start"))
-        read_start(reader, run, keys.at("start"));
-    if (keys.contains("sample"))
-        read_samplings(reader, run, keys.at("sample"));
-    if (keys.contains("values"))
-        read_values(reader, run, keys.at("values"));
-    else if (defaults.values)
-        read_values(reader, run, *defaults.values);
+    if (mistakes.attempt([&] { read_model(reader, run, entry, defaults, keys); }))
+        mistakes.attempt([&] { read_contents(reader, run, entry, defaults, keys); });
+    mistakes.throw_noted();
     complete(run, entry);
     if (run.is_branch())
-        read_branch(reader, run, entry, keys);
+        check_branch(reader, run, entry, keys);
     return run;
 }
 

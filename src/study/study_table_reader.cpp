@@ -30,15 +30,14 @@ StudyTable::Column column_of(const StudyReader& reader, const TomlEntry& entry) 
 }
 
 void read_columns(const StudyReader& reader, const TomlEntry& entry, StudyTable& table) {
-    const auto items = entry.node->is_array() ? reader.toml().elements(entry) : std::vector<TomlEntry>{entry};
-    for (const TomlEntry& item : items) {
+    reader.each(reader.items(entry), [&](const TomlEntry& item) {
         const StudyTable::Column column = column_of(reader, item);
         const std::vector<std::string> known = names_of(table.columns);
         if (std::find(known.begin(), known.end(), column.name) != known.end())
             reader.fail(item, fmt::format("there is another column '{}'", column.name),
                         fmt::format("leave it out, or give it a name of its own: \"NAME = {}\"", column.value));
         table.columns.push_back(column);
-    }
+    });
 }
 
 void read_ratios(const StudyReader& reader, const TomlEntry& entry, StudyTable& table) {
@@ -46,7 +45,7 @@ void read_ratios(const StudyReader& reader, const TomlEntry& entry, StudyTable& 
     const auto is_column = [&](const std::string& name) {
         return std::find(known.begin(), known.end(), name) != known.end();
     };
-    for (const TomlEntry& item : reader.toml().entries(reader.toml().table(entry), entry.path)) {
+    reader.each_of(entry, {}, [&](const TomlEntry& item) {
         require_plain_line(item.name, "column", item.place);
         if (is_column(item.name))
             throw InputError(item.place, fmt::format("there is another column '{}'", item.name),
@@ -55,7 +54,7 @@ void read_ratios(const StudyReader& reader, const TomlEntry& entry, StudyTable& 
         if (!is_column(of))
             reader.fail(item, fmt::format("the table has no column '{}'", of), study_name_remedy(of, known));
         table.ratios.push_back({item.name, of});
-    }
+    });
 }
 
 /// Types, or types with a number.
@@ -73,15 +72,6 @@ void read_points(const StudyReader& reader, const TomlEntry& entry, StudyTable& 
     }
 }
 
-const StudyRun& run_of(const Study& study, const StudyTable& table, const std::string& name) {
-    const auto found =
-        std::find_if(study.runs.begin(), study.runs.end(), [&](const StudyRun& run) { return run.name == name; });
-    if (found == study.runs.end())
-        throw InputError(table.place, fmt::format("the study has no run '{}'", name),
-                         study_name_remedy(name, names_of(study.runs)));
-    return *found;
-}
-
 /// What a table begins with, unless it has one run, or has points without labels.
 void check_names(const StudyTable& table, bool branches) {
     for (const auto* columns : {&table.columns, &table.ratios})
@@ -91,16 +81,39 @@ void check_names(const StudyTable& table, bool branches) {
                                  "leave it out, or give it another name");
 }
 
-void check_runs(const Study& study, const StudyTable& table) {
-    std::vector<std::string> samplings;
-    const bool branches = run_of(study, table, table.runs.front()).is_branch();
+/// @return false where a run could not be read
+bool find_runs(const Study& study, const StudyTable& table, const std::vector<std::string>& names,
+               std::vector<const StudyRun*>& runs) {
+    Mistakes mistakes;
     for (const std::string& name : table.runs) {
-        const StudyRun& run = run_of(study, table, name);
-        if (run.is_branch() != branches)
-            throw InputError(table.place, "branches and other runs have different columns", "make a table of each");
-        for (const Sampling& sampling : run.samplings)
-            samplings.push_back(sampling.name);
+        mistakes.attempt([&] { require_run(name, names, table.place); });
+        if (const StudyRun* run = study.find_run(name))
+            runs.push_back(run);
     }
+    mistakes.throw_noted();
+    return runs.size() == table.runs.size();
+}
+
+void check_samplings(const StudyTable& table, const std::vector<const StudyRun*>& runs) {
+    std::vector<std::string> known;
+    for (const StudyRun* run : runs)
+        for (const Sampling& sampling : run->samplings)
+            known.push_back(sampling.name);
+    Mistakes mistakes;
+    for (const std::string& name : table.samplings)
+        mistakes.attempt([&] {
+            if (std::find(known.begin(), known.end(), name) == known.end())
+                throw InputError(table.place, fmt::format("there is no sampling '{}'", name),
+                                 study_name_remedy(name, known));
+        });
+    mistakes.throw_noted();
+}
+
+void check_runs(const StudyTable& table, const std::vector<const StudyRun*>& runs) {
+    const bool branches = runs.front()->is_branch();
+    for (const StudyRun* run : runs)
+        if (run->is_branch() != branches)
+            throw InputError(table.place, "branches and other runs have different columns", "make a table of each");
     check_names(table, branches);
     if (!branches && !table.points.empty())
         throw InputError(table.place, fmt::format("points of run '{}' have no labels", table.runs.front()),
@@ -108,10 +121,7 @@ void check_runs(const Study& study, const StudyTable& table) {
     if (branches && !table.samplings.empty())
         throw InputError(table.place, fmt::format("orbits of run '{}' are not sampled", table.runs.front()),
                          "leave `samples` out");
-    for (const std::string& name : table.samplings)
-        if (std::find(samplings.begin(), samplings.end(), name) == samplings.end())
-            throw InputError(table.place, fmt::format("there is no sampling '{}'", name),
-                             study_name_remedy(name, samplings));
+    check_samplings(table, runs);
 }
 
 } // namespace
@@ -120,11 +130,10 @@ StudyTable read_table(const StudyReader& reader, const TomlEntry& entry) {
     StudyTable table;
     table.name = entry.name;
     table.place = entry.place;
-    require_file_name(table.name, "name of a table", entry.place);
     std::optional<TomlEntry> ratios;
-    for (const TomlEntry& item :
-         reader.toml().entries(reader.toml().table(entry), entry.path,
-                               {"text", "run", "runs", "columns", "ratios", "points", "samples", "directions"})) {
+    Mistakes mistakes;
+    mistakes.attempt([&] { require_file_name(table.name, "name of a table", entry.place); });
+    const auto read = [&](const TomlEntry& item) {
         const std::string& key = item.name;
         if (key == "text")
             table.text = reader.toml().string(item);
@@ -138,7 +147,11 @@ StudyTable read_table(const StudyReader& reader, const TomlEntry& entry) {
             read_points(reader, item, table);
         else
             (key == "samples" ? table.samplings : table.directions) = reader.strings(item);
-    }
+    };
+    mistakes.attempt([&] {
+        reader.each_of(entry, {"text", "run", "runs", "columns", "ratios", "points", "samples", "directions"}, read);
+    });
+    mistakes.throw_noted();
     if (table.runs.empty())
         throw InputError(entry.place, fmt::format("{} shows no run", entry.path), "give run = \"NAME\"");
     if (table.columns.empty())
@@ -149,16 +162,22 @@ StudyTable read_table(const StudyReader& reader, const TomlEntry& entry) {
     return table;
 }
 
-void check_tables(const Study& study) {
-    for (const StudyTable& table : study.tables) {
-        check_runs(study, table);
-        // Pictures may have a table beside them, of their name.
-        if (std::any_of(study.pictures.begin(), study.pictures.end(),
-                        [&](const StudyPicture& picture) { return picture.name == table.name; }))
+void check_table(const Study& study, const StudyTable& table, const std::vector<std::string>& names,
+                 const std::vector<std::string>& pictures) {
+    Mistakes mistakes;
+    mistakes.attempt([&] {
+        std::vector<const StudyRun*> runs;
+        if (find_runs(study, table, names, runs))
+            check_runs(table, runs);
+    });
+    // Pictures may have a table beside them, of their name.
+    mistakes.attempt([&] {
+        if (std::find(pictures.begin(), pictures.end(), table.name) != pictures.end())
             throw InputError(table.place,
                              fmt::format("there is a picture '{}', whose table has the same file", table.name),
                              "give the table another name");
-    }
+    });
+    mistakes.throw_noted();
 }
 
 } // namespace graze

@@ -6,14 +6,23 @@
 
 namespace graze {
 
+void Mistakes::note(const InputError& error) {
+    const auto is_same = [&](const InputError& known) { return std::string_view(known.what()) == error.what(); };
+    if (std::none_of(all_.begin(), all_.end(), is_same))
+        all_.push_back(error);
+}
+
 void Mistakes::throw_noted() {
-    const auto at = [](const InputError& error) { return std::tuple(error.place().line, error.place().column); };
+    std::vector<std::string> files;
+    for (const InputError& error : all_)
+        if (std::find(files.begin(), files.end(), error.place().file) == files.end())
+            files.push_back(error.place().file);
+    const auto at = [&](const InputError& error) {
+        return std::tuple(std::find(files.begin(), files.end(), error.place().file), error.place().line,
+                          error.place().column);
+    };
     std::stable_sort(all_.begin(), all_.end(),
                      [&](const InputError& one, const InputError& other) { return at(one) < at(other); });
-    const auto same = [](const InputError& one, const InputError& other) {
-        return std::string_view(one.what()) == other.what();
-    };
-    all_.erase(std::unique(all_.begin(), all_.end(), same), all_.end());
     if (all_.size() > most)
         all_.erase(all_.begin() + most, all_.end());
     if (all_.size() > 1)

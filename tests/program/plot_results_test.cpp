@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 namespace graze::testing {
 
@@ -152,6 +153,92 @@ TEST_F(PlotResults, TellsTheAttractorsOfABasinApart) {
     EXPECT_EQ(made.table.rows(), 3U);
 }
 
+TEST_F(PlotResults, MapsWhatIsReachedInTwoParametersBothWays) {
+    {
+        ResultFile file(path, ResultFile::Access::write);
+        const RunRecord run = run_of("sweep", {{"a", "V"}, {"b", "Hz"}});
+        file.begin_run(run);
+        for (std::size_t number = 0; number < 24; ++number) {
+            const std::size_t direction = number / 12, a = number % 4, b = number % 12 / 4;
+            const bool lost = direction == 1 && a == 1;
+            PointRecord point = point_of(number, {static_cast<double>(a), 10.0 + static_cast<double>(b)},
+                                         lost ? Label::escaped : Label::periodic);
+            point.direction = direction;
+            point.result.period = lost ? 0 : a < 2 ? 1 : 2;
+            if (!lost) // each is an orbit of its own, of which a map shows nothing
+                add(point, 0, 0, static_cast<double>(number), 0);
+            file.add_point(run.name, point);
+        }
+        file.complete_run(run.name);
+    }
+    const ResultFile file(path, ResultFile::Access::read);
+    const ResultPicture made = make_picture(picture_of("map", "sweep"), file);
+    ASSERT_EQ(made.figure.panels.size(), 2U);
+    const FigurePanel &up = made.figure.panels[0], &down = made.figure.panels[1];
+    EXPECT_EQ(up.title, "(a) a up");
+    EXPECT_EQ(down.title, "(b) a down");
+    EXPECT_EQ(up.x_unit, "V");
+    EXPECT_EQ(up.y_unit, "Hz");
+    ASSERT_EQ(up.series.size(), 2U);
+    EXPECT_EQ(up.series[0].title, "period 1 (6)");
+    EXPECT_EQ(up.series[1].title, "period 2 (6)");
+    ASSERT_EQ(up.series[0].cells.size(), 3U); // neighbours in a row are one
+    EXPECT_EQ(up.series[0].cells[0].left, -0.5);
+    EXPECT_EQ(up.series[0].cells[0].right, 1.5);
+    EXPECT_EQ(up.series[0].cells[0].low, 9.5);
+    EXPECT_EQ(up.series[0].cells[0].high, 10.5);
+    EXPECT_EQ(up.series[1].cells[2].right, 3.5);
+    EXPECT_EQ(up.series[1].cells[2].high, 12.5);
+    ASSERT_EQ(down.series.size(), 3U);
+    EXPECT_EQ(down.series[0].title, "period 1 (3)");
+    EXPECT_EQ(down.series[1].title, "escaped (3)");
+    EXPECT_EQ(down.series[1].colour, FigureSeries::grey);
+    EXPECT_EQ(down.series[2].title, "period 2 (6)");
+    EXPECT_EQ(down.series[2].colour, 1U);
+    EXPECT_EQ(made.table.rows(), 5U);
+    EXPECT_TRUE(up.labels.empty());
+}
+
+TEST_F(PlotResults, MarksAttractorsAmongTheStatesThatReachThem) {
+    {
+        ResultFile file(path, ResultFile::Access::write);
+        const RunRecord run = run_of("basin", {{"x", "m"}, {"y", "m/s"}});
+        file.begin_run(run);
+        for (std::size_t number = 0; number < 20; ++number) {
+            const std::size_t kind = number % 5 < 2 ? 0 : number % 5 < 4 ? 1 : 2;
+            PointRecord point = point_of(number, {static_cast<double>(number % 5), static_cast<double>(number / 5)},
+                                         kind == 0   ? Label::periodic
+                                         : kind == 1 ? Label::equilibrium
+                                                     : Label::escaped);
+            point.result.period = kind == 0 ? 2 : 0;
+            if (kind == 0) {
+                add(point, 0, 0, 1, 0.25);
+                add(point, 0, 1, 2, 0.5);
+                add(point, 1, 1, 4, 4); // of the other sampling, which is not drawn
+            } else {
+                add(point, 0, 0, 3, 0.75);
+            }
+            file.add_point(run.name, point);
+        }
+        file.complete_run(run.name);
+    }
+    const ResultFile file(path, ResultFile::Access::read);
+    const ResultPicture made = make_picture(picture_of("basin", "basin"), file);
+    ASSERT_EQ(made.figure.panels.size(), 1U);
+    const FigurePanel& panel = made.figure.panels[0];
+    std::vector<std::tuple<double, double, std::string>> labels;
+    for (const FigureLabel& label : panel.labels)
+        labels.emplace_back(label.at.x, label.at.y, label.text);
+    EXPECT_THAT(labels, ::testing::ElementsAre(std::tuple(1, 0.25, "1"), std::tuple(2, 0.5, "1"),
+                                               std::tuple(3, 0.75, "2"))); // what escapes has no place
+    std::size_t marks = 0;
+    for (const FigureSeries& series : panel.series)
+        if (series.style == FigureSeries::Style::symbols)
+            marks += series.points.size();
+    EXPECT_EQ(marks, 3U);
+    EXPECT_EQ(made.table.rows(), 3U);
+}
+
 TEST_F(PlotResults, FindsTheFrequencyOfAWaveInPercentOfTheMean) {
     {
         ResultFile file(path, ResultFile::Access::write);
@@ -255,6 +342,28 @@ TEST_F(PlotResults, WritesEveryFormat) {
         EXPECT_LT(contents(picture).size(), 2000000U);
     }
     EXPECT_THAT(contents(folder / "picture.gp"), HasSubstr("multiplot"));
+}
+
+// What LaTeX reads, without LaTeX: words and symbols as its commands, lines in a file beside it.
+TEST_F(PlotResults, WritesTextForLatexAndTheLinesBesideIt) {
+    if (!find_program("gnuplot"))
+        GTEST_SKIP() << "no gnuplot";
+    write_sweep();
+    const Printed run = run_graze({"plot", path, "--y", "x", "--x-label", "50% of $V_0$", "--output",
+                                   folder / "picture.tex", "--data", folder / "picture.gp", "--title", "where a = 1"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const std::string text = contents(folder / "picture.tex"), commands = contents(folder / "picture.gp");
+    EXPECT_THAT(commands, HasSubstr("set terminal cairolatex pdf input size"));
+    EXPECT_THAT(commands, HasSubstr("50\\\\% of \\\\$V\\\\_0\\\\$"));
+    EXPECT_THAT(text, HasSubstr("\\fontsize{9}{10.8}\\selectfont")); // of the page: 170 mm
+    EXPECT_THAT(text, HasSubstr("50\\% of \\$V\\_0\\$"));
+    EXPECT_THAT(text, HasSubstr("\\fontsize{9.9}{11.88}\\selectfont{}where \\textit{a} = 1")); // its title
+    EXPECT_THAT(text, HasSubstr("\\fontsize{8.28}{9.936}\\selectfont{}first"));                // its legend
+    EXPECT_THAT(text, HasSubstr("\\includegraphics"));
+    EXPECT_THAT(text, HasSubstr("{picture}"));
+    EXPECT_EQ(text.find(folder / ""), std::string::npos); // no place of this machine
+    EXPECT_TRUE(contents(folder / "picture.pdf").starts_with("%PDF"));
+    EXPECT_EQ(folder.files(), 4U + (std::filesystem::exists(path + ".lock") ? 1U : 0U));
 }
 
 TEST_F(PlotResults, NamesWhatIsNotThere) {

@@ -17,6 +17,21 @@ TEST(RichText, NamesAreSymbolsWithIndicesOrWords) {
     EXPECT_EQ(letters_of(rich_power(-6)), "10−6");
 }
 
+TEST(RichText, NamesWithinWordsAreSymbolsWhereTheyCanBeNothingElse) {
+    const std::vector<std::string> symbols{"V0", "x3", "V", "a", "delta", "k_s"};
+    const auto shown = [&](const std::string& text) { return gnuplot_markup(rich_words(text, symbols)); };
+    EXPECT_EQ(shown("V0 = 4.833 V: period 3"), "{/:Italic V}_{0} = 4.833 V: period 3");
+    EXPECT_EQ(shown("root mean square of x3 and x34"), "root mean square of {/:Italic x}_{3} and x34");
+    EXPECT_EQ(shown("(a) V up"), "(a) {/:Italic V} up");
+    EXPECT_EQ(shown("a stop at 3 V = 0"), "a stop at 3 V = 0");
+    EXPECT_EQ(shown("a = 1, delta = 2"), "{/:Italic a} = 1, delta = 2");
+    EXPECT_EQ(shown("k_s, Vup, xk_s"), "{/:Italic k}_{s}, Vup, xk\\\\_s");
+    EXPECT_EQ(shown("at V"), "at V");
+    EXPECT_EQ(shown("V = 3 m/s^2, s^-1 and 2^3"), "{/:Italic V} = 3 m/s^{2}, s^{-1} and 2\\\\^3");
+    EXPECT_EQ(shown(""), "");
+    EXPECT_EQ(shown("ä V = ö"), "ä {/:Italic V} = ö");
+}
+
 TEST(RichText, LatexTakesNoLetterAsACommand) {
     EXPECT_EQ(latex_markup(rich("50% of $x_1$ & \\input{a} #~^|<>\"`")),
               "50\\\\% of \\\\$x\\\\_1\\\\$ \\\\& \\\\textbackslash{}input\\\\{a\\\\} "
@@ -32,6 +47,8 @@ TEST(RichText, LinesAreBrokenAtBlanks) {
     EXPECT_THAT(wrapped("one two three", 100, 3), ElementsAre("one two three"));
     EXPECT_THAT(wrapped("one two three", 4.5, 3), ElementsAre("one two", "three"));
     EXPECT_THAT(wrapped("one two three", 2.5, 2), ElementsAre("one", "two…"));
+    EXPECT_THAT(wrapped("one V = 0.3 m", 4.5, 3), ElementsAre("one", "V = 0.3", "m"));
+    EXPECT_THAT(wrapped("one (Fig. 2)", 5, 3), ElementsAre("one", "(Fig. 2)"));
     EXPECT_THAT(wrapped("", 5, 2), ElementsAre());
     for (const std::string& line : wrapped("ein überlanges Wort: ääääääääääääääääääääääää", 6, 9))
         EXPECT_LE(width_of(rich(line)), 6) << line;

@@ -1,3 +1,4 @@
+#include "graze/study/run_times.hpp"
 #include "graze/study/runner.hpp"
 
 #include "graze/symbolic/input_error.hpp"
@@ -133,6 +134,12 @@ TEST_F(RunnerTest, says_where_a_run_cannot_start) {
     EXPECT_THAT(reports[1].problem, HasSubstr("s.toml:14:1: run 'sweep' has no coordinate 'e'"));
     EXPECT_FALSE(reports[1].remedy.empty());
     EXPECT_EQ(file.point_count("sweep"), 22u); // nothing is lost
+    // The file knows why, as long as it is so.
+    const std::string failed = reports[1].name;
+    EXPECT_EQ(failure_of(file, failed), reports[1].problem);
+    EXPECT_EQ(failure_of(file, "sweep"), std::nullopt);
+    run_study(parse_study(text, "s.toml"), file, {});
+    EXPECT_EQ(failure_of(file, failed), std::nullopt);
 }
 
 } // namespace

@@ -66,6 +66,8 @@ struct Figure {
     std::size_t columns = 1;
     std::vector<FigurePanel> panels;
     FigureStyle style{};
+    std::vector<std::string>
+        symbols{}; ///< names that are set as such wherever they stand in titles, legends and labels
 };
 
 } // namespace graze

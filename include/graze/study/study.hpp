@@ -150,8 +150,8 @@ struct Study {
 /// @param file the name to use in messages; models are looked for relative to its folder
 /// @param set parameters of all models that have them, in the place of what the study says of them: expressions in the
 ///        study see these values
-/// @throws InputError with the place of the first thing wrong; without a place for a parameter that no model has, or
-///         that every run varies
+/// @throws InputErrors with the places of all that is wrong, or InputError for the only one; without a place for a
+///         parameter that no model has, or that every run varies
 Study parse_study(std::string_view text, const std::string& file, const ParameterValues& set = {});
 Study read_study(const std::string& path, const ParameterValues& set = {});
 /// Whether a TOML text is a study rather than a model: it has runs. @throws InputError when it is no TOML

@@ -34,19 +34,24 @@ public:
             work();
             return true;
         } catch (const InputErrors& errors) {
-            all_.insert(all_.end(), errors.all().begin(), errors.all().end());
+            for (const InputError& error : errors.all())
+                note(error);
         } catch (const InputError& error) {
-            all_.push_back(error);
+            note(error);
         }
         if (all_.size() >= most)
             throw_noted();
         return false;
     }
     bool none() const { return all_.empty(); }
+    /// In the order of their places, those of one file after those of another.
     /// @throws InputError for the one that has been noted, or InputErrors; returns when there is none
     void throw_noted();
 
 private:
+    /// Unless the same has been noted: several readers may meet one mistake.
+    void note(const InputError& error);
+
     std::vector<InputError> all_;
 };
 

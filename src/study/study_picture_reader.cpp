@@ -1,0 +1,173 @@
+#include "graze/study/picture.hpp"
+#include "graze/symbolic/file_name.hpp"
+#include "graze/symbolic/parser.hpp"
+#include "results/orbit_columns.hpp"
+#include "results/point_columns.hpp"
+#include "study/picture_style.hpp"
+#include "study/study_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace graze {
+
+namespace {
+
+std::vector<std::string> picture_kinds() {
+    return {"bifurcation", "branch", "basin", "map", "history", "portrait", "spectrum", "regression", "scatter"};
+}
+
+/// One point, or a list of points, each given by one coordinate.
+void read_points(const StudyReader& reader, const TomlEntry& entry, StudyPicture& picture) {
+    const Model none;
+    reader.each(reader.items(entry), [&](const TomlEntry& point) {
+        reader.each_of(point, {}, [&](const TomlEntry& at) {
+            require_plain_line(at.name, "coordinate", at.place);
+            picture.at.emplace_back(at.name, reader.number(none, at));
+        });
+    });
+}
+
+void read_logarithmic(const StudyReader& reader, const TomlEntry& entry, StudyPicture& picture) {
+    for (const std::string& axis : reader.strings(entry)) {
+        picture.logarithmic_x = picture.logarithmic_x || axis == "x";
+        picture.logarithmic_y = picture.logarithmic_y || axis == "y";
+        if (axis != "x" && axis != "y")
+            reader.fail(entry, fmt::format("there is no axis '{}'", axis), "name x, y or both");
+    }
+}
+
+void read_key(const StudyReader& reader, const TomlEntry& item, StudyPicture& picture) {
+    const Model none;
+    const std::string& key = item.name;
+    if (read_style(reader, item, picture))
+        return;
+    if (key == "kind") {
+        const std::vector<std::string> kinds = picture_kinds();
+        picture.kind = kinds[reader.choice(item, kinds)];
+    } else if (key == "title") {
+        picture.title = reader.toml().line(item);
+    } else if (key == "run" || key == "runs") {
+        picture.runs = reader.strings(item);
+    } else if (key == "x") {
+        picture.x = reader.toml().line(item);
+    } else if (key == "y") {
+        picture.y = reader.strings(item);
+    } else if (key == "samples") {
+        picture.samplings = reader.strings(item);
+    } else if (key == "directions") {
+        picture.directions = reader.strings(item);
+    } else if (key == "x_range") {
+        picture.x_range = reader.range(none, item);
+    } else if (key == "y_range") {
+        picture.y_range = reader.range(none, item);
+    } else if (key == "fit") {
+        picture.fit = reader.range(none, item);
+    } else if (key == "at") {
+        read_points(reader, item, picture);
+    } else if (key == "points") {
+        picture.points = reader.strings(item);
+    } else if (key == "logarithmic") {
+        read_logarithmic(reader, item, picture);
+    } else if (key == "successive") {
+        picture.successive = reader.toml().boolean(item);
+    } else if (key == "group") {
+        picture.group = reader.toml().line(item);
+    } else {
+        const std::vector<std::string> formats = picture_formats();
+        picture.format = formats[reader.choice(item, formats)];
+    }
+}
+
+template <class Items>
+void add_names(std::vector<std::string>& names, const Items& items) {
+    for (const auto& item : items)
+        names.push_back(item.name);
+}
+
+/// What a study itself calls something that the picture may show.
+std::vector<std::string> names_of_study(const Study& study, const StudyPicture& picture) {
+    std::vector<std::string> names = picture.runs;
+    for (const std::string& name : picture.runs) {
+        const StudyRun& run = *study.find_run(name);
+        names.insert(names.end(), run.value_names.begin(), run.value_names.end());
+        add_names(names, run.axes);
+        add_names(names, run.samplings);
+        if (run.is_branch())
+            add_names(names, run.branch.settings.monitors);
+    }
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    return names;
+}
+
+/// What else there may be to see: of the models, and of all results.
+std::vector<std::string> other_names(const Study& study, const StudyPicture& picture) {
+    std::vector<std::string> names{"t", "multiplier", "frequency", picture.x, picture.group};
+    names.insert(names.end(), picture.y.begin(), picture.y.end());
+    add_names(names, kinds_of(point_columns()));
+    add_names(names, kinds_of(orbit_columns()));
+    for (const std::string& run : picture.runs) {
+        const Model& model = study.find_run(run)->model;
+        add_names(names, model.parameters);
+        add_names(names, model.states);
+        add_names(names, model.definitions);
+        add_names(names, model.quantities);
+        add_names(names, model.modes);
+        add_names(names, model.events);
+        add_names(names, model.sections);
+        for (const Transition& transition : model.transitions)
+            names.push_back(transition.label);
+    }
+    for (int label = 0; label <= static_cast<int>(Label::failed); ++label)
+        names.emplace_back(name_of(static_cast<Label>(label)));
+    return names;
+}
+
+} // namespace
+
+StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
+    StudyPicture picture;
+    picture.name = entry.name;
+    picture.place = entry.place;
+    Mistakes mistakes;
+    mistakes.attempt([&] { require_file_name(picture.name, "name of a picture", entry.place); });
+    mistakes.attempt([&] {
+        reader.each_of(entry,
+                       {"kind",    "title",   "run",     "runs",    "x",      "y",           "samples", "directions",
+                        "x_range", "y_range", "fit",     "at",      "points", "logarithmic", "format",  "successive",
+                        "group",   "names",   "x_label", "y_label", "size",   "font"},
+                       [&](const TomlEntry& item) { read_key(reader, item, picture); });
+    });
+    mistakes.attempt([&] {
+        if (entry.node->is_table())
+            check_keys_of_picture(reader, picture.kind, reader.toml().entries(reader.toml().table(entry), entry.path));
+    });
+    mistakes.throw_noted();
+    if (picture.runs.empty())
+        throw InputError(entry.place, fmt::format("{} shows no run", entry.path), "give run = \"NAME\"");
+    return picture;
+}
+
+void check_shown_names(const StudyReader& reader, const Study& study, const StudyPicture& picture,
+                       const TomlEntry& entry) {
+    if (picture.names.empty())
+        return;
+    const std::vector<std::string> own = names_of_study(study, picture);
+    std::vector<std::string> all = other_names(study, picture);
+    all.insert(all.end(), own.begin(), own.end());
+    const auto check = [&](const TomlEntry& item) {
+        // Attractors are called by their period and signature.
+        if (item.name.starts_with("period ") || std::find(all.begin(), all.end(), item.name) != all.end())
+            return;
+        const std::string nearest = nearest_name(item.name, all);
+        throw InputError(item.place, fmt::format("{}: the picture shows nothing of that name", item.path),
+                         study_name_remedy(item.name, nearest.empty() ? own : std::vector<std::string>{nearest}));
+    };
+    for (const TomlEntry& key : reader.toml().entries(reader.toml().table(entry), entry.path))
+        if (key.name == "names")
+            reader.each_of(key, {}, check);
+}
+
+} // namespace graze
