@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -14,12 +15,14 @@
 namespace graze {
 namespace {
 
-/// Runs of orbits that lead back to no sweep, which would take long; of small models, or of large ones.
+/// Runs of orbits that lead back to no sweep, which would take long; of small models, or of large ones. Of the long
+/// curves only those of folds and flips.
 std::vector<std::string> branches_alone(const Study& study, bool large) {
     constexpr std::size_t most_states_of_small = 10;
     std::set<std::string> chosen;
     for (const StudyRun& run : study.runs)
-        if (run.is_branch() && (run.model.states.size() > most_states_of_small) == large &&
+        if (run.is_branch() && !run.name.starts_with("touches") &&
+            (run.model.states.size() > most_states_of_small) == large &&
             (!run.start || chosen.contains(run.start->run)))
             chosen.insert(run.name);
     return {chosen.begin(), chosen.end()};
@@ -63,6 +66,11 @@ void expect_closed(const Model& model, const OrbitRecord& record, const std::str
         for (const auto& state : segment.states)
             for (std::size_t i = 0; i < state.size(); ++i)
                 sizes[i] = std::max(sizes[i], std::abs(state[i]));
+    // Where a contact has no speed, what it would give to another body is round-off.
+    constexpr double least_share = 1e-5;
+    const double largest = *std::max_element(sizes.begin(), sizes.end());
+    for (double& size : sizes)
+        size = std::max(size, least_share * largest);
     // A phase is brought within its period, which may round.
     EXPECT_LT(distance(there, motion.front().states.front(), stored.starts.front(), sizes), 1e-15) << name;
     // Newton's last correction is 1e-10; along unstable orbits errors of the start grow by the multiplier.

@@ -192,7 +192,8 @@ TEST(Study, pictures_have_no_keys_that_are_ignored) {
         for (const std::string key :
              {"fit = [0, 1]", "group = \"e\"", "successive = true", "at = { e = 1 }", "points = [\"GR1\"]"}) {
             const bool regression = key[0] == 'f' || key[0] == 'g' || key[0] == 's';
-            const bool drawn = kind == "history" || kind == "portrait" || (kind == "spectrum" && key[0] == 'a');
+            const bool drawn = kind == "history" || kind == "portrait" || (kind == "spectrum" && key[0] == 'a') ||
+                               (kind == "branch" && key[0] == 'p');
             EXPECT_EQ(refusal(head + run + "kind = \"" + kind + "\"\n" + key).empty(),
                       regression ? kind == "regression" : drawn)
                 << kind << ' ' << key;
