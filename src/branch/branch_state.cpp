@@ -215,4 +215,16 @@ void BranchState::go_on(const BranchStart& start, double arclength) {
     continuation_->set_next_step(length);
 }
 
+bool BranchState::go_on_curve(const Orbit& guess, int direction, double arclength) {
+    if (monitors_)
+        monitors_->set_signature(guess.signature);
+    const double length = continuation_->next_step();
+    arclength_ = arclength;
+    if (!make_problem(guess) ||
+        !continuation_->start(problem_->unknowns_of(guess), problem_->parameter_place(), direction))
+        return false;
+    continuation_->set_next_step(length);
+    return true;
+}
+
 } // namespace graze

@@ -39,6 +39,9 @@ public:
     void renew_pieces(const BranchPoint& from);
     /// Goes on along other equations. @throws InputError when that is impossible
     void go_on(const BranchStart& start, double arclength);
+    /// Goes on along a curve from a guess of another signature. @param direction of the parameter
+    /// @return false when Newton's method does not lead to an orbit of the curve: then there is nowhere to go on from
+    bool go_on_curve(const Orbit& guess, int direction, double arclength);
 
 private:
     void hold(const Orbit& candidate);

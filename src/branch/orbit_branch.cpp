@@ -2,6 +2,7 @@
 
 #include "branch/point_locator.hpp"
 #include "branch/point_rules.hpp"
+#include "branch/reordering.hpp"
 #include "graze/branch/switching.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
@@ -301,14 +302,35 @@ private:
         detail = std::move(why);
     }
 
+    /// The same along a curve: beyond, near the point that is kept, from what the model does there.
+    bool go_on_curve(const SpecialPoint& special) {
+        constexpr double distances[] = {1e-4, 1e-5, 1e-3}; // in units of the scales
+        const double rise = special.tangent.parameters.empty() ? 0 : special.tangent.parameters.front();
+        for (const double distance : distances)
+            for (const int side : {1, -1}) {
+                const auto guess = reordered_beyond(state_.system(), special, state_.settings(), side * distance);
+                if (!guess || !state_.go_on_curve(*guess, side * rise < 0 ? -1 : 1, special.arclength))
+                    continue;
+                describe_here();
+                if (point.solution.certificate.admissible)
+                    return true;
+            }
+        return false;
+    }
+
     /// Follows the orbits that have another signature beyond a point. @return false when there are none
     bool go_on_reordered(SpecialPoint& special) {
         constexpr std::size_t most = 100;
         if (++reorderings_ > most)
             return false;
         try {
-            const BranchStart start = branches_at(state_.system(), special, state_.settings()).front();
-            state_.go_on(start, special.arclength);
+            if (state_.settings().kept) {
+                if (!go_on_curve(special))
+                    return false;
+            } else {
+                const BranchStart start = branches_at(state_.system(), special, state_.settings()).front();
+                state_.go_on(start, special.arclength);
+            }
         } catch (const InputError& error) { // nothing beyond: the branch ends
             special.detail += fmt::format("; {}", error.problem());
             return false;
@@ -371,8 +393,10 @@ private:
                 !point.solution.certificate.admissible) {
                 const std::string reason = point.solution.certificate.reason;
                 cut_after(i);
-                const bool reordering =
-                    state_.settings().reorder && !state_.settings().kept && found[i].type != PointType::grazing;
+                // What is kept in a segment is not looked for among those of another signature.
+                const auto& kept = state_.settings().kept;
+                const bool reordering = state_.settings().reorder && (!kept || !kind_of(kept->type).limits) &&
+                                        found[i].type != PointType::grazing;
                 if (!reordering || !go_on_reordered(found[i]))
                     finish(BranchOutcome::unphysical, reason);
                 return;

@@ -58,6 +58,22 @@ bool are_alike(const Orbit& one, const Orbit& other) {
 
 } // namespace
 
+std::optional<Orbit> reordered_beyond(const System& system, const SpecialPoint& point, const BranchSettings& settings,
+                                      double distance) {
+    const Simulation simulation(system, {}, {}, integration(settings.orbit.tolerance));
+    const Orbit& orbit = point.solution.orbit;
+    OrbitProblem problem(simulation, orbit, settings);
+    const std::vector<double> u = problem.unknowns_of(orbit);
+    if (point.tangent.is_empty() || !problem.evaluate(u))
+        return std::nullopt;
+    const std::vector<double> tangent = problem.unknowns_of(point.tangent);
+    std::string why;
+    auto candidate = followed(
+        simulation,
+        problem.equations().orbit_of(OrbitProblem::vector_of(u) + distance * OrbitProblem::vector_of(tangent)), why);
+    return candidate && !are_alike(*candidate, orbit) ? candidate : std::nullopt;
+}
+
 BranchStart with_events_reordered(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
     const Simulation simulation(system, {}, {}, integration(settings.orbit.tolerance));
     const Orbit& orbit = point.solution.orbit;

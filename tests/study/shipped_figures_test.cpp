@@ -148,6 +148,20 @@ TEST(ShippedFigures, map_of_the_microactuator) {
     }
 }
 
+TEST(ShippedFigures, maps_of_the_microbeam) {
+    ShippedResults results("microbeam");
+    results.run({"no_stop", "folds_low_stiffness", "folds_high_stiffness", "folds_low_damping", "folds_high_damping"});
+    // Without a stop the curves come to the folds of a branch that has none.
+    const auto voltage = [&](const char* run, const char* label) {
+        return results.point(run, label).solution.orbit.parameters[end_parameter(results, "V")];
+    };
+    EXPECT_NEAR(voltage("folds_low_stiffness", "BD2"), results.point("no_stop", "SN1").parameter, 1e-12);
+    EXPECT_NEAR(voltage("folds_high_stiffness", "BD2"), results.point("no_stop", "SN2").parameter, 1e-12);
+    // One curve from both its folds: across a cusp and a contact that begins with another event.
+    for (const auto& [low, high] : {std::pair("DZ1", "DZ1"), {"CP1", "CP1"}, {"BD1", "BD2"}, {"BD2", "BD1"}})
+        EXPECT_NEAR(voltage("folds_low_damping", low), voltage("folds_high_damping", high), 1e-11) << low;
+}
+
 /// The clamped beam's mode i in terms of its middle: even or odd functions, in which nothing cancels.
 class Mode {
 public:
