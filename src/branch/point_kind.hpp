@@ -45,6 +45,14 @@ struct TestedPoint {
     std::span<const Degeneracy> degeneracies; ///< of the points that a curve keeps
 };
 
+/// Whether points of this type are what the branch is a curve of: then the test is zero all along it.
+inline bool is_kept(const TestedPoint& point, PointType type) {
+    return point.settings.kept && point.settings.kept->type == type;
+}
+inline bool is_kept(const TestedPoint& point, PointType type, std::size_t segment, std::size_t event) {
+    return is_kept(point, type) && point.settings.kept->segment == segment && point.settings.kept->event == event;
+}
+
 /// One kind of special points, all that is done for it: what the table has an entry for.
 struct PointRule {
     PointKind kind;

@@ -319,12 +319,13 @@ TEST(Curves, of_the_microactuator_have_their_published_values) {
     const auto less = of_type(first, PointType::sensitivity), more = of_type(slower, PointType::sensitivity);
     std::vector<SpecialPoint> joints(less);
     joints.insert(joints.end(), more.begin(), more.end());
-    for (const auto& [omega, voltage] :
-         {std::pair(0.61364946180363, 0.58163432990654), std::pair(0.48780870043972, 0.17106668895821)})
+    const std::pair<double, double> published[] = {{0.61364946180363, 0.58163432990654},
+                                                   {0.48780870043972, 0.17106668895821}};
+    for (const std::pair<double, double>& at : published)
         EXPECT_TRUE(std::any_of(joints.begin(), joints.end(), [&](const SpecialPoint& one) {
-            return std::abs(one.parameter - voltage) < 1e-9 &&
-                   std::abs(value_of(model, one.solution, "omega") - omega) < 1e-9;
-        })) << omega;
+            return std::abs(one.parameter - at.second) < 1e-9 &&
+                   std::abs(value_of(model, one.solution, "omega") - at.first) < 1e-9;
+        })) << at.first;
     // Curves of flips and folds end on it, where it has a multiplier -1 or 1.
     for (std::size_t i = 0; i < 3; ++i) {
         const SpecialPoint& point = branch.special[i];

@@ -1,0 +1,190 @@
+#include "branch/contact_points.hpp"
+
+#include "branch/branch_state.hpp"
+#include "branch/grazing_switch.hpp"
+#include "branch/orbit_quantity.hpp"
+#include "branch/reordering.hpp"
+#include "branch/touch_sensitivity.hpp"
+#include "orbit/certify.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+std::unique_ptr<OrbitCondition> held(OrbitQuantity quantity) {
+    return std::make_unique<OrbitQuantity>(std::move(quantity));
+}
+
+/// The event that ends a segment; the first one for sections, where it is of no interest.
+std::size_t own_event(const TestedPoint& point, std::size_t segment) {
+    const Segment& one = point.equations.signature()[segment];
+    return one.end == SegmentEnd::event ? point.equations.model().transitions[one.index].event : 0;
+}
+
+} // namespace
+
+// Grazing: an event is met without speed at the end of its arc, or another touched inside of one.
+
+void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests) {
+    const Certificate& certificate = point.solution.certificate;
+    for (std::size_t s = 0; s < point.equations.signature().size(); ++s) {
+        const bool event = point.equations.signature()[s].end == SegmentEnd::event;
+        const bool kept = is_kept(point, PointType::grazing, s, own_event(point, s)) && point.settings.kept->at_end;
+        tests.push_back({.type = PointType::grazing,
+                         .segment = s,
+                         .event = own_event(point, s),
+                         .value = event && !kept ? certificate.approach_speeds[s] : nothing,
+                         .noise = least_rate * point.equations.usual_rate(point.at, s),
+                         .time = point.solution.orbit.durations[s],
+                         .at_end = true,
+                         .appears = true});
+    }
+    for (std::size_t s = 0; s < point.equations.signature().size(); ++s)
+        for (const std::size_t event : point.equations.system().mode(point.equations.signature()[s].mode).watched) {
+            BranchTest test{
+                .type = PointType::grazing, .segment = s, .event = event, .value = nothing, .appears = true};
+            const bool kept = is_kept(point, PointType::grazing, s, event);
+            for (const OrbitMinimum& minimum : certificate.minima)
+                if (minimum.segment == s && minimum.event == event && !(minimum.value >= test.value) &&
+                    !(kept && (point.settings.kept->at_end || minimum.time == point.settings.kept->time))) {
+                    test.value = minimum.value;
+                    test.noise = smallest_clearance * minimum.size;
+                    test.time = minimum.time;
+                }
+            tests.push_back(test);
+        }
+}
+
+bool confirm_grazing(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    if (special.at_end) // their limits are infinite
+        special.solution.multipliers.clear();
+    special.detail =
+        fmt::format("{}{}", state.model().events[special.event].name, special.at_end ? ", no approach speed" : "");
+    return true;
+}
+
+int rank_of_grazing(const SpecialPoint& point) {
+    const Orbit& orbit = point.solution.orbit;
+    const double duration = std::abs(orbit.durations[point.segment]);
+    // An arc that vanishes has the contact before it to thank for that.
+    constexpr double almost_nothing = 1e-4;
+    if (point.at_end)
+        return duration > almost_nothing * orbit.period() ? 1 : 2;
+    // A minimum that comes or goes through an end of its arc does so because a contact has lost its speed.
+    constexpr double at_edge = 1e-6;
+    return point.time > at_edge * duration && point.time < (1 - at_edge) * duration ? 0 : 2;
+}
+
+std::unique_ptr<OrbitCondition> condition_of_grazing(const OrbitEquations& equations, const OrbitEvaluation&,
+                                                     const SpecialPoint& point) {
+    if (point.at_end)
+        return held(OrbitQuantity::of_speed(equations, point.segment, 0));
+    const double duration = point.solution.orbit.durations[point.segment];
+    return held(OrbitQuantity::of_touch(equations, point.segment, point.event, point.time / duration));
+}
+
+std::vector<BranchStart> leave_grazing(const System& system, const SpecialPoint& point,
+                                       const BranchSettings& settings) {
+    return {point.at_end ? with_one_contact_fewer(system, point, settings)
+                         : with_one_more_contact(system, point, settings)};
+}
+
+// Events that change their order.
+
+void test_vanishing(const TestedPoint& point, std::vector<BranchTest>& tests) {
+    for (std::size_t s = 0; s < point.equations.signature().size(); ++s)
+        tests.push_back({.type = PointType::vanishing,
+                         .segment = s,
+                         .event = own_event(point, s),
+                         .value = point.solution.orbit.durations[s]});
+}
+
+bool confirm_vanishing(BranchState&, SpecialPoint& special, const BranchTest&) {
+    special.detail = fmt::format("segment {}", special.segment + 1);
+    return true;
+}
+
+std::unique_ptr<OrbitCondition> condition_of_vanishing(const OrbitEquations& equations, const OrbitEvaluation&,
+                                                       const SpecialPoint& point) {
+    return held(OrbitQuantity::of_vanishing(equations, point.segment));
+}
+
+void test_two_events(const TestedPoint& point, std::vector<BranchTest>& tests) {
+    for (const EndValue& end : point.solution.certificate.end_values) {
+        const bool barrier = point.equations.model().events[end.event].kind == EventKind::barrier;
+        tests.push_back(
+            {.type = PointType::two_events,
+             .segment = end.segment,
+             .event = end.event,
+             .value = barrier && !is_kept(point, PointType::two_events, end.segment, end.event) ? end.value : nothing,
+             .rate = end.rate});
+    }
+}
+
+/// Two events of which the other one does not fall is a touch at the very end of an arc.
+bool confirm_two_events(BranchState& state, SpecialPoint& special, const BranchTest& test) {
+    constexpr double without_speed = 1e-6; // of rates of the same function
+    const OrbitEquations& equations = state.problem().equations();
+    const OrbitEvaluation& at = state.problem().evaluation();
+    if (std::abs(test.rate) < without_speed * equations.usual_rate(at, special.segment, special.event)) {
+        special.type = PointType::grazing;
+        special.time = special.solution.orbit.durations[special.segment];
+    }
+    special.detail = state.model().events[special.event].name;
+    return true;
+}
+
+std::unique_ptr<OrbitCondition> condition_of_two_events(const OrbitEquations& equations, const OrbitEvaluation&,
+                                                        const SpecialPoint& point) {
+    return held(OrbitQuantity::of_two_events(equations, point.segment, point.event));
+}
+
+void test_guard(const TestedPoint& point, std::vector<BranchTest>& tests) {
+    for (std::size_t s = 0; s < point.equations.signature().size(); ++s) {
+        const double margin = point.solution.certificate.guard_margins[s];
+        tests.push_back({.type = PointType::guard,
+                         .segment = s,
+                         .event = own_event(point, s),
+                         .value = std::isfinite(margin) ? margin : nothing});
+    }
+}
+
+bool confirm_guard(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    special.detail =
+        fmt::format("after {}", end_name(state.model(), special.solution.orbit.signature[special.segment]));
+    return true;
+}
+
+std::unique_ptr<OrbitCondition> condition_of_guard(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                   const SpecialPoint& point) {
+    auto condition = OrbitQuantity::of_guard(equations, at, point.segment);
+    return condition ? held(std::move(*condition)) : nullptr;
+}
+
+std::vector<BranchStart> leave_order(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
+    return {with_events_reordered(system, point, settings)};
+}
+
+/// Where fold and flip curves of the impacting orbits end on that of the touches.
+void test_sensitivity(const TestedPoint& point, std::vector<BranchTest>& tests) {
+    const auto& kept = point.settings.kept;
+    if (!kept || kept->type != PointType::grazing || kept->at_end)
+        return;
+    const auto value =
+        touch_sensitivity(point.equations.simulation(), point.solution.orbit, kept->segment, kept->event, kept->time);
+    tests.push_back({.type = PointType::sensitivity, .value = value.value_or(nothing)});
+}
+
+bool confirm_sensitivity(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    special.detail = fmt::format("of an impact at {}", state.model().events[state.settings().kept->event].name);
+    return special.located;
+}
+
+} // namespace graze

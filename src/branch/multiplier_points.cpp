@@ -1,0 +1,138 @@
+#include "branch/multiplier_points.hpp"
+
+#include "branch/branch_state.hpp"
+#include "branch/normal_form.hpp"
+#include "branch/other_branch.hpp"
+#include "branch/singular_condition.hpp"
+#include "orbit/eigen_index.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+} // namespace
+
+// Folds: where monitors are held, the parameter may turn although no multiplier is 1.
+
+void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests) {
+    constexpr double least_rise = 1e-8; // of the parameter's share in the direction of the branch: less is round-off
+    BranchTest test{.type = PointType::fold};
+    if (point.settings.free.empty()) {
+        const std::size_t place = point.equations.layout().parameter(0);
+        test.value = point.tangent[place];
+        test.noise = least_rise * point.at.scales[index(place)];
+    } else {
+        test.value = is_kept(point, PointType::fold) ? nothing : point.at.system.periodic_determinant();
+        test.noise = point.at.system.periodic_noise();
+    }
+    tests.push_back(test);
+}
+
+std::unique_ptr<OrbitCondition> condition_of_fold(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                  const SpecialPoint&) {
+    return SingularCondition::of_multiplier(equations, at, 1);
+}
+
+// Flips: the half of a symmetric orbit that changes into its image loses the symmetry instead of doubling its period.
+
+void test_flip(const TestedPoint& point, std::vector<BranchTest>& tests) {
+    const bool tested = !point.equations.symmetry() && !is_kept(point, PointType::flip);
+    tests.push_back({.type = PointType::flip, .value = tested ? point.at.system.antiperiodic_determinant() : nothing});
+}
+
+void test_asymmetry(const TestedPoint& point, std::vector<BranchTest>& tests) {
+    const bool tested = point.equations.symmetry() && !is_kept(point, PointType::asymmetry);
+    tests.push_back(
+        {.type = PointType::asymmetry, .value = tested ? point.at.system.antiperiodic_determinant() : nothing});
+}
+
+bool confirm_flip(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    if (const auto coefficient = flip_coefficient(state.problem().equations(), state.problem().evaluation()))
+        special.detail = fmt::format("{}critical, c = {:.6g}", *coefficient > 0 ? "super" : "sub", *coefficient);
+    return special.located;
+}
+
+std::unique_ptr<OrbitCondition> condition_of_flip(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                  const SpecialPoint&) {
+    return SingularCondition::of_multiplier(equations, at, -1);
+}
+
+std::vector<BranchStart> leave_flip(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
+    return along_null_vector(system, twice(point.solution.orbit), settings, {}, "doubled", false);
+}
+
+std::vector<BranchStart> leave_asymmetry(const System& system, const SpecialPoint& point,
+                                         const BranchSettings& settings) {
+    return along_null_vector(system, whole_orbit(system, point.solution.orbit), settings, {}, "without the symmetry",
+                             true);
+}
+
+void test_branch_point(const TestedPoint& point, std::vector<BranchTest>& tests) {
+    tests.push_back({.type = PointType::branch_point, .value = point.determinant, .singular = true});
+}
+
+std::vector<BranchStart> leave_branch_point(const System& system, const SpecialPoint& point,
+                                            const BranchSettings& settings) {
+    return along_null_vector(system, point.solution.orbit, settings, point.tangent, "other branch", true);
+}
+
+namespace {
+
+/// Multipliers of the shortest orbit that is followed.
+const std::vector<std::complex<double>>& own_multipliers(const OrbitSolution& solution) {
+    return solution.half_multipliers.empty() ? solution.multipliers : solution.half_multipliers;
+}
+
+} // namespace
+
+/// Product over pairs of multipliers of mu_i mu_j - 1, which vanishes where two of them are inverse to one another: on
+/// whole branches of conservative models.
+void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests) {
+    constexpr double least_growth = 1e-9; // of the product of a pair less one: less is round-off
+    const auto& multipliers = own_multipliers(point.solution);
+    BranchTest test{.type = PointType::torus, .value = nothing};
+    std::complex<double> product = 1;
+    double smallest = 1, others = 1;
+    for (std::size_t i = 0; i < multipliers.size(); ++i)
+        for (std::size_t j = i + 1; j < multipliers.size(); ++j) {
+            const std::complex<double> both = multipliers[i] * multipliers[j],
+                                       factor = (both - 1.0) / (1 + std::abs(both));
+            product *= factor;
+            others *= std::max(std::abs(factor), smallest);
+            smallest = std::min(std::abs(factor), smallest);
+        }
+    if (multipliers.size() >= 2 && std::isfinite(product.real()) && !is_kept(point, PointType::torus))
+        test.value = product.real();
+    test.noise = least_growth * others;
+    tests.push_back(test);
+}
+
+bool confirm_torus(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    if (const auto coefficient = torus_coefficient(state.problem().equations(), state.problem().evaluation()))
+        special.detail = fmt::format("{}critical, d = {:.6g}", *coefficient < 0 ? "super" : "sub", *coefficient);
+    const auto& multipliers = own_multipliers(special.solution);
+    return special.located && std::any_of(multipliers.begin(), multipliers.end(), [](auto one) {
+               return std::abs(one.imag()) > 1e-6 && std::abs(std::abs(one) - 1) < 1e-5;
+           });
+}
+
+std::unique_ptr<OrbitCondition> condition_of_torus(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                   const SpecialPoint&) {
+    return TorusCondition::of_pair(equations, at);
+}
+
+bool confirm_generalised(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    special.detail = state.settings().kept->type == PointType::asymmetry ? "of a loss of symmetry" : "";
+    return special.located;
+}
+
+} // namespace graze

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "branch/point_kind.hpp"
+
+namespace graze {
+
+// Points at which multipliers of an orbit lie on the unit circle, and those that are more special still: see PointRule.
+
+void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests);
+std::unique_ptr<OrbitCondition> condition_of_fold(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                  const SpecialPoint&);
+void test_flip(const TestedPoint& point, std::vector<BranchTest>& tests);
+void test_asymmetry(const TestedPoint& point, std::vector<BranchTest>& tests);
+bool confirm_flip(BranchState& state, SpecialPoint& special, const BranchTest&);
+std::unique_ptr<OrbitCondition> condition_of_flip(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                  const SpecialPoint&);
+std::vector<BranchStart> leave_flip(const System& system, const SpecialPoint& point, const BranchSettings& settings);
+std::vector<BranchStart> leave_asymmetry(const System& system, const SpecialPoint& point,
+                                         const BranchSettings& settings);
+void test_branch_point(const TestedPoint& point, std::vector<BranchTest>& tests);
+std::vector<BranchStart> leave_branch_point(const System& system, const SpecialPoint& point,
+                                            const BranchSettings& settings);
+void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests);
+bool confirm_torus(BranchState& state, SpecialPoint& special, const BranchTest&);
+std::unique_ptr<OrbitCondition> condition_of_torus(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                                   const SpecialPoint&);
+bool confirm_generalised(BranchState& state, SpecialPoint& special, const BranchTest&);
+
+/// What is more special still on a curve of special points, of which their own condition knows.
+template <PointType Type>
+void test_degeneracy(const TestedPoint& point, std::vector<BranchTest>& tests) {
+    for (const Degeneracy& one : point.degeneracies)
+        if (one.type == Type)
+            tests.push_back({.type = Type, .value = one.value});
+}
+
+} // namespace graze
