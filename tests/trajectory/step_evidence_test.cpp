@@ -247,8 +247,9 @@ TEST(StepEvidence, ChainsThatStartAtZero) {
                             most_tolerances * (tolerance + 16 * epsilon))
                     << n << " lags, tolerance " << tolerance << " rate " << rate;
                 // About one for each lag, and those until states have sizes; before, their number's square over eight.
-                if (tolerance == 1e-12)
+                if (tolerance == 1e-12) {
                     EXPECT_LE(trajectory.steps(), static_cast<std::size_t>(n) + 60) << n << " rate " << rate;
+                }
             }
     }
 }
