@@ -154,7 +154,7 @@ bool AccumulatingOrbit::judge(const VectorXd& before, const VectorXd& after, Res
     rest.excess = speed / deceleration * (third / deceleration) / rest.contacts.speed - 1;
     // Heights fall with the third power of the time that is left, and the states that they are made of do not.
     const double left = deceleration / third, height = third * left * left * left;
-    rest.uncertainty = epsilon * slopes(after).row(0).cwiseAbs().dot(after.cwiseAbs()) / height;
+    rest.uncertainty = 4 * epsilon * slopes(after).row(0).cwiseAbs().dot(after.cwiseAbs()) / height;
     return std::isfinite(rest.excess);
 }
 

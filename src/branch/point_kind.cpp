@@ -153,6 +153,12 @@ constexpr std::array table{
                        .mark = 14},
               .test = test_sensitivity,
               .confirm = confirm_sensitivity},
+    PointRule{.kind = {.type = PointType::chatter,
+                       .short_name = "CH",
+                       .name = "onset of chatter",
+                       .changes = true,
+                       .limits = true,
+                       .mark = 15}},
     PointRule{
         .kind = {.type = PointType::extremum, .short_name = "EX", .name = "extremum", .may_stop = true, .mark = 1},
         .test = test_extremum,

@@ -30,6 +30,7 @@ enum class PointType {
     resonance_3,  ///< R3: on a curve of torus points: a pair of multipliers are third roots of 1
     resonance_4,  ///< R4: on a curve of torus points: a pair of multipliers is i and -i
     sensitivity,  ///< VS: on a curve of touches: an impact of vanishing speed leaves the next pass as it is
+    chatter,      ///< CH: contacts accumulate just where the motion leaves: a ladder of grazings leads there
     extremum,     ///< EX: the period, where it is free, is longest or shortest; or a parameter, on a curve
     bound,        ///< BD: a bound that was given is reached
     crossing,     ///< UZ: a monitor takes a value that was asked for
