@@ -10,7 +10,9 @@ namespace graze {
 namespace {
 
 constexpr double column_width = 0.42; ///< points
-constexpr double joined = 1;          ///< widths: dots this far above one another touch
+/// Points: viewers move lines that are quite upright to whole dots of the screen, and slender curves become jagged.
+constexpr double slant = 0.06;
+constexpr double joined = 1; ///< widths: dots this far above one another touch
 /// By how much the ink of a dot reaches above its middle, in widths: a rectangle of this width then has its area.
 constexpr double reach_of_dot = 0.39;
 
@@ -62,9 +64,10 @@ std::vector<DotStroke> dot_strokes(std::span<const MingledDot> dots, const Panel
     std::vector<DotStroke> strokes;
     const Box& frame = layout.frame;
     const auto add = [&](std::uint64_t column, const Run& run) {
-        const double x = layout.x.value_at(run.sum / static_cast<double>(run.dots) / frame.width());
-        strokes.push_back({{x, layout.y.value_at((run.low - reach) / frame.height())},
-                           {x, layout.y.value_at((run.high + reach) / frame.height())},
+        const double x = run.sum / static_cast<double>(run.dots);
+        const auto across = [&](double at) { return layout.x.value_at(at / frame.width()); };
+        strokes.push_back({{across(x - slant), layout.y.value_at((run.low - reach) / frame.height())},
+                           {across(x + slant), layout.y.value_at((run.high + reach) / frame.height())},
                            run.series,
                            layer_of(column, run.low)});
     };
