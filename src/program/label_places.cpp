@@ -15,7 +15,7 @@ namespace {
 
 // In heights of a label.
 constexpr double letters_beyond = 0.25, gap_at_mark = 0.1;
-constexpr std::array<double, 16> distances{0, 0.1, 0.5, 0.8, 1.1, 1.4, 1.8, 2.3, 2.8, 3.4, 4, 4.7, 5.5, 6.5, 8, 10};
+constexpr std::array<double, 14> distances{0, 0.1, 0.5, 0.8, 1.1, 1.4, 1.8, 2.3, 2.8, 3.4, 4, 4.7, 5.5, 6.5};
 constexpr double led_from = 0.3; ///< distance from which on a line is needed to see what belongs together
 constexpr std::size_t directions = 32;
 

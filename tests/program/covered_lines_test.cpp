@@ -29,9 +29,13 @@ TEST(CoveredLines, AreThoseAlongWhichLaterOnesRun) {
                 ElementsAre(1, 0, 0));
 }
 
+TEST(CoveredLines, AreNotThoseOfWhichEnoughIsSeen) {
+    EXPECT_THAT(counts_of({line(0, {{0, 0}, {1, 0}}), line(1, {{0, 0.5}, {0.7, 0}, {1, 0}})}), ElementsAre(0, 0));
+}
+
 TEST(CoveredLines, OfOneColourAreWideTogether) {
     EXPECT_THAT(counts_of({line(0, {{0, 0}, {0.5, 0.5}}), line(0, {{0.5, 0.5}, {1, 0.5}}),
-                           line(1, {{0.5, 0.5}, {1, 0.5}}), line(2, {{0.6, 0.5}, {1, 0.5}})}),
+                           line(1, {{0.5, 0.5}, {1, 0.5}}), line(2, {{0.5, 0.5}, {0.6, 0.5}, {1, 0.5}})}),
                 ElementsAre(2, 2, 1, 0));
     EXPECT_THAT(counts_of({line(0, {{0, 0}, {1, 1}}), line(0, {{0, 0}, {1, 1}})}), ElementsAre(0, 0));
 }
