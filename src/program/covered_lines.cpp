@@ -12,9 +12,9 @@ namespace graze {
 
 namespace {
 
-constexpr double side = 0.7;    ///< of a square, in points: about half the width of a line
+constexpr double side = 0.4;    ///< of a square, in points: lines further apart than that are both seen
 constexpr double together = 30; ///< points for which lines must run along one another; such as cross do so for fewer
-constexpr double covered_share = 0.4; ///< of a line: of the others enough is seen
+constexpr double covered_share = 0.7; ///< of a line: of the others enough is seen
 constexpr std::size_t most_layers = 2;
 constexpr double longest = 1e5; ///< points: of a piece of a line that leaves the page
 
