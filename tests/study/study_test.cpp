@@ -289,7 +289,7 @@ TEST(Study, mistakes_are_told_with_their_place_and_remedy) {
              {head + "[runs.a]\nkind = \"sweep\"",
               "s.toml:3:7: runs.a sweeps nothing; give vary = { PARAMETER = { from = A, to = B, step = S } }"},
              {head + sweep + "cycels = 3", "s.toml:6:1: unknown key 'cycels' in runs.a; did you mean 'cycles'?"},
-             {head + sweep + "cycles = 0", "s.toml:6:10: runs.a.cycles is 0; give a whole number from 1 to 1000000000"},
+             {head + sweep + "cycles = 0", "s.toml:6:10: runs.a.cycles is 0; give a whole number from 1 to 100000000"},
              {head + sweep + "section = \"phas0\"",
               "s.toml:6:11: model 'impact-oscillator' has no section 'phas0'; did you mean 'phase0'?"},
              {head + sweep + "values = [\"speed*\"]", "s.toml:6:12: unknown name 'speed'"},
