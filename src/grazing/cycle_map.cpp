@@ -99,15 +99,9 @@ Simulation simulation_of(const System& system, const CycleMapOptions& options) {
     return Simulation(system, {}, {}, integration(options.tolerance));
 }
 
-} // namespace
-
-std::vector<OrbitTouch> touches_of(const System& system, const Orbit& orbit, const CycleMapOptions& options) {
-    validate_orbit(system.model(), orbit);
-    const Simulation simulation = simulation_of(system, options);
-    Shooting shooting(simulation, orbit, {});
-    OrbitEvaluation at = shooting.evaluation();
-    if (!evaluate(shooting, orbit, at))
-        return {};
+/// Where an orbit touches, each place once.
+std::vector<OrbitTouch> touches_in(Shooting& shooting, const OrbitEvaluation& at, const Orbit& orbit) {
+    const System& system = shooting.system();
     const Certificate certificate = certify(shooting, at);
     std::vector<OrbitTouch> found;
     for (std::size_t s = 0; s < orbit.segments(); ++s) {
@@ -146,7 +140,17 @@ std::vector<OrbitTouch> touches_of(const System& system, const Orbit& orbit, con
     return result;
 }
 
-CycleMap cycle_map_of(OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
+} // namespace
+
+std::vector<OrbitTouch> touches_of(const System& system, const Orbit& orbit, const CycleMapOptions& options) {
+    validate_orbit(system.model(), orbit);
+    const Simulation simulation = simulation_of(system, options);
+    Shooting shooting(simulation, orbit, {});
+    OrbitEvaluation at = shooting.evaluation();
+    return evaluate(shooting, orbit, at) ? touches_in(shooting, at, orbit) : std::vector<OrbitTouch>{};
+}
+
+CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
                       std::optional<std::size_t> free) {
     const System& system = equations.system();
     CycleMap map;
@@ -199,7 +203,9 @@ CycleMap cycle_map(const System& system, const Orbit& orbit, const OrbitTouch& t
         map.reason = at.problem.empty() ? "the orbit cannot be followed" : at.problem;
         return map;
     }
-    return cycle_map_of(shooting, at, touch, options.parameter ? std::optional<std::size_t>(0) : std::nullopt);
+    CycleMap map = cycle_map_of(shooting, at, touch, options.parameter ? std::optional<std::size_t>(0) : std::nullopt);
+    map.touches = std::max<std::size_t>(1, touches_in(shooting, at, orbit).size());
+    return map;
 }
 
 std::vector<double> CycleMap::projections(std::size_t count) const {

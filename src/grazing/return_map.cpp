@@ -18,10 +18,12 @@ constexpr double no_time = 1e-6;
 /// Carries derivatives with respect to the state at the touch, and to a parameter, along an orbit.
 class Carrier {
 public:
-    Carrier(OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
+    Carrier(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
             const TouchFunctions& functions, std::optional<std::size_t> free)
         : equations_(equations), at_(at), touch_(touch), functions_(functions), free_(free),
-          n_(index(equations.layout().states())) {}
+          n_(index(equations.layout().states())), flow_(flow_of(equations.simulation(), equations.free())) {
+        flow_.set_parameters(at.parameters);
+    }
 
     ReturnMap carry() {
         if (!find_touch() || !(touch_.at_end ? pass_from_end() : pass_from_inside()))
@@ -72,8 +74,7 @@ private:
         result_.touch = {functions_.mode(), functions_.event(), start(piece_), at_.parameters, {}};
         for (Eigen::Index i = 0; i < n_; ++i)
             result_.touch.scales.push_back(at_.scales[i]);
-        ModeFlow& flow = equations_.flow_at(at_);
-        if (run(flow, functions_.mode(), result_.touch.state, time_, before_) != ModeFlow::Ending::done)
+        if (run(flow_, functions_.mode(), result_.touch.state, time_, before_) != ModeFlow::Ending::done)
             return refuse("the motion to the touch is not defined");
         result_.geometry = functions_.at(result_.touch.state, at_.parameters);
         return true;
@@ -84,10 +85,9 @@ private:
         constexpr int iterations = 30;
         constexpr double farthest = 0.05, enough = 1e-14; // of a round
         const double round = equations_.orbit_of(at_.unknowns).round(), first = time_;
-        ModeFlow& flow = equations_.flow_at(at_);
         for (int iteration = 0; iteration < iterations; ++iteration) {
             std::vector<double> state = start(piece_);
-            if (flow.run(functions_.mode(), state, time_) != ModeFlow::Ending::done)
+            if (flow_.run(functions_.mode(), state, time_) != ModeFlow::Ending::done)
                 return false;
             const TouchGeometry here = functions_.at(state, at_.parameters);
             const double step = -here.rate / here.acceleration;
@@ -111,8 +111,7 @@ private:
     bool pass_from_inside() {
         std::vector<double> state = result_.touch.state;
         Eigen::MatrixXd after;
-        if (run(equations_.flow_at(at_), functions_.mode(), state, duration(piece_) - time_, after) !=
-            ModeFlow::Ending::done)
+        if (run(flow_, functions_.mode(), state, duration(piece_) - time_, after) != ModeFlow::Ending::done)
             return refuse("the motion after the touch is not defined");
         begin();
         apply(after);
@@ -220,12 +219,13 @@ private:
         }
     }
 
-    OrbitEquations& equations_;
+    const OrbitEquations& equations_;
     const OrbitEvaluation& at_;
     const OrbitTouch& touch_;
     const TouchFunctions& functions_;
     std::optional<std::size_t> free_;
     Eigen::Index n_;
+    ModeFlow flow_;
     std::size_t piece_ = 0;
     double time_ = 0;        ///< of the touch, since the piece's start
     Eigen::MatrixXd before_; ///< from there to the touch
@@ -235,7 +235,7 @@ private:
 
 } // namespace
 
-ReturnMap return_map(OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
+ReturnMap return_map(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
                      const TouchFunctions& functions, std::optional<std::size_t> free) {
     return Carrier(equations, at, touch, functions, free).carry();
 }

@@ -24,11 +24,11 @@ struct ReturnMap {
 
 /// @param equations of the orbit, and their evaluation; @param functions of the touched event in the segment's mode
 /// @param free which of the free parameters of the equations counts
-ReturnMap return_map(OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
+ReturnMap return_map(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
                      const TouchFunctions& functions, std::optional<std::size_t> free);
 
 /// The map of the cycle from it. @param free as above
-CycleMap cycle_map_of(OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
+CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
                       std::optional<std::size_t> free);
 
 } // namespace graze

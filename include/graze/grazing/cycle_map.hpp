@@ -39,6 +39,7 @@ std::vector<OrbitTouch> touches_of(const System& system, const Orbit& orbit, con
 struct CycleMap {
     std::string reason; ///< why there is none, in one line; empty if there is one
     OrbitTouch touch;
+    std::size_t touches = 1; ///< places in which the orbit touches, this one included
     DiscontinuityMap contact;
     bool half = false;               ///< the orbit is given by its half, after which the cycle ends
     double time = 0;                 ///< of a cycle
