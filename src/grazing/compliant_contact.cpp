@@ -88,8 +88,11 @@ CompliantContact compliant_contact(const TouchFunctions& functions, const TouchS
         return fail(fmt::format("mode '{}' changes the rate of event '{}'", name,
                                 functions.system().model().events[touch.event].name));
     const Eigen::VectorXd bracket = difference.second - 2 * a * (difference.of_field * damping);
-    const Eigen::VectorXd by_time =
-        -a * stiffness + bracket / 3 - (geometry.jerk / 3 + 2 * a / 3 * rate_gradient.dot(damping)) * damping;
+    // By the third power of half the time T beyond the surface. Damping also acts while the motion is not back yet at
+    // its first depth: a (t^2 - T^2)/2 at the end, as the function's third rate and what it has gained make it.
+    const Eigen::VectorXd by_force = -a * stiffness + bracket / 3;
+    const double late = geometry.jerk / 3 + gradient.dot(by_force) + 2 * a / 3 * rate_gradient.dot(damping);
+    const Eigen::VectorXd by_time = by_force - late * damping;
     result.gain = by_time * std::pow(2 / a, 1.5);
     return result;
 }
