@@ -35,6 +35,16 @@ std::vector<double> list_of(const Eigen::VectorXd& vector, std::size_t count) {
     return {vector.data(), vector.data() + count};
 }
 
+/// A gain of the states, in which what round-off has left is zero.
+std::vector<double> without_remnants(const Eigen::VectorXd& gain, const Eigen::VectorXd& scales) {
+    constexpr double remnant = 1e-13;
+    const Eigen::VectorXd sizes = gain.cwiseQuotient(scales).cwiseAbs();
+    std::vector<double> result;
+    for (Eigen::Index i = 0; i < gain.size(); ++i)
+        result.push_back(sizes[i] > remnant * sizes.maxCoeff() ? gain[i] : 0);
+    return result;
+}
+
 /// Why a state is no proper touch. Empty if it is.
 std::string problem_of(const System& system, const TouchState& touch, const TouchGeometry& geometry,
                        const TouchSizes& sizes) {
@@ -94,7 +104,7 @@ DiscontinuityMap discontinuity_map(const System& system, const TouchState& touch
         return map;
     if (!sizes.is_zero_gain(chain.gain)) {
         map.order = MapOrder::square_root;
-        map.direction = list_of(chain.gain, n);
+        map.direction = without_remnants(chain.gain, sizes.scales());
         return map;
     }
     if (chain.modes.size() != 2 || !chain.only_changes_modes) {
@@ -111,7 +121,7 @@ DiscontinuityMap discontinuity_map(const System& system, const TouchState& touch
     if (!map.reason.empty())
         return map;
     map.order = MapOrder::three_halves;
-    map.direction = list_of(contact.gain, n);
+    map.direction = without_remnants(contact.gain, sizes.scales());
     return map;
 }
 
