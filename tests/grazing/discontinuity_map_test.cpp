@@ -12,7 +12,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace graze {
 namespace {
@@ -195,6 +198,64 @@ TEST(DiscontinuityMap, of_a_moving_wall_and_of_friction_that_an_impact_overcomes
     EXPECT_EQ(slipping.contacts.size(), 2U);
     EXPECT_GT(slipping.time, 0);
     expect_rate(actuator, slipping, 1e-6, 0.1, 1);
+}
+
+/// A state of a shipped model that touches, with sizes of its states and times that are short for it.
+struct Shipped {
+    const char* model;
+    std::vector<std::pair<const char*, double>> parameters;
+    const char* mode;
+    const char* event;
+    std::vector<double> state, scales;
+    double depth, time;
+    MapOrder order;
+};
+
+TEST(DiscontinuityMap, of_shipped_models_errs_by_the_next_power) {
+    const double deflection = -0.004 / 1.5881462620646052;
+    const Shipped all[] = {
+        {"impact-oscillator", {}, "free", "stop", {0.1, 0, 3}, {1, 1, 1}, 1e-5, 0.1, MapOrder::square_root},
+        {"impact-oscillator-two-stops", {}, "free", "left", {-1, 0, 0.2}, {1, 1, 1}, 1e-5, 0.1, MapOrder::square_root},
+        {"impact-oscillator-two-stops", {}, "free", "right", {1, 0, 3}, {1, 1, 1}, 1e-5, 0.1, MapOrder::square_root},
+        {"mems-switch", {}, "on", "stop", {-0.6, 0, 1}, {1, 1, 1}, 1e-5, 0.1, MapOrder::square_root},
+        {"mems-switch", {}, "off", "stop", {-0.6, 0, 4}, {1, 1, 1}, 1e-5, 0.1, MapOrder::square_root},
+        {"bouncing-ball",
+         {{"a", 0.003}},
+         "flight",
+         "contact",
+         {0.003 * std::sin(1.4), 0.003 * 20 * std::acos(-1.0) * std::cos(1.4), 1.4},
+         {1e-3, 0.1, 1},
+         1e-9,
+         0.001,
+         MapOrder::square_root},
+        {"microbeam", {}, "free_on", "touch", {deflection, 0, 1}, {1e-3, 0.02, 1}, 1e-5, 0.005, MapOrder::three_halves},
+        {"microbeam",
+         {},
+         "free_off",
+         "touch",
+         {deflection, 0, 5},
+         {1e-3, 0.02, 1},
+         1e-5,
+         0.005,
+         MapOrder::three_halves},
+    };
+    for (const Shipped& one : all) {
+        SCOPED_TRACE(fmt::format("{} {}", one.model, one.event));
+        Model model = load_model(one.model);
+        for (const auto& [name, value] : one.parameters)
+            model.set_parameter(name, value);
+        const DiscontinuityMap map =
+            discontinuity_map(model, touch_of(model, one.mode, one.event, one.state, one.scales));
+        EXPECT_EQ(map.order, one.order) << map.reason;
+        expect_rate(model, map, one.depth, one.time, one.order == MapOrder::square_root ? 1 : 2);
+    }
+    // The mass of the testbed: with a current that pulls it off the stop again.
+    const Model testbed = load_model("electromagnetic-testbed");
+    const double delta = testbed.values_of(std::array{testbed.symbol("delta")})[0];
+    const DiscontinuityMap map =
+        discontinuity_map(testbed, touch_of(testbed, "free", "stop", {delta, 0, 0.1, 1}, {1e-3, 0.1, 1, 1}));
+    EXPECT_EQ(map.order, MapOrder::square_root) << map.reason;
+    expect_rate(testbed, map, 1e-8, 0.001, 1);
 }
 
 TEST(DiscontinuityMap, of_a_preloaded_stop_goes_with_the_root) {
