@@ -95,14 +95,27 @@ bool BranchState::hold_kept(const Orbit& orbit) {
     return true;
 }
 
-std::optional<HeldTouch> BranchState::held_touch() const {
-    const bool touches = settings_.kept && settings_.kept->type == PointType::grazing && !settings_.kept->at_end;
-    return touches ? std::optional(HeldTouch{settings_.kept->segment, settings_.kept->event}) : std::nullopt;
+std::optional<HeldLimit> BranchState::held_limit() const {
+    if (!settings_.kept)
+        return std::nullopt;
+    const SpecialPoint& kept = *settings_.kept;
+    const auto held = [&](HeldLimit::Kind kind) { return HeldLimit{kind, kept.segment, kept.event}; };
+    switch (kept.type) {
+    case PointType::grazing:
+        return kept.at_end ? std::nullopt : std::optional(held(HeldLimit::Kind::touch));
+    case PointType::vanishing:
+        return held(HeldLimit::Kind::vanishing);
+    case PointType::guard:
+        return held(HeldLimit::Kind::guard);
+    default:
+        return std::nullopt;
+    }
 }
 
 /// Where on the orbit the touch is that is kept: of all least values of that event's function, the one that is zero.
 void BranchState::note_kept(const OrbitSolution& solution) {
-    if (!held_touch())
+    const auto held = held_limit();
+    if (!held || held->kind != HeldLimit::Kind::touch)
         return;
     SpecialPoint& kept = *settings_.kept;
     double nearest = std::numeric_limits<double>::infinity();
@@ -126,7 +139,7 @@ bool BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std
     result.solution.outcome = OrbitOutcome::converged;
     result.solution.iterations = at.iterations;
     result.solution.orbit = problem_->orbit_of(at.u);
-    describe_orbit(equations, evaluation, result.solution, held_touch());
+    describe_orbit(equations, evaluation, result.solution, held_limit());
     note_kept(result.solution);
     result.parameter = at.u[problem_->parameter_place()];
     result.tangent = problem_->direction_of(at.tangent);

@@ -47,7 +47,7 @@ private:
     void hold(const Orbit& candidate);
     void hold_monitors();
     bool hold_kept(const Orbit& orbit);
-    std::optional<HeldTouch> held_touch() const;
+    std::optional<HeldLimit> held_limit() const;
     void note_kept(const OrbitSolution& solution);
     bool make_problem(const Orbit& orbit);
 

@@ -24,6 +24,9 @@ void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests);
 bool confirm_torus(BranchState& state, SpecialPoint& special, const BranchTest&);
 std::unique_ptr<OrbitCondition> condition_of_torus(const OrbitEquations& equations, const OrbitEvaluation& at,
                                                    const SpecialPoint&);
+bool confirm_fold_flip(BranchState& state, SpecialPoint& special, const BranchTest&);
+bool confirm_with_torus(BranchState& state, SpecialPoint& special, const BranchTest&);
+bool confirm_resonance(BranchState& state, SpecialPoint& special, const BranchTest&);
 bool confirm_generalised(BranchState& state, SpecialPoint& special, const BranchTest&);
 
 /// What is more special still on a curve of special points, of which their own condition knows.

@@ -1,11 +1,13 @@
 #include "study/branch_run.hpp"
 
+#include "graze/branch/curve_start.hpp"
 #include "graze/branch/switching.hpp"
 #include "graze/orbit/orbit_file.hpp"
 #include "study/point_limits.hpp"
 #include "study/start_point.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -98,11 +100,15 @@ Orbit taken_over(const StudyRun& run, Orbit orbit) {
     return orbit;
 }
 
-std::vector<Part> both_directions(const StudyRun& run, const Orbit& orbit) {
+std::vector<Part> in_directions(const std::vector<std::string>& names, const Orbit& orbit) {
     std::vector<Part> parts;
-    for (const std::string& name : direction_names(run))
+    for (const std::string& name : names)
         parts.push_back({name, orbit, std::nullopt, name == "down" ? -1 : 1, !parts.empty(), ""});
     return parts;
+}
+
+std::vector<Part> both_directions(const StudyRun& run, const Orbit& orbit) {
+    return in_directions(direction_names(run), orbit);
 }
 
 Orbit twin_of(const StudyRun& run, const System& system, const Orbit& orbit) {
@@ -124,19 +130,36 @@ Orbit twin_of(const StudyRun& run, const System& system, const Orbit& orbit) {
     return twin;
 }
 
-/// Both ways along the curve through a point.
-std::vector<Part> parts_of_curve(const StudyRun& run, const SpecialPoint& point) {
-    std::vector<Part> parts = both_directions(run, taken_over(run, point.solution.orbit));
-    if (!run.branch.keeps_point())
-        return parts;
-    SpecialPoint kept = point;
-    kept.type = point_type(run.start->onto).value_or(point.type);
-    if (!kind_of(kept.type).may_be_kept)
+/// What one must say of a point through which several curves lead, or none.
+std::string which_curves(const SpecialPoint& point) {
+    std::vector<std::string> ways;
+    for (const PointType type : curves_at(point))
+        ways.push_back(fmt::format("onto = \"{}\"", short_name(type)));
+    return ways.empty() ? "choose another point, or hold a monitor: fixed = true"
+                        : fmt::format("say which curve through it is meant: {}", fmt::join(ways, " or "));
+}
+
+/// The point as that whose curve is asked for.
+SpecialPoint point_to_keep(const StudyRun& run, const SpecialPoint& point) {
+    const PointType asked = point_type(run.start->onto).value_or(point.type);
+    if (!kind_of(asked).may_be_kept)
         throw InputError(run.start->place,
                          fmt::format("points of type {} ({}) cannot be followed as a curve", short_name(point.type),
                                      name_of(point.type)),
-                         "say which curve through it is meant: onto = \"SN\"; or choose another point, or hold a "
-                         "monitor: fixed = true");
+                         which_curves(point));
+    return at_place(run.start->place, run, [&] { return as_type(point, asked); });
+}
+
+/// Both ways along the curve through a point. From a resonance a curve of torus points leads one way, which is not
+/// known before.
+std::vector<Part> parts_of_curve(const StudyRun& run, const SpecialPoint& point) {
+    const Orbit orbit = taken_over(run, point.solution.orbit);
+    if (!run.branch.keeps_point())
+        return both_directions(run, orbit);
+    const SpecialPoint kept = point_to_keep(run, point);
+    const bool resonant = point.type == PointType::resonance_1 || point.type == PointType::resonance_2;
+    std::vector<Part> parts =
+        resonant && kept.type == PointType::torus ? in_directions({"up", "down"}, orbit) : both_directions(run, orbit);
     for (Part& part : parts)
         part.kept = kept;
     return parts;
@@ -216,14 +239,15 @@ public:
             point.detail += point.detail.empty() ? why : "; " + why;
         flush();
     }
+    /// The last point has been none.
+    void drop() { waiting_.reset(); }
     void flush() {
         if (!waiting_)
             return;
         OrbitRecord& record = *waiting_;
         record.number = report_->points++;
         if (record.point.type != PointType::regular) {
-            const std::string type(short_name(record.point.type));
-            record.label = fmt::format("{}{}", type, ++counts_[type]);
+            record.label = point_label(record.point.type, ++counts_[record.point.type]);
             note_twin(record);
         }
         file_->with([&](ResultFile& results) {
@@ -259,7 +283,7 @@ private:
     RunReport* report_;
     std::string twin_;
     std::vector<OrbitRecord> special_; ///< written so far
-    std::map<std::string, std::size_t> counts_;
+    std::map<PointType, std::size_t> counts_;
     std::optional<OrbitRecord> waiting_;
 };
 
@@ -293,18 +317,33 @@ SpecialPoint failed_start(const Part& part, const StudyRun& run, const std::stri
     return point;
 }
 
-/// @return how the part ended, or nothing if it was interrupted
-std::optional<BranchOutcome> follow_part(const StudyRun& run, const System& system, const Part& part,
-                                         PointWriter& writer, const RunnerOptions& options) {
+/// How a part has ended, or that it has not begun.
+struct PartEnd {
+    BranchOutcome outcome = BranchOutcome::no_start;
+    bool begun = true;
+    std::string why;
+};
+
+/// Whether a curve has not left its point, from which it leads the other way or nowhere.
+bool stays_at_start(const Part& part, const OrbitBranch& branch) {
+    return part.kept && branch.point().step == 0 &&
+           (branch.outcome() == BranchOutcome::stopped || branch.outcome() == BranchOutcome::unphysical);
+}
+
+/// @return nothing if it was interrupted
+std::optional<PartEnd> follow_part(const StudyRun& run, const System& system, const Part& part, PointWriter& writer,
+                                   const RunnerOptions& options) {
     BranchSettings settings = run.branch.settings;
     settings.direction = part.direction;
     settings.kept = part.kept;
     OrbitBranch branch = at_place(run.place, run, [&] { return OrbitBranch(system, part.orbit, settings); });
     bool going = part.onto ? branch.start_along(part.onto->direction, part.onto->distance) : branch.start();
     if (!going) {
-        writer.add(part.name, failed_start(part, run, branch.detail()), false);
-        writer.end("");
-        return branch.outcome();
+        if (!part.kept) {
+            writer.add(part.name, failed_start(part, run, branch.detail()), false);
+            writer.end("");
+        }
+        return PartEnd{branch.outcome(), false, branch.detail()};
     }
     bool last_is_special = false;
     while (going) {
@@ -321,12 +360,24 @@ std::optional<BranchOutcome> follow_part(const StudyRun& run, const System& syst
             return std::nullopt;
         going = branch.step();
     }
+    if (stays_at_start(part, branch)) {
+        writer.drop();
+        return PartEnd{branch.outcome(), false, branch.detail()};
+    }
     const bool told = branch.outcome() != BranchOutcome::unphysical;
     std::string why = told && last_is_special ? "" : std::string(name_of(branch.outcome()));
     if (!why.empty() && !branch.detail().empty())
         why += ": " + branch.detail();
     writer.end(why);
-    return branch.outcome();
+    return PartEnd{branch.outcome(), true, ""};
+}
+
+/// A curve that leads nowhere has failed.
+[[noreturn]] void refuse_curve(const StudyRun& run, const SpecialPoint& kept, const std::string& why) {
+    throw InputError(run.start->place,
+                     fmt::format("run '{}': no curve of points of type {} ({}) begins there: {}; {}", run.name,
+                                 short_name(kept.type), name_of(kept.type), why, multipliers_in_words(kept)),
+                     "choose another point, or another of the curves through it by `onto`");
 }
 
 bool compute_orbit(const Study& study, const StudyRun& run, const System& system, SharedFile& file,
@@ -372,14 +423,25 @@ bool run_branch(const Study& study, const StudyRun& run, SharedFile& file, const
     const std::vector<Part> parts = parts_of(study, run, system, file, options);
     if (parts.empty())
         return false;
-    for (const Part& part : parts) {
+    bool any = false;
+    std::string why;
+    for (Part part : parts) {
         writer.set_twin(part.twin);
-        const auto outcome = follow_part(run, system, part, writer, options);
-        if (!outcome)
+        if (part.kept && !any)
+            part.again = false;
+        const auto end = follow_part(run, system, part, writer, options);
+        if (!end)
             return false;
-        if (*outcome == BranchOutcome::closed)
+        if (part.kept && !end->begun && end->outcome == BranchOutcome::no_start)
+            refuse_curve(run, *part.kept, end->why);
+        any = any || end->begun;
+        if (!end->begun)
+            why = end->why;
+        if (end->outcome == BranchOutcome::closed)
             break; // the other way round is the same
     }
+    if (parts.front().kept && !any)
+        refuse_curve(run, *parts.front().kept, why);
     return true;
 }
 
