@@ -126,6 +126,25 @@ void BranchState::note_kept(const OrbitSolution& solution) {
         }
 }
 
+/// The touch that is kept in an orbit of another signature that nearly touches.
+bool BranchState::find_touch(const Orbit& orbit) {
+    constexpr double near = 1e-2; // of the function's size along the arc
+    OrbitProblem problem(simulation_, orbit, settings_);
+    if (!problem.evaluate(problem.unknowns_of(orbit)))
+        return false;
+    SpecialPoint& kept = *settings_.kept;
+    double nearest = near;
+    bool found = false;
+    for (const OrbitMinimum& minimum : certify(problem.equations(), problem.evaluation()).minima)
+        if (minimum.event == kept.event && std::abs(minimum.value) < nearest * minimum.size) {
+            nearest = std::abs(minimum.value) / minimum.size;
+            kept.segment = minimum.segment;
+            kept.time = minimum.time;
+            found = true;
+        }
+    return found;
+}
+
 bool BranchState::is_outside(double parameter) const {
     return (settings_.least && parameter < *settings_.least) || (settings_.greatest && parameter > *settings_.greatest);
 }
@@ -233,7 +252,8 @@ bool BranchState::go_on_curve(const Orbit& guess, int direction, double arclengt
         monitors_->set_signature(guess.signature);
     const double length = continuation_->next_step();
     arclength_ = arclength;
-    if (!make_problem(guess) ||
+    const auto held = held_limit();
+    if ((held && held->kind == HeldLimit::Kind::touch && !find_touch(guess)) || !make_problem(guess) ||
         !continuation_->start(problem_->unknowns_of(guess), problem_->parameter_place(), direction))
         return false;
     continuation_->set_next_step(length);

@@ -49,6 +49,7 @@ private:
     bool hold_kept(const Orbit& orbit);
     std::optional<HeldLimit> held_limit() const;
     void note_kept(const OrbitSolution& solution);
+    bool find_touch(const Orbit& orbit);
     bool make_problem(const Orbit& orbit);
 
     BranchSettings settings_;

@@ -321,20 +321,29 @@ private:
         detail = std::move(why);
     }
 
-    /// The same along a curve: beyond, near the point that is kept, from what the model does there.
+    /// The same along a curve: beyond, near the point that is kept, from what the model does there. Beside a curve of
+    /// touches, on one side or the other: what is touched would be met or missed by chance.
     bool go_on_curve(const SpecialPoint& special) {
         constexpr double distances[] = {1e-4, 1e-5, 1e-3}; // in units of the scales
+        constexpr double share = 0.1;                      // beside the curve, of that
         const double rise = special.tangent.parameters.empty() ? 0 : special.tangent.parameters.front();
+        const std::vector<double> beside = keeps_touch() ? std::vector{share, -share} : std::vector{0.0};
         for (const double distance : distances)
-            for (const int side : {1, -1}) {
-                const auto guess = reordered_beyond(state_.system(), special, state_.settings(), side * distance);
-                if (!guess || !state_.go_on_curve(*guess, side * rise < 0 ? -1 : 1, special.arclength))
-                    continue;
-                describe_here();
-                if (point.solution.certificate.admissible)
-                    return true;
-            }
+            for (const int side : {1, -1})
+                for (const double aside : beside) {
+                    const auto guess = reordered_beyond(state_.system(), special, state_.settings(), side * distance,
+                                                        aside * distance);
+                    if (!guess || !state_.go_on_curve(*guess, side * rise < 0 ? -1 : 1, special.arclength))
+                        continue;
+                    describe_here();
+                    if (point.solution.certificate.admissible)
+                        return true;
+                }
         return false;
+    }
+    bool keeps_touch() const {
+        const auto& kept = state_.settings().kept;
+        return kept && kept->type == PointType::grazing && !kept->at_end;
     }
 
     /// Follows the orbits that have another signature beyond a point. @return false when there are none
@@ -428,10 +437,11 @@ private:
                 !point.solution.certificate.admissible) {
                 const std::string reason = point.solution.certificate.reason;
                 cut_after(i);
-                // What is kept in a segment is not looked for among those of another signature.
+                // What is kept in a segment is not looked for among those of another signature, but for a touch.
                 const auto& kept = state_.settings().kept;
-                const bool reordering =
-                    state_.settings().reorder && (!kept || !kind_of(kept->type).limits) && !is_grazing(found[i].type);
+                const bool reordering = state_.settings().reorder &&
+                                        (!kept || !kind_of(kept->type).limits || keeps_touch()) &&
+                                        !is_grazing(found[i].type);
                 if (!reordering || !go_on_reordered(found[i]))
                     finish(BranchOutcome::unphysical, reason);
                 return;

@@ -160,5 +160,96 @@ TEST(OrderCurves, of_guards_about_to_change_have_their_closed_form) {
     }
 }
 
+/// x'' + 0.2 x' + x = F cos(c) with the phase c, set back at 2 pi, and two events that change what y does: at a phase
+/// 0.5 and at 0.3 omega. What the stop does is of no interest: it is only touched, at a phase beyond 2.
+Model touching_among_events() {
+    std::string text = R"toml(
+[parameters]
+F = 0.3
+omega = 1.3
+d = 1
+[states]
+x = 0
+v = 0
+y = 1
+c = 0
+[events.stop]
+function = "d - x"
+[events.fixed]
+function = "0.5 - c"
+[events.moving]
+function = "0.3*omega - c"
+[events.round]
+function = "2*pi - c"
+[jumps.impact]
+v = "-0.8*v"
+[jumps.one]
+y = "y + 1"
+[jumps.half]
+y = "y/2"
+[jumps.reset]
+c = "c - 2*pi"
+[sections.late]
+function = "c - 3"
+direction = "rising"
+[initial]
+mode = "neither"
+)toml";
+    const auto mode = [&](const std::string& name, const std::string& watched) {
+        text += fmt::format("[modes.{}]\nrates = {{ x = \"v\", v = \"F*cos(c) - 0.2*v - x\", y = \"-y\", c = \"omega\" "
+                            "}}\nwatch = [\"stop\", {}]\n",
+                            name, watched);
+    };
+    const auto transition = [&](const std::string& from, const std::string& event, const std::string& jump,
+                                const std::string& next, const std::string& label) {
+        text += fmt::format("[[transitions]]\nmode = \"{}\"\nevent = \"{}\"\njump = \"{}\"\nnext = \"{}\"\nlabel = "
+                            "\"{}\"\n",
+                            from, event, jump, next, label);
+    };
+    mode("neither", "\"fixed\", \"moving\"");
+    mode("one", "\"moving\"");
+    mode("other", "\"fixed\"");
+    mode("both", "\"round\"");
+    for (const char* name : {"neither", "one", "other", "both"})
+        transition(name, "stop", "impact", name, fmt::format("hit_{}", name));
+    transition("neither", "fixed", "one", "one", "A");
+    transition("neither", "moving", "half", "other", "B");
+    transition("one", "moving", "half", "both", "C");
+    transition("other", "fixed", "one", "both", "D");
+    transition("both", "round", "reset", "neither", "R");
+    return model_from(text);
+}
+
+TEST(OrderCurves, of_touches_go_on_where_other_events_change_their_order) {
+    const Model model = touching_among_events();
+    const auto force = [](double omega) { return std::hypot(1 - omega * omega, 0.2 * omega); };
+    AttractorOptions settle;
+    settle.cycles = 400;
+    const OrbitSolution start = find_orbit(model, settle);
+    ASSERT_EQ(start.outcome, OrbitOutcome::converged) << start.detail;
+    BranchSettings settings = in_parameter(model, "F", 0.1, 5);
+    const Branch branch = follow_branch(model, start.orbit, settings);
+    const auto touches = of_type(branch, PointType::grazing);
+    ASSERT_EQ(touches.size(), 1U) << names(branch) << branch.detail;
+    EXPECT_NEAR(touches[0].parameter, force(1.3), 1e-11);
+    // Beyond omega = 5/3 the fixed event comes first, before that the moving one.
+    const Branch curve = curve_of(model, touches[0], settings, "omega", 0.9, 2.2, 1);
+    EXPECT_EQ(curve.outcome, BranchOutcome::bound) << names(curve) << curve.detail;
+    std::size_t changes = 0;
+    for (const SpecialPoint& one : curve.special)
+        if (one.detail.find("goes on as") != std::string::npos) {
+            ++changes;
+            EXPECT_NEAR(value_of(model, one.solution, "omega"), 5.0 / 3, 1e-11);
+        }
+    EXPECT_EQ(changes, 1U) << names(curve);
+    ASSERT_GT(curve.points.size(), 10U);
+    for (const BranchPoint& one : curve.points) {
+        const double omega = value_of(model, one.solution, "omega");
+        EXPECT_NEAR(one.parameter, force(omega), 1e-10);
+        EXPECT_TRUE(one.solution.certificate.admissible) << one.solution.certificate.reason;
+    }
+    EXPECT_NEAR(value_of(model, curve.points.back().solution, "omega"), 2.2, 1e-12);
+}
+
 } // namespace
 } // namespace graze
