@@ -61,7 +61,11 @@ public:
 
     /// l^T F_3(v, v, .) by differences of fourth order.
     bool third(const VectorXcd& left, const VectorXd& vector, RowVectorXcd& result) {
-        constexpr double step = 1e-3; // of the scales
+        constexpr double share = 1e-3; // of the scales: the vector's length follows the model's units
+        const double size = vector.cwiseAbs().maxCoeff(), step = share / size;
+        result = RowVectorXcd::Zero(columns_.size());
+        if (size == 0)
+            return true;
         MatrixXd weights(left.size(), 2), one, sum = MatrixXd::Zero(2, columns_.size());
         weights << left.real(), left.imag();
         const VectorXd here = shifted_.unknowns;

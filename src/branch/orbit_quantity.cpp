@@ -45,9 +45,13 @@ const Transition& transition_of(const OrbitEquations& equations, std::size_t seg
 } // namespace
 
 Expression rate_of(const System& system, std::size_t mode, std::size_t event) {
+    return rate_along(system, mode, system.model().events[event].function);
+}
+
+Expression rate_along(const System& system, std::size_t mode, const Expression& expression) {
     Model model = system.model();
     const auto states = model.state_symbols();
-    const Expression function = model.expand(model.events[event].function);
+    const Expression function = model.expand(expression);
     const auto rates = model.expand(model.modes[mode].rates);
     Expression rate = model.graph->number(0);
     for (std::size_t i = 0; i < states.size(); ++i)

@@ -1,6 +1,7 @@
 #include "program/figure.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "program/covered_lines.hpp"
 #include "program/curve.hpp"
 #include "program/figure_layout.hpp"
 #include "program/gnuplot_text.hpp"
@@ -131,20 +132,20 @@ private:
                            placed.upright ? " rotate by 90" : "", terminal_.font_text(placed.size));
     }
 
-    std::string line_text(const FigureSeries::Style style) const {
+    static std::string line_text(const FigureSeries::Style style, double wider = 0) {
         switch (style) {
         case FigureSeries::Style::dashed:
-            return "lw 1.3 dt (7,4)";
+            return fmt::format("lw {:.3g} dt (7,4)", 1.3 + wider);
         case FigureSeries::Style::dotted:
-            return "lw 1.1 dt (2,3.5)";
+            return fmt::format("lw {:.3g} dt (2,3.5)", 1.1 + wider);
         case FigureSeries::Style::impulses:
             return "lw 1.1";
         default:
-            return "lw 1.3";
+            return fmt::format("lw {:.3g}", 1.3 + wider);
         }
     }
 
-    /// @param over how many series are drawn over this one
+    /// @param over how many series lie on this one
     std::string style_text(const FigureSeries& series, std::size_t over) const {
         const std::string colour = fmt::format("lc rgb '{}'", colour_text(series.colour));
         switch (series.style) {
@@ -162,8 +163,8 @@ private:
         }
         case FigureSeries::Style::cells:
             return fmt::format("with boxxyerror fs solid 1 noborder {}", colour);
-        default:
-            return fmt::format("with lines {} {}", line_text(series.style), colour);
+        default: // each line on it leaves an edge of it
+            return fmt::format("with lines {} {}", line_text(series.style, 1.6 * static_cast<double>(over)), colour);
         }
     }
 
@@ -275,8 +276,10 @@ private:
         };
         const bool cells = std::any_of(panel.series.begin(), panel.series.end(),
                                        [](const FigureSeries& series) { return !series.cells.empty(); });
+        const std::vector<std::size_t> covering = covering_lines(panel, layout);
         bool dots = false;
-        for (const FigureSeries& series : panel.series) {
+        for (std::size_t s = 0; s < panel.series.size(); ++s) {
+            const FigureSeries& series = panel.series[s];
             if (series.style == FigureSeries::Style::dots) {
                 if (!dots)
                     add(dots_text(panel, layout), dots_style(panel));
@@ -287,7 +290,8 @@ private:
                 add(data_text(series, panel, layout),
                     fmt::format("with points pt 7 ps {:.3g} lc rgb 'white'", 2 * symbol_));
             add(data_text(series, panel, layout),
-                style_text(series, static_cast<std::size_t>(&panel.series.back() - &series)));
+                style_text(series,
+                           series.style == FigureSeries::Style::impulses ? panel.series.size() - 1 - s : covering[s]));
         }
         return data.empty() ? "" : "plot " + plots + '\n' + data;
     }

@@ -125,13 +125,8 @@ void add_words(Facts& facts, const std::string& item, const std::string& name, c
 void add_stored_run(Facts& facts, const ResultFile& file, const RunRecord& record, const StudyRun* asked) {
     const std::string& run = record.name;
     facts.add("run", run, "kind", record.kind);
-    const auto failure = record.status == RunStatus::complete ? std::nullopt : failure_of(file, run);
-    facts.add("run", run, "status",
-              record.status == RunStatus::complete ? "complete"
-              : failure                            ? "failed"
-                                                   : "unfinished");
-    if (failure)
-        facts.add("run", run, "failure", *failure);
+    facts.add("run", run, "status", std::string(name_of(record.status)));
+    facts.add("run", run, "failure", record.failure);
     if (!record.is_branch())
         facts.add("run", run, "planned", static_cast<double>(record.points));
     facts.add("run", run, "points", static_cast<double>(file.point_count(run)));

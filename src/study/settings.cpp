@@ -292,7 +292,7 @@ std::string settings_of(const StudyRun& run) {
 StudyRun run_of(const AskedRun& asked, Model model) {
     StudyRun run;
     run.name = asked.name;
-    run.place = Place{fmt::format("settings of run '{}'", asked.name), 0, 0};
+    run.place = stored_place(asked.file, fmt::format("settings of run '{}'", asked.name));
     run.model = std::move(model);
     const Json json = parse_json(asked.settings, run.place);
     const SettingsReader fields(json, &run.model, run.place);
@@ -321,7 +321,7 @@ StudyRun run_of(const AskedRun& asked, Model model) {
 }
 
 StudyRun stored_run(const RunRecord& record) {
-    AskedRun asked{record.name, record.kind, record.settings, record.version, {}};
+    AskedRun asked{record.name, record.kind, record.settings, record.version, record.file, {}};
     for (const ResultColumn& value : record.values)
         asked.units.push_back(value.unit);
     return run_of(asked, stored_model(record));

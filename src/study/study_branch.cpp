@@ -1,5 +1,6 @@
 #include "graze/model/named_value.hpp"
 #include "graze/symbolic/file_name.hpp"
+#include "study/point_limits.hpp"
 #include "study/study_reader.hpp"
 
 #include <fmt/format.h>
@@ -202,7 +203,7 @@ void read_branch(const StudyReader& reader, StudyRun& run, const RunKeys& keys) 
         branch.table = (path.is_relative() ? std::filesystem::path(reader.file()).parent_path() / path : path).string();
     });
     with("along", [&](const TomlEntry& e) { read_along(reader, run, e); });
-    with("steps", [&](const TomlEntry& e) { settings.steps = reader.count(e, 1); });
+    with("steps", [&](const TomlEntry& e) { settings.steps = reader.count(e, 1, most_branch_steps); });
     with("stop", [&](const TomlEntry& e) { read_stop(reader, run, e); });
     with("step", [&](const TomlEntry& e) { read_step(reader, run, e); });
     with("unphysical", [&](const TomlEntry& e) { settings.stop_when_unphysical = !reader.toml().boolean(e); });

@@ -237,12 +237,13 @@ void read_settings(const StudyReader& reader, StudyRun& run, const RunKeys& keys
         run.direction = static_cast<SweepDirection>(reader.choice(e, {"up", "down", "both"}));
     });
     with("carry", [&](const TomlEntry& e) { run.carry = reader.toml().boolean(e); });
-    with("cycles", [&](const TomlEntry& e) { attractor.cycles = reader.count(e, 1); });
-    with("keep", [&](const TomlEntry& e) { attractor.keep = reader.count(e, 1); });
-    with("largest_period", [&](const TomlEntry& e) { attractor.largest_period = reader.count(e, 1); });
+    with("cycles", [&](const TomlEntry& e) { attractor.cycles = reader.count(e, 1, most_cycles); });
+    with("keep", [&](const TomlEntry& e) { attractor.keep = reader.count(e, 1, most_kept_returns); });
+    with("largest_period",
+         [&](const TomlEntry& e) { attractor.largest_period = reader.count(e, 1, most_returns_of_orbit); });
     with("recurrence", [&](const TomlEntry& e) { attractor.recurrence = reader.positive(model, e); });
     with("disturbance", [&](const TomlEntry& e) { attractor.disturbance = reader.number(model, e); });
-    with("lyapunov_cycles", [&](const TomlEntry& e) { attractor.lyapunov_cycles = reader.count(e); });
+    with("lyapunov_cycles", [&](const TomlEntry& e) { attractor.lyapunov_cycles = reader.count(e, 0, most_cycles); });
     with("longest_return", [&](const TomlEntry& e) { attractor.longest_return = reader.positive(model, e); });
     with("bounds", [&](const TomlEntry& e) { read_bounds(reader, run, e); });
     with("time", [&](const TomlEntry& e) { transient.time = reader.positive(model, e); });
