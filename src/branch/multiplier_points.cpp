@@ -58,6 +58,17 @@ void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests) {
     tests.push_back(test);
 }
 
+/// On which side two orbits are is said of branches in one parameter.
+bool confirm_fold(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    const OrbitProblem& problem = state.problem();
+    if (special.located && state.settings().free.empty())
+        if (const auto form = fold_form(problem.equations(), problem.evaluation()))
+            special.detail = fmt::format("two orbits at {} {}, a = {:.6g}", form->above ? "greater" : "smaller",
+                                         state.model().independent_parameters()[state.settings().parameter.place()],
+                                         form->coefficient);
+    return special.located;
+}
+
 std::unique_ptr<OrbitCondition> condition_of_fold(const OrbitEquations& equations, const OrbitEvaluation& at,
                                                   const SpecialPoint&) {
     return SingularCondition::of_multiplier(equations, at, 1);
@@ -188,6 +199,12 @@ bool confirm_resonance(BranchState&, SpecialPoint& special, const BranchTest& te
     const auto& multipliers = own_multipliers(special.solution);
     return special.located && std::count_if(multipliers.begin(), multipliers.end(),
                                             [&](auto one) { return std::abs(one - wanted) < near; }) >= 2;
+}
+
+bool confirm_cusp(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    if (const auto coefficient = cusp_coefficient(state.problem().equations(), state.problem().evaluation()))
+        special.detail = fmt::format("c = {:.6g}", *coefficient);
+    return special.located;
 }
 
 bool confirm_generalised(BranchState& state, SpecialPoint& special, const BranchTest&) {

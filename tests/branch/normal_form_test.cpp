@@ -45,6 +45,61 @@ TEST(NormalForm, cubic_terms_make_flips_subcritical) {
     }
 }
 
+TEST(NormalForm, folds_say_on_which_side_two_orbits_are) {
+    // u -> u + b p + a u^2 with u = x - 1, which drives y: (1, r) with r = 0.3/0.9 is the critical vector, and w has
+    // its length.
+    const double length = std::hypot(1, 0.3 / 0.9);
+    for (const double a : {1.0, -0.7})
+        for (const double b : {1.0, -2.0}) {
+            const double side = a * b < 0 ? 1 : -1, start = 1 + std::sqrt(-b * side * 0.04 / a);
+            const Model model = map_model(fmt::format("p = {:.17g}\na = {}\nb = {}", side * 0.04, a, b),
+                                          {"x + b*p + a*(x - 1)^2", "2 + 0.1*(y - 2) + 0.3*(x - 1)"});
+            BranchSettings settings = in_parameter(model, "p", -1, 1);
+            settings.direction = -static_cast<int>(side);
+            const Branch branch =
+                follow_branch(model, fixed_point(model, {start, 2 + (start - 1) * 0.3 / 0.9}), settings);
+            ASSERT_EQ(of_type(branch, PointType::fold).size(), 1U) << names(branch) << branch.detail;
+            const SpecialPoint fold = of_type(branch, PointType::fold)[0];
+            EXPECT_NEAR(coefficient_of(fold), std::abs(a) / length, 1e-5) << fold.detail;
+            EXPECT_TRUE(fold.detail.starts_with(side > 0 ? "two orbits at greater p" : "two orbits at smaller p"))
+                << fold.detail;
+        }
+}
+
+TEST(NormalForm, cusps_have_the_coefficient_of_their_map) {
+    // u -> u + p + q u + s u^3 + 2 u v, v -> 0.1 v + 0.9 k u^2 with u = x - 1 and v = y - 2: on the centre manifold
+    // v = k u^2 to that order, so that c = s + 2 k.
+    for (const double s : {-1.0, 0.5}) {
+        const Model model =
+            map_model(fmt::format("p = -0.1\nq = -0.3\ns = {}\nk = 0.1", s),
+                      {"x + p + q*(x - 1) + s*(x - 1)^3 + 2*(x - 1)*(y - 2)", "2 + 0.1*(y - 2) + 0.9*k*(x - 1)^2"});
+        const double c = s + 0.2; // q + 3 c u^2 = 0 at the folds
+        Model with = model;
+        with.set_parameter("q", c < 0 ? 0.3 : -0.3);
+        const double u = std::sqrt(0.1 / std::abs(c)), q = c < 0 ? 0.3 : -0.3;
+        with.set_parameter("p", -(q * u + c * u * u * u) * 0.99);
+        BranchSettings settings = in_parameter(with, "p", -1, 1);
+        Branch branch;
+        SpecialPoint fold;
+        for (const int direction : {1, -1}) {
+            settings.direction = direction;
+            branch = follow_branch(with, fixed_point(with, {1 + u * 1.05, 2 + 0.1 * u * u}), settings);
+            if (!of_type(branch, PointType::fold).empty())
+                fold = of_type(branch, PointType::fold)[0];
+        }
+        ASSERT_EQ(fold.type, PointType::fold) << names(branch) << branch.detail;
+        for (const int way : {1, -1}) {
+            const Branch curve = curve_of(with, fold, in_parameter(with, "q", -1, 1), "p", -1, 1, way);
+            for (const SpecialPoint& cusp : of_type(curve, PointType::cusp)) {
+                EXPECT_NEAR(cusp.parameter, 0, 1e-9);
+                EXPECT_NEAR(coefficient_of(cusp), c, 1e-5) << cusp.detail;
+                fold.located = false; // found
+            }
+        }
+        EXPECT_FALSE(fold.located) << "no cusp";
+    }
+}
+
 TEST(NormalForm, generalised_flip_is_found_where_the_coefficient_vanishes) {
     const Model model = map_model("p = -0.2\nq = 1.0\ns = -2", {"-(1 + p)*x + q*x^2 + s*x^3", "0.1*y"});
     BranchSettings settings = in_parameter(model, "p", -0.5, 0.5);

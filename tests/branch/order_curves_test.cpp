@@ -223,10 +223,7 @@ mode = "neither"
 TEST(OrderCurves, of_touches_go_on_where_other_events_change_their_order) {
     const Model model = touching_among_events();
     const auto force = [](double omega) { return std::hypot(1 - omega * omega, 0.2 * omega); };
-    AttractorOptions settle;
-    settle.cycles = 400;
-    const OrbitSolution start = find_orbit(model, settle);
-    ASSERT_EQ(start.outcome, OrbitOutcome::converged) << start.detail;
+    const OrbitSolution start = settled(model, "late", 400);
     BranchSettings settings = in_parameter(model, "F", 0.1, 5);
     const Branch branch = follow_branch(model, start.orbit, settings);
     const auto touches = of_type(branch, PointType::grazing);
