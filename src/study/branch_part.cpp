@@ -30,8 +30,7 @@ void PointWriter::flush() {
     OrbitRecord& record = *waiting_;
     record.number = report_->points++;
     if (record.point.type != PointType::regular) {
-        const std::string type(short_name(record.point.type));
-        record.label = fmt::format("{}{}", type, ++counts_[type]);
+        record.label = point_label(record.point.type, ++counts_[record.point.type]);
         note_twin(record);
     }
     file_->with([&](ResultFile& results) {
@@ -92,6 +91,12 @@ SpecialPoint failed_start(const BranchPart& part, const StudyRun& run, const std
     return point;
 }
 
+/// Whether a curve has not left its point, from which it leads the other way or nowhere.
+bool stays_at_start(const BranchPart& part, const OrbitBranch& branch) {
+    return part.kept && branch.point().step == 0 &&
+           (branch.outcome() == BranchOutcome::stopped || branch.outcome() == BranchOutcome::unphysical);
+}
+
 } // namespace
 
 PartEnd follow_part(const StudyRun& run, const BranchSettings& of_run, const System& system, const BranchPart& part,
@@ -102,9 +107,11 @@ PartEnd follow_part(const StudyRun& run, const BranchSettings& of_run, const Sys
     OrbitBranch branch = at_place(run.place, run, [&] { return OrbitBranch(system, part.orbit, settings); });
     bool going = part.onto ? branch.start_along(part.onto->direction, part.onto->distance) : branch.start();
     if (!going) {
-        writer.add(part.name, failed_start(part, run, branch.detail()), false);
-        writer.end("");
-        return {branch.outcome(), branch.detail(), std::nullopt};
+        if (!part.kept) {
+            writer.add(part.name, failed_start(part, run, branch.detail()), false);
+            writer.end("");
+        }
+        return {false, branch.outcome(), false, branch.detail(), std::nullopt};
     }
     bool last_is_special = false;
     std::optional<SpecialPoint> last;
@@ -120,15 +127,19 @@ PartEnd follow_part(const StudyRun& run, const BranchSettings& of_run, const Sys
         if (!last_is_special)
             writer.add(part.name, regular_point(branch.point(), part.again), branch.point().stable);
         if (options.interrupted && options.interrupted())
-            return {};
+            return {true, BranchOutcome::no_start, true, "", std::nullopt};
         going = branch.step();
+    }
+    if (stays_at_start(part, branch)) {
+        writer.drop();
+        return {false, branch.outcome(), false, branch.detail(), std::nullopt};
     }
     const bool told = branch.outcome() != BranchOutcome::unphysical;
     std::string why = told && last_is_special ? "" : std::string(name_of(branch.outcome()));
     if (!why.empty() && !branch.detail().empty())
         why += ": " + branch.detail();
     writer.end(why);
-    return {branch.outcome(), why, last};
+    return {false, branch.outcome(), true, why, last};
 }
 
 } // namespace graze

@@ -52,6 +52,8 @@ public:
     void set_twin(const std::string& part) { twin_ = part; }
     /// What is said of the last point, which becomes an end unless it is special already.
     void end(const std::string& why);
+    /// The last point has been none.
+    void drop() { waiting_.reset(); }
     void flush();
 
 private:
@@ -63,13 +65,15 @@ private:
     RunReport* report_;
     std::string twin_;
     std::vector<OrbitRecord> special_; ///< written so far
-    std::map<std::string, std::size_t> counts_;
+    std::map<PointType, std::size_t> counts_;
     std::optional<OrbitRecord> waiting_;
 };
 
 /// How a part has ended.
 struct PartEnd {
-    std::optional<BranchOutcome> outcome; ///< none when it was interrupted
+    bool interrupted = false;
+    BranchOutcome outcome = BranchOutcome::no_start;
+    bool begun = true;
     std::string why;
     std::optional<SpecialPoint> last; ///< if it has ended at a special point
 };

@@ -1,5 +1,6 @@
 #include "study/branch_run.hpp"
 
+#include "graze/branch/curve_start.hpp"
 #include "graze/branch/switching.hpp"
 #include "graze/orbit/orbit_file.hpp"
 #include "study/branch_part.hpp"
@@ -7,6 +8,7 @@
 #include "study/start_point.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -71,11 +73,15 @@ Orbit taken_over(const StudyRun& run, Orbit orbit) {
     return orbit;
 }
 
-std::vector<BranchPart> both_directions(const StudyRun& run, const Orbit& orbit) {
+std::vector<BranchPart> in_directions(const std::vector<std::string>& names, const Orbit& orbit) {
     std::vector<BranchPart> parts;
-    for (const std::string& name : direction_names(run))
+    for (const std::string& name : names)
         parts.push_back({name, orbit, std::nullopt, name == "down" ? -1 : 1, !parts.empty(), ""});
     return parts;
+}
+
+std::vector<BranchPart> both_directions(const StudyRun& run, const Orbit& orbit) {
+    return in_directions(direction_names(run), orbit);
 }
 
 Orbit twin_of(const StudyRun& run, const System& system, const Orbit& orbit) {
@@ -97,19 +103,36 @@ Orbit twin_of(const StudyRun& run, const System& system, const Orbit& orbit) {
     return twin;
 }
 
-/// Both ways along the curve through a point.
-std::vector<BranchPart> parts_of_curve(const StudyRun& run, const SpecialPoint& point) {
-    std::vector<BranchPart> parts = both_directions(run, taken_over(run, point.solution.orbit));
-    if (!run.branch.keeps_point())
-        return parts;
-    SpecialPoint kept = point;
-    kept.type = point_type(run.start->onto).value_or(point.type);
-    if (!kind_of(kept.type).may_be_kept)
+/// What one must say of a point through which several curves lead, or none.
+std::string which_curves(const SpecialPoint& point) {
+    std::vector<std::string> ways;
+    for (const PointType type : curves_at(point))
+        ways.push_back(fmt::format("onto = \"{}\"", short_name(type)));
+    return ways.empty() ? "choose another point, or hold a monitor: fixed = true"
+                        : fmt::format("say which curve through it is meant: {}", fmt::join(ways, " or "));
+}
+
+/// The point as that whose curve is asked for.
+SpecialPoint point_to_keep(const StudyRun& run, const SpecialPoint& point) {
+    const PointType asked = point_type(run.start->onto).value_or(point.type);
+    if (!kind_of(asked).may_be_kept)
         throw InputError(run.start->place,
                          fmt::format("points of type {} ({}) cannot be followed as a curve", short_name(point.type),
                                      name_of(point.type)),
-                         "say which curve through it is meant: onto = \"SN\"; or choose another point, or hold a "
-                         "monitor: fixed = true");
+                         which_curves(point));
+    return at_place(run.start->place, run, [&] { return as_type(point, asked); });
+}
+
+/// Both ways along the curve through a point. From a resonance a curve of torus points leads one way, which is not
+/// known before.
+std::vector<BranchPart> parts_of_curve(const StudyRun& run, const SpecialPoint& point) {
+    const Orbit orbit = taken_over(run, point.solution.orbit);
+    if (!run.branch.keeps_point())
+        return both_directions(run, orbit);
+    const SpecialPoint kept = point_to_keep(run, point);
+    const bool resonant = point.type == PointType::resonance_1 || point.type == PointType::resonance_2;
+    std::vector<BranchPart> parts =
+        resonant && kept.type == PointType::torus ? in_directions({"up", "down"}, orbit) : both_directions(run, orbit);
     for (BranchPart& part : parts)
         part.kept = kept;
     return parts;
@@ -166,6 +189,14 @@ std::vector<BranchPart> parts_of(const Study& study, const StudyRun& run, const 
     return orbit ? both_directions(run, *orbit) : std::vector<BranchPart>();
 }
 
+/// A curve that leads nowhere has failed.
+[[noreturn]] void refuse_curve(const StudyRun& run, const SpecialPoint& kept, const std::string& why) {
+    throw InputError(run.start->place,
+                     fmt::format("run '{}': no curve of points of type {} ({}) begins there: {}; {}", run.name,
+                                 short_name(kept.type), name_of(kept.type), why, multipliers_in_words(kept)),
+                     "choose another point, or another of the curves through it by `onto`");
+}
+
 bool compute_orbit(const Study& study, const StudyRun& run, const System& system, SharedFile& file,
                    const RunnerOptions& options, PointWriter& writer) {
     const std::vector<BranchPart> parts = parts_of(study, run, system, file, options);
@@ -218,14 +249,25 @@ bool run_branch(const Study& study, const StudyRun& run, SharedFile& file, const
     const std::vector<BranchPart> parts = parts_of(study, run, system, file, options);
     if (parts.empty())
         return false;
-    for (const BranchPart& part : parts) {
+    bool any = false;
+    std::string why;
+    for (BranchPart part : parts) {
         writer.set_twin(part.twin);
-        const auto outcome = follow_part(run, run.branch.settings, system, part, writer, options).outcome;
-        if (!outcome)
+        if (part.kept && !any)
+            part.again = false;
+        const auto end = follow_part(run, run.branch.settings, system, part, writer, options);
+        if (end.interrupted)
             return false;
-        if (*outcome == BranchOutcome::closed)
+        if (part.kept && !end.begun && end.outcome == BranchOutcome::no_start)
+            refuse_curve(run, *part.kept, end.why);
+        any = any || end.begun;
+        if (!end.begun)
+            why = end.why;
+        if (end.outcome == BranchOutcome::closed)
             break; // the other way round is the same
     }
+    if (parts.front().kept && !any)
+        refuse_curve(run, *parts.front().kept, why);
     return true;
 }
 

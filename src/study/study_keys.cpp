@@ -231,7 +231,7 @@ void check_start(const StudyReader& reader, const StudyRun& run, const StudyRun&
         fail_start(
             start,
             fmt::format("`onto = \"{}\"` has no effect here: a curve goes on along points of one kind", start.onto),
-            run.branch.keeps_point() ? "leave it out, or name the kind: \"SN\", \"PD\" or \"SB\"" : "leave it out");
+            run.branch.keeps_point() ? "leave it out, or name the kind, such as \"SN\"" : "leave it out");
     if (!curve && of_curves)
         fail_start(start, fmt::format("`onto = \"{}\"` chooses a curve, and this is none", start.onto),
                    "follow it with kind = \"curve\", or choose \"same\", \"other\" or \"twin\"");
