@@ -92,6 +92,12 @@ struct OrbitArguments {
     OutputArguments output;
 };
 
+struct LadderArguments {
+    std::string file, point, parameter;
+    int rungs = 8;
+    OutputArguments output;
+};
+
 struct GrazingArguments {
     std::string file, point, parameter;
     bool verify = false;
@@ -123,6 +129,7 @@ struct Arguments {
     PointsArguments points;
     OrbitArguments orbit;
     GrazingArguments grazing;
+    LadderArguments ladder;
     CheckArguments check;
     ModelsArguments models;
     SimulateArguments simulate;
