@@ -40,6 +40,9 @@ FigureStyle style_of(const PlotArguments& arguments) {
     FigureStyle style;
     if (!arguments.size.empty()) {
         const std::size_t cross = arguments.size.find('x');
+        if (arguments.size.find_first_not_of("0123456789.x") != std::string::npos)
+            throw InputError({"--size", 0, 0}, fmt::format("'{}' is no size", arguments.size),
+                             "write the width in mm, as 85, or WIDTHxHEIGHT, as 254x143");
         style.width = number_of(arguments.size.substr(0, cross), "--size");
         if (cross != std::string::npos)
             style.height = number_of(arguments.size.substr(cross + 1), "--size");
