@@ -168,6 +168,15 @@ void read_bounds(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
     run.transient.bounds = run.attractor.bounds;
 }
 
+/// Which branch through a point, or which curve.
+std::vector<std::string> ways_on() {
+    std::vector<std::string> names{"same", "other", "twin"};
+    for (const PointKind& kind : point_kinds())
+        if (kind.may_be_kept)
+            names.emplace_back(kind.short_name);
+    return names;
+}
+
 void read_start(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     StartFrom start;
     start.place = entry.place;
@@ -180,7 +189,7 @@ void read_start(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
         } else if (item.name == "point") {
             start.point = item.node->is_integer() ? std::to_string(reader.count(item)) : reader.toml().string(item);
         } else if (item.name == "onto") {
-            reader.choice(item, {"same", "other", "twin", "SN", "PD", "SB"});
+            reader.choice(item, ways_on());
             start.onto = reader.toml().string(item);
         } else {
             const auto at = reader.toml().entries(reader.toml().table(item), item.path);
@@ -364,12 +373,13 @@ void read_keys(const StudyReader& reader, StudyRun& run, const TomlEntry& entry,
             keys.emplace(item.name, item);
         });
         if (!keys.contains("kind"))
-            throw InputError(entry.place, fmt::format("{} has no kind", entry.path),
-                             "give kind = \"simulate\", \"sweep\", \"basin\", \"orbit\", \"continue\" or \"curve\"");
+            throw InputError(
+                entry.place, fmt::format("{} has no kind", entry.path),
+                "give kind = \"simulate\", \"sweep\", \"basin\", \"orbit\", \"continue\", \"curve\" or \"ladder\"");
     });
     with_key(mistakes, keys, "kind", [&](const TomlEntry& kind) {
-        run.kind =
-            static_cast<RunKind>(reader.choice(kind, {"simulate", "sweep", "basin", "orbit", "continue", "curve"}));
+        run.kind = static_cast<RunKind>(
+            reader.choice(kind, {"simulate", "sweep", "basin", "orbit", "continue", "curve", "ladder"}));
         check_keys_of_kind(reader, run.kind, keys);
     });
     with_key(mistakes, keys, "text", [&](const TomlEntry& text) { run.text = reader.toml().string(text); });
