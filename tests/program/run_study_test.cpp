@@ -359,10 +359,10 @@ TEST_F(RunStudyTest, files_without_their_ending_are_told_by_name) {
                 HasSubstr("there is no shipped model 'mine'; the file beside the study is called mine.toml"));
     const std::filesystem::path before = std::filesystem::current_path();
     std::filesystem::current_path(std::filesystem::path(path("own.toml")).parent_path());
-    const testing::Printed study = run_graze("run own"), model = run_graze("simulate mine");
+    const testing::Printed of_study = run_graze("run own"), of_model = run_graze("simulate mine");
     std::filesystem::current_path(before);
-    EXPECT_THAT(study.err, HasSubstr("there is no study 'own'; the file is called own.toml"));
-    EXPECT_THAT(model.err, HasSubstr("there is no shipped model 'mine'; the file is called mine.toml"));
+    EXPECT_THAT(of_study.err, HasSubstr("there is no study 'own'; the file is called own.toml"));
+    EXPECT_THAT(of_model.err, HasSubstr("there is no shipped model 'mine'; the file is called mine.toml"));
 }
 
 } // namespace
