@@ -135,6 +135,10 @@ struct Arguments {
     SimulateArguments simulate;
 };
 
+/// Refuses anything but whole numbers within these bounds.
+CLI::Validator whole_number(long least, long most);
+/// Refuses anything but these words.
+CLI::Validator one_of(const std::vector<std::string>& words);
 /// Refuses what an unset variable of a script leaves: it would silently count as if the option were not there.
 CLI::Validator not_empty();
 

@@ -51,7 +51,7 @@ constexpr const char* ladder_examples = R"(Examples:
 constexpr const char* grazing_text = R"(Say what becomes of an orbit that touches: persists, or trips?
 At a grazing (GR), or any other point whose orbit touches an event's surface without speed: how a contact there acts on
 the motion, which follows from the model's equations alone, on which later pass the next contact comes, and whether an
-attractor remains beyond. POINT is written as for graze orbit. With --verify the verdict is checked by simulation.)";
+attractor remains beyond. With --verify the verdict is checked by simulation. POINT is written as for graze orbit.)";
 
 constexpr const char* grazing_examples = R"(Examples:
   graze grazing results GR1                        what a contact does, and the verdict
@@ -71,7 +71,7 @@ void declare_output(CLI::App& command, OutputArguments& output) {
         ->transform(CLI::Transformer(formats).description(""));
     add(command, "Output", "--digits", output.digits, "N",
         "Significant digits of numbers (8; 17 of csv and json, which lose nothing)")
-        ->check(CLI::Range(1, 17));
+        ->check(whole_number(1, 17));
     add(command, "Output", "--output", output.file, "FILE", "Write the table there instead of to standard output");
 }
 
@@ -96,7 +96,7 @@ void declare_orbit(CLI::App& app, OrbitArguments& arguments) {
     add(command, group, "--quantity", arguments.quantities, "EXPR",
         "More columns: quantities of the model, or any expressions in its names");
     add(command, group, "--samples", arguments.samples, "N", "About so many rows of the whole period (200)")
-        ->check(CLI::Range(1, 1'000'000));
+        ->check(whole_number(1, 1'000'000));
     declare_output(command, arguments.output);
     command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal")
         ->group("Output");
