@@ -40,7 +40,7 @@ constexpr const char* orbit_examples = R"(Examples:
 constexpr const char* grazing_text = R"(Say what becomes of an orbit that touches: persists, or trips?
 At a grazing (GR), or any other point whose orbit touches an event's surface without speed: how a contact there acts on
 the motion, which follows from the model's equations alone, on which later pass the next contact comes, and whether an
-attractor remains beyond. POINT is written as for graze orbit. With --verify the verdict is checked by simulation.)";
+attractor remains beyond. With --verify the verdict is checked by simulation. POINT is written as for graze orbit.)";
 
 constexpr const char* grazing_examples = R"(Examples:
   graze grazing results GR1                        what a contact does, and the verdict
