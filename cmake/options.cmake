@@ -22,7 +22,7 @@ find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(Threads REQUIRED)
-find_package(HDF5 REQUIRED COMPONENTS C)
+include(cmake/hdf5.cmake)
 
 # Contractions to fused operations happen only where the source asks for them: lanes and scalar must agree bit for bit.
 add_library(graze_options INTERFACE)

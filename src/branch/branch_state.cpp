@@ -95,14 +95,27 @@ bool BranchState::hold_kept(const Orbit& orbit) {
     return true;
 }
 
-std::optional<HeldTouch> BranchState::held_touch() const {
-    const bool touches = settings_.kept && settings_.kept->type == PointType::grazing && !settings_.kept->at_end;
-    return touches ? std::optional(HeldTouch{settings_.kept->segment, settings_.kept->event}) : std::nullopt;
+std::optional<HeldLimit> BranchState::held_limit() const {
+    if (!settings_.kept)
+        return std::nullopt;
+    const SpecialPoint& kept = *settings_.kept;
+    const auto held = [&](HeldLimit::Kind kind) { return HeldLimit{kind, kept.segment, kept.event}; };
+    switch (kept.type) {
+    case PointType::grazing:
+        return kept.at_end ? std::nullopt : std::optional(held(HeldLimit::Kind::touch));
+    case PointType::vanishing:
+        return held(HeldLimit::Kind::vanishing);
+    case PointType::guard:
+        return held(HeldLimit::Kind::guard);
+    default:
+        return std::nullopt;
+    }
 }
 
 /// Where on the orbit the touch is that is kept: of all least values of that event's function, the one that is zero.
 void BranchState::note_kept(const OrbitSolution& solution) {
-    if (!held_touch())
+    const auto held = held_limit();
+    if (!held || held->kind != HeldLimit::Kind::touch)
         return;
     SpecialPoint& kept = *settings_.kept;
     double nearest = std::numeric_limits<double>::infinity();
@@ -111,6 +124,25 @@ void BranchState::note_kept(const OrbitSolution& solution) {
             nearest = std::abs(minimum.value);
             kept.time = minimum.time;
         }
+}
+
+/// The touch that is kept in an orbit of another signature that nearly touches.
+bool BranchState::find_touch(const Orbit& orbit) {
+    constexpr double near = 1e-2; // of the function's size along the arc
+    OrbitProblem problem(simulation_, orbit, settings_);
+    if (!problem.evaluate(problem.unknowns_of(orbit)))
+        return false;
+    SpecialPoint& kept = *settings_.kept;
+    double nearest = near;
+    bool found = false;
+    for (const OrbitMinimum& minimum : certify(problem.equations(), problem.evaluation()).minima)
+        if (minimum.event == kept.event && std::abs(minimum.value) < nearest * minimum.size) {
+            nearest = std::abs(minimum.value) / minimum.size;
+            kept.segment = minimum.segment;
+            kept.time = minimum.time;
+            found = true;
+        }
+    return found;
 }
 
 bool BranchState::is_outside(double parameter) const {
@@ -126,7 +158,7 @@ bool BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std
     result.solution.outcome = OrbitOutcome::converged;
     result.solution.iterations = at.iterations;
     result.solution.orbit = problem_->orbit_of(at.u);
-    describe_orbit(equations, evaluation, result.solution, held_touch());
+    describe_orbit(equations, evaluation, result.solution, held_limit());
     note_kept(result.solution);
     result.parameter = at.u[problem_->parameter_place()];
     result.tangent = problem_->direction_of(at.tangent);
@@ -220,7 +252,8 @@ bool BranchState::go_on_curve(const Orbit& guess, int direction, double arclengt
         monitors_->set_signature(guess.signature);
     const double length = continuation_->next_step();
     arclength_ = arclength;
-    if (!make_problem(guess) ||
+    const auto held = held_limit();
+    if ((held && held->kind == HeldLimit::Kind::touch && !find_touch(guess)) || !make_problem(guess) ||
         !continuation_->start(problem_->unknowns_of(guess), problem_->parameter_place(), direction))
         return false;
     continuation_->set_next_step(length);

@@ -47,8 +47,9 @@ private:
     void hold(const Orbit& candidate);
     void hold_monitors();
     bool hold_kept(const Orbit& orbit);
-    std::optional<HeldTouch> held_touch() const;
+    std::optional<HeldLimit> held_limit() const;
     void note_kept(const OrbitSolution& solution);
+    bool find_touch(const Orbit& orbit);
     bool make_problem(const Orbit& orbit);
 
     BranchSettings settings_;

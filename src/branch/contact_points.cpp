@@ -34,10 +34,11 @@ std::size_t own_event(const TestedPoint& point, std::size_t segment) {
 
 void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests) {
     const Certificate& certificate = point.solution.certificate;
+    const PointType type = is_kept(point, PointType::grazing) ? PointType::double_grazing : PointType::grazing;
     for (std::size_t s = 0; s < point.equations.signature().size(); ++s) {
         const bool event = point.equations.signature()[s].end == SegmentEnd::event;
         const bool kept = is_kept(point, PointType::grazing, s, own_event(point, s)) && point.settings.kept->at_end;
-        tests.push_back({.type = PointType::grazing,
+        tests.push_back({.type = type,
                          .segment = s,
                          .event = own_event(point, s),
                          .value = event && !kept ? certificate.approach_speeds[s] : nothing,
@@ -48,8 +49,7 @@ void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests) {
     }
     for (std::size_t s = 0; s < point.equations.signature().size(); ++s)
         for (const std::size_t event : point.equations.system().mode(point.equations.signature()[s].mode).watched) {
-            BranchTest test{
-                .type = PointType::grazing, .segment = s, .event = event, .value = nothing, .appears = true};
+            BranchTest test{.type = type, .segment = s, .event = event, .value = nothing, .appears = true};
             const bool kept = is_kept(point, PointType::grazing, s, event);
             for (const OrbitMinimum& minimum : certificate.minima)
                 if (minimum.segment == s && minimum.event == event && !(minimum.value >= test.value) &&
@@ -67,6 +67,20 @@ bool confirm_grazing(BranchState& state, SpecialPoint& special, const BranchTest
         special.solution.multipliers.clear();
     special.detail =
         fmt::format("{}{}", state.model().events[special.event].name, special.at_end ? ", no approach speed" : "");
+    return true;
+}
+
+/// The touch that is kept may come to the end of its segment, which is no second one.
+bool confirm_double_grazing(BranchState& state, SpecialPoint& special, const BranchTest& test) {
+    constexpr double at_end = 1e-3; // share of the segment: the touch meets its end with the root of what is left
+    const SpecialPoint& kept = *state.settings().kept;
+    confirm_grazing(state, special, test);
+    const double duration = special.solution.orbit.durations[special.segment];
+    if (special.segment == kept.segment && special.event == kept.event && !kept.at_end &&
+        std::abs(duration - kept.time) < at_end * std::abs(duration)) {
+        special.type = PointType::grazing;
+        special.detail += "; the touch has come to the end of its segment";
+    }
     return true;
 }
 
@@ -103,7 +117,9 @@ void test_vanishing(const TestedPoint& point, std::vector<BranchTest>& tests) {
         tests.push_back({.type = PointType::vanishing,
                          .segment = s,
                          .event = own_event(point, s),
-                         .value = point.solution.orbit.durations[s]});
+                         .value = is_kept(point, PointType::vanishing, s, own_event(point, s))
+                                      ? nothing
+                                      : point.solution.orbit.durations[s]});
 }
 
 bool confirm_vanishing(BranchState&, SpecialPoint& special, const BranchTest&) {
@@ -116,15 +132,28 @@ std::unique_ptr<OrbitCondition> condition_of_vanishing(const OrbitEquations& equ
     return held(OrbitQuantity::of_vanishing(equations, point.segment));
 }
 
+namespace {
+
+/// Where a segment that a curve keeps takes no time, its event happens at the end of the one before.
+bool belongs_to_vanishing(const TestedPoint& point, const EndValue& end) {
+    const std::size_t next = (end.segment + 1) % point.equations.signature().size();
+    return is_kept(point, PointType::vanishing, next, end.event) &&
+           point.equations.signature()[next].end == SegmentEnd::event;
+}
+
+} // namespace
+
 void test_two_events(const TestedPoint& point, std::vector<BranchTest>& tests) {
     for (const EndValue& end : point.solution.certificate.end_values) {
         const bool barrier = point.equations.model().events[end.event].kind == EventKind::barrier;
-        tests.push_back(
-            {.type = PointType::two_events,
-             .segment = end.segment,
-             .event = end.event,
-             .value = barrier && !is_kept(point, PointType::two_events, end.segment, end.event) ? end.value : nothing,
-             .rate = end.rate});
+        tests.push_back({.type = PointType::two_events,
+                         .segment = end.segment,
+                         .event = end.event,
+                         .value = barrier && !is_kept(point, PointType::two_events, end.segment, end.event) &&
+                                          !belongs_to_vanishing(point, end)
+                                      ? end.value
+                                      : nothing,
+                         .rate = end.rate});
     }
 }
 
@@ -152,7 +181,9 @@ void test_guard(const TestedPoint& point, std::vector<BranchTest>& tests) {
         tests.push_back({.type = PointType::guard,
                          .segment = s,
                          .event = own_event(point, s),
-                         .value = std::isfinite(margin) ? margin : nothing});
+                         .value = std::isfinite(margin) && !is_kept(point, PointType::guard, s, own_event(point, s))
+                                      ? margin
+                                      : nothing});
     }
 }
 
@@ -183,7 +214,10 @@ void test_sensitivity(const TestedPoint& point, std::vector<BranchTest>& tests) 
     const CycleMap map =
         cycle_map_of(point.equations, point.at, {kept->segment, kept->event, kept->time, false}, std::nullopt);
     const bool known = map.exists() && map.contact.order == MapOrder::square_root;
-    tests.push_back({.type = PointType::sensitivity, .value = known ? map.projections(1).front() : nothing});
+    constexpr double least = 1e-9; // of a round: less is round-off, as where impacts change nothing of the next pass
+    tests.push_back({.type = PointType::sensitivity,
+                     .value = known ? map.projections(1).front() : nothing,
+                     .noise = least * point.solution.orbit.round()});
 }
 
 bool confirm_sensitivity(BranchState& state, SpecialPoint& special, const BranchTest&) {

@@ -8,6 +8,7 @@ namespace graze {
 
 void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests);
 bool confirm_grazing(BranchState& state, SpecialPoint& special, const BranchTest&);
+bool confirm_double_grazing(BranchState& state, SpecialPoint& special, const BranchTest& test);
 int rank_of_grazing(const SpecialPoint& point);
 std::unique_ptr<OrbitCondition> condition_of_grazing(const OrbitEquations& equations, const OrbitEvaluation&,
                                                      const SpecialPoint& point);

@@ -72,7 +72,12 @@ public:
             rows(0, index(i)) = h[1 + i] * scale;
             rows(1, index(i)) = r[1 + i] * scale;
         }
-        const Eigen::Vector2d wanted(value - h[0], rate - r[0]);
+        Eigen::Vector2d wanted(value - h[0], rate - r[0]);
+        for (const Eigen::Index k : {0, 1}) // values and rates have units of their own
+            if (const double unit = rows.row(k).norm(); unit > 0) {
+                rows.row(k) /= unit;
+                wanted[k] /= unit;
+            }
         const Eigen::VectorXd step = rows.completeOrthogonalDecomposition().solve(wanted);
         std::vector<double> result = state_;
         for (std::size_t i = 0; i < n; ++i)
@@ -115,11 +120,14 @@ OrbitDirection meet_at_speed(const Simulation& simulation, Orbit& orbit, double 
     OrbitQuantity condition = OrbitQuantity::of_speed(shooting, orbit.segments() - 1, speed);
     Eigen::VectorXd unknowns = shooting.unknowns_of(orbit), step;
     OrbitEvaluation at = shooting.evaluation();
+    // In units of how much the speed changes along the scales: it may be small beside all else by its unit alone.
     const auto solve = [&](double right, bool homogeneous) {
-        return shooting.evaluate(unknowns, at) && condition.evaluate(shooting, at) &&
-               shooting.solve(at, condition.gradient(),
-                              Eigen::VectorXd::Constant(1, homogeneous ? right : -condition.value()), homogeneous,
-                              step);
+        if (!shooting.evaluate(unknowns, at) || !condition.evaluate(shooting, at))
+            return false;
+        const double unit = condition.gradient().cwiseAbs() * shooting.scales();
+        return unit > 0 && shooting.solve(at, condition.gradient() / unit,
+                                          Eigen::VectorXd::Constant(1, homogeneous ? right : -condition.value() / unit),
+                                          homogeneous, step);
     };
     for (int i = 0; i < most_iterations; ++i) {
         if (!solve(0, false))

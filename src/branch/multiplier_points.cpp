@@ -19,13 +19,34 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
+bool is_flip(PointType type) {
+    return type == PointType::flip || type == PointType::asymmetry;
+}
+
+/// What a fold, flip or torus point is where a curve of another kind meets it; of the half of a symmetric orbit that
+/// loses its symmetry as of one that flips.
+PointType where_curves_meet(const TestedPoint& point, PointType own) {
+    if (!point.settings.kept)
+        return own;
+    const PointType kept = point.settings.kept->type;
+    const auto are = [&](auto is_one, auto is_other) {
+        return (is_one(own) && is_other(kept)) || (is_other(own) && is_one(kept));
+    };
+    const auto is_fold = [](PointType type) { return type == PointType::fold; };
+    const auto is_torus = [](PointType type) { return type == PointType::torus; };
+    return are(is_fold, is_flip)    ? PointType::fold_flip
+           : are(is_fold, is_torus) ? PointType::fold_torus
+           : are(is_flip, is_torus) ? PointType::flip_torus
+                                    : own;
+}
+
 } // namespace
 
 // Folds: where monitors are held, the parameter may turn although no multiplier is 1.
 
 void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests) {
     constexpr double least_rise = 1e-8; // of the parameter's share in the direction of the branch: less is round-off
-    BranchTest test{.type = PointType::fold};
+    BranchTest test{.type = where_curves_meet(point, PointType::fold)};
     if (point.settings.free.empty()) {
         const std::size_t place = point.equations.layout().parameter(0);
         test.value = point.tangent[place];
@@ -37,6 +58,17 @@ void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests) {
     tests.push_back(test);
 }
 
+/// On which side two orbits are is said of branches in one parameter.
+bool confirm_fold(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    const OrbitProblem& problem = state.problem();
+    if (special.located && state.settings().free.empty())
+        if (const auto form = fold_form(problem.equations(), problem.evaluation()))
+            special.detail = fmt::format("two orbits at {} {}, a = {:.6g}", form->above ? "greater" : "smaller",
+                                         state.model().independent_parameters()[state.settings().parameter.place()],
+                                         form->coefficient);
+    return special.located;
+}
+
 std::unique_ptr<OrbitCondition> condition_of_fold(const OrbitEquations& equations, const OrbitEvaluation& at,
                                                   const SpecialPoint&) {
     return SingularCondition::of_multiplier(equations, at, 1);
@@ -46,13 +78,14 @@ std::unique_ptr<OrbitCondition> condition_of_fold(const OrbitEquations& equation
 
 void test_flip(const TestedPoint& point, std::vector<BranchTest>& tests) {
     const bool tested = !point.equations.symmetry() && !is_kept(point, PointType::flip);
-    tests.push_back({.type = PointType::flip, .value = tested ? point.at.system.antiperiodic_determinant() : nothing});
+    tests.push_back({.type = where_curves_meet(point, PointType::flip),
+                     .value = tested ? point.at.system.antiperiodic_determinant() : nothing});
 }
 
 void test_asymmetry(const TestedPoint& point, std::vector<BranchTest>& tests) {
     const bool tested = point.equations.symmetry() && !is_kept(point, PointType::asymmetry);
-    tests.push_back(
-        {.type = PointType::asymmetry, .value = tested ? point.at.system.antiperiodic_determinant() : nothing});
+    tests.push_back({.type = where_curves_meet(point, PointType::asymmetry),
+                     .value = tested ? point.at.system.antiperiodic_determinant() : nothing});
 }
 
 bool confirm_flip(BranchState& state, SpecialPoint& special, const BranchTest&) {
@@ -99,7 +132,7 @@ const std::vector<std::complex<double>>& own_multipliers(const OrbitSolution& so
 void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests) {
     constexpr double least_growth = 1e-9; // of the product of a pair less one: less is round-off
     const auto& multipliers = own_multipliers(point.solution);
-    BranchTest test{.type = PointType::torus, .value = nothing};
+    BranchTest test{.type = where_curves_meet(point, PointType::torus), .value = nothing};
     std::complex<double> product = 1;
     double smallest = 1, others = 1;
     for (std::size_t i = 0; i < multipliers.size(); ++i)
@@ -116,18 +149,62 @@ void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests) {
     tests.push_back(test);
 }
 
+namespace {
+
+bool has_pair_on_circle(const OrbitSolution& solution) {
+    const auto& multipliers = own_multipliers(solution);
+    return std::any_of(multipliers.begin(), multipliers.end(),
+                       [](auto one) { return std::abs(one.imag()) > 1e-6 && std::abs(std::abs(one) - 1) < 1e-5; });
+}
+
+} // namespace
+
 bool confirm_torus(BranchState& state, SpecialPoint& special, const BranchTest&) {
     if (const auto coefficient = torus_coefficient(state.problem().equations(), state.problem().evaluation()))
         special.detail = fmt::format("{}critical, d = {:.6g}", *coefficient < 0 ? "super" : "sub", *coefficient);
-    const auto& multipliers = own_multipliers(special.solution);
-    return special.located && std::any_of(multipliers.begin(), multipliers.end(), [](auto one) {
-               return std::abs(one.imag()) > 1e-6 && std::abs(std::abs(one) - 1) < 1e-5;
-           });
+    return special.located && has_pair_on_circle(special.solution);
+}
+
+namespace {
+
+/// Of the half of a symmetric orbit, whose multiplier -1 is no flip.
+void note_asymmetry(const BranchState& state, SpecialPoint& special) {
+    const bool of_half = special.solution.orbit.symmetry || state.settings().kept->type == PointType::asymmetry;
+    special.detail = of_half ? "of a loss of symmetry" : "";
+}
+
+} // namespace
+
+bool confirm_fold_flip(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    note_asymmetry(state, special);
+    return special.located;
+}
+
+bool confirm_with_torus(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    if (special.type == PointType::flip_torus)
+        note_asymmetry(state, special);
+    return special.located && has_pair_on_circle(special.solution);
 }
 
 std::unique_ptr<OrbitCondition> condition_of_torus(const OrbitEquations& equations, const OrbitEvaluation& at,
                                                    const SpecialPoint&) {
     return TorusCondition::of_pair(equations, at);
+}
+
+/// Two multipliers are there: where a contact loses its speed others go to infinity, and nothing is simple but for that
+/// reason.
+bool confirm_resonance(BranchState&, SpecialPoint& special, const BranchTest& test) {
+    constexpr double near = 0.01; // a double multiplier is off by the root of what is left uncertain
+    const double wanted = test.type == PointType::resonance_1 ? 1 : -1;
+    const auto& multipliers = own_multipliers(special.solution);
+    return special.located && std::count_if(multipliers.begin(), multipliers.end(),
+                                            [&](auto one) { return std::abs(one - wanted) < near; }) >= 2;
+}
+
+bool confirm_cusp(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    if (const auto coefficient = cusp_coefficient(state.problem().equations(), state.problem().evaluation()))
+        special.detail = fmt::format("c = {:.6g}", *coefficient);
+    return special.located;
 }
 
 bool confirm_generalised(BranchState& state, SpecialPoint& special, const BranchTest&) {

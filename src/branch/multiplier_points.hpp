@@ -7,6 +7,7 @@ namespace graze {
 // Points at which multipliers of an orbit lie on the unit circle, and those that are more special still: see PointRule.
 
 void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests);
+bool confirm_fold(BranchState& state, SpecialPoint& special, const BranchTest&);
 std::unique_ptr<OrbitCondition> condition_of_fold(const OrbitEquations& equations, const OrbitEvaluation& at,
                                                   const SpecialPoint&);
 void test_flip(const TestedPoint& point, std::vector<BranchTest>& tests);
@@ -24,6 +25,10 @@ void test_torus(const TestedPoint& point, std::vector<BranchTest>& tests);
 bool confirm_torus(BranchState& state, SpecialPoint& special, const BranchTest&);
 std::unique_ptr<OrbitCondition> condition_of_torus(const OrbitEquations& equations, const OrbitEvaluation& at,
                                                    const SpecialPoint&);
+bool confirm_fold_flip(BranchState& state, SpecialPoint& special, const BranchTest&);
+bool confirm_with_torus(BranchState& state, SpecialPoint& special, const BranchTest&);
+bool confirm_resonance(BranchState& state, SpecialPoint& special, const BranchTest&);
+bool confirm_cusp(BranchState& state, SpecialPoint& special, const BranchTest&);
 bool confirm_generalised(BranchState& state, SpecialPoint& special, const BranchTest&);
 
 /// What is more special still on a curve of special points, of which their own condition knows.

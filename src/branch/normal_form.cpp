@@ -48,6 +48,23 @@ public:
         return vector.head(n).cwiseProduct(columns_.head(n)).norm();
     }
 
+    /// l^T F_2(v, v). @return false as below
+    bool second(const VectorXd& left, const VectorXd& vector, double& result) {
+        MatrixXd gradient;
+        if (!contract(left, vector, gradient))
+            return false;
+        result = gradient.row(0).dot(vector);
+        return std::isfinite(result);
+    }
+    /// l^T F_p for the first free parameter, up to a positive factor.
+    double by_parameter(const VectorXd& left, const OrbitEvaluation& at) const {
+        const auto rows = index(equations_.layout().states()) + 1;
+        double sum = 0;
+        for (Eigen::Index k = 0; k < index(at.pieces.size()); ++k)
+            sum += left.segment(k * rows, rows).dot(at.system.block(static_cast<std::size_t>(k)).parameters.col(0));
+        return sum;
+    }
+
     /// F_2(v, .), as a matrix. @return false where the motion cannot be followed
     bool second(const VectorXcd& vector, MatrixXcd& result) {
         const auto count = columns_.size();
@@ -61,7 +78,11 @@ public:
 
     /// l^T F_3(v, v, .) by differences of fourth order.
     bool third(const VectorXcd& left, const VectorXd& vector, RowVectorXcd& result) {
-        constexpr double step = 1e-3; // of the scales
+        constexpr double share = 1e-3; // of the scales: the vector's length follows the model's units
+        const double size = vector.cwiseAbs().maxCoeff(), step = share / size;
+        result = RowVectorXcd::Zero(columns_.size());
+        if (size == 0)
+            return true;
         MatrixXd weights(left.size(), 2), one, sum = MatrixXd::Zero(2, columns_.size());
         weights << left.real(), left.imag();
         const VectorXd here = shifted_.unknowns;
@@ -148,6 +169,64 @@ std::optional<Complex> cubic_coefficient(const OrbitEquations& equations, const 
 std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at) {
     const auto cubic = cubic_coefficient(equations, at, -1);
     return cubic ? std::optional(cubic->real() / 6) : std::nullopt;
+}
+
+namespace {
+
+/// The null vectors at a multiplier 1, the right one with starts of length 1, and what closes of them.
+struct Fold {
+    Fold(const Expansion& expansion, const MatrixXcd& matrix) {
+        VectorXcd complex_right, complex_left;
+        null_vectors(matrix, complex_right, complex_left);
+        complex_right /= expansion.length_of_start(complex_right);
+        right = complex_right.real();
+        left = complex_left.real();
+        product = left.dot(expansion.closing() * right);
+    }
+    VectorXd right, left;
+    double product = 0;
+};
+
+} // namespace
+
+std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    if (equations.layout().start_of(at.pieces.size()) > Expansion::most_unknowns || equations.free().empty())
+        return std::nullopt;
+    Expansion expansion(equations, at);
+    const Fold fold(expansion, expansion.closed_by(1));
+    double second = 0;
+    if (!fold.right.allFinite() || !expansion.second(fold.left, fold.right, second))
+        return std::nullopt;
+    const double coefficient = second / (2 * fold.product);
+    if (!std::isfinite(coefficient))
+        return std::nullopt;
+    return FoldForm{std::abs(coefficient), second * expansion.by_parameter(fold.left, at) < 0};
+}
+
+/// As the coefficient of a flip, but that what the square of the motion along the null vector asks for is solved for
+/// beside that vector, along which it is zero here.
+std::optional<double> cusp_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    const auto count = index(equations.layout().start_of(at.pieces.size()));
+    if (static_cast<std::size_t>(count) > Expansion::most_unknowns)
+        return std::nullopt;
+    Expansion expansion(equations, at);
+    const MatrixXcd matrix = expansion.closed_by(1);
+    const Fold fold(expansion, matrix);
+    MatrixXcd with_right;
+    RowVectorXcd third;
+    if (!fold.right.allFinite() || !expansion.second(fold.right, with_right) ||
+        !expansion.third(fold.left.cast<Complex>(), fold.right, third))
+        return std::nullopt;
+    MatrixXd bordered = MatrixXd::Zero(count + 1, count + 1);
+    bordered.topLeftCorner(count, count) = matrix.real();
+    bordered.col(count).head(count) = fold.left;
+    bordered.row(count).head(count) = fold.right.transpose();
+    VectorXd square = VectorXd::Zero(count + 1);
+    square.head(count) = -with_right.real() * fold.right;
+    const VectorXd beside = bordered.partialPivLu().solve(square).head(count);
+    const double cubic = third.real().dot(fold.right.transpose()) + 3 * fold.left.dot(with_right.real() * beside);
+    const double result = -cubic / (6 * fold.product);
+    return std::isfinite(result) ? std::optional(result) : std::nullopt;
 }
 
 std::optional<double> torus_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at) {

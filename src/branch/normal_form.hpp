@@ -25,6 +25,20 @@ std::optional<double> flip_coefficient(const OrbitEquations& equations, const Or
 /// @param at evaluation at an orbit with two multipliers on the unit circle
 std::optional<double> torus_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at);
 
+/// What happens at a fold, w -> w + b (p - p_0) + a w^2: two orbits on one side of the parameter, of which one is
+/// stable if there is no other unstable direction, at w^2 = -b (p - p_0)/a to first order.
+struct FoldForm {
+    double coefficient = 0; ///< |a|: its sign is that of the critical vector
+    bool above = false;     ///< two orbits at greater values of the first free parameter, none at smaller ones
+};
+/// @param at evaluation at an orbit with a multiplier 1, with a free parameter. @return none where it cannot be
+/// computed
+std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEvaluation& at);
+
+/// Coefficient c of the cusp, w -> w + c w^3: of the three orbits that meet there the outer ones are stable for c < 0.
+/// @param at evaluation at an orbit with a multiplier 1 whose fold has the coefficient zero
+std::optional<double> cusp_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at);
+
 /// The complex multiplier, of those above the real axis, that is nearest to the unit circle; if there is one.
 std::optional<std::complex<double>> pair_on_circle(const std::vector<std::complex<double>>& multipliers);
 

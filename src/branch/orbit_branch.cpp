@@ -119,11 +119,22 @@ std::string_view name_of(BranchOutcome outcome) {
 class OrbitBranch::Follower {
 public:
     Follower(const System& system, const Orbit& candidate, const BranchSettings& settings)
-        : state_(system, candidate, settings), candidate_(candidate), locator_(state_, point, tests_) {}
+        : state_(system, candidate, settings), candidate_(candidate), locator_(state_, point, tests_),
+          is_kept_point_(settings.kept && settings.free.size() == 1 &&
+                         settings.kept->solution.orbit.parameters == candidate.parameters) {}
 
     bool start() {
+        constexpr double near = 1e-2; // in units of the scales: a curve begins at the point that it is to keep
         const std::vector<double> u = state_.problem().unknowns_of(candidate_);
-        return begin(state_.continuation().start(u, state_.problem().parameter_place(), state_.settings().direction));
+        const bool begun =
+            state_.continuation().start(u, state_.problem().parameter_place(), state_.settings().direction);
+        if (!begun || !is_kept_point_ || distance_from(u) < near)
+            return begin(begun);
+        const double off = distance_from(u);
+        begin(false);
+        detail =
+            fmt::format("Newton's method leads to another orbit, {:.3g} away in units of the unknowns' sizes", off);
+        return false;
     }
 
     bool start_along(const OrbitDirection& given, double distance) {
@@ -162,6 +173,14 @@ public:
         const std::size_t work = state_.problem().equations().work() - work_before;
         ++point.step;
         point.iterations = continuation.point().iterations;
+        if (point.step == 1 && is_unphysical_curve(before)) {
+            point = before;
+            return end(BranchOutcome::unphysical, before.solution.certificate.reason);
+        }
+        if (point.step == 1 && is_beyond_torus()) {
+            point = before;
+            return end(BranchOutcome::stopped, "this way the two multipliers are real");
+        }
         found = locator_.locate_all(before, tests_before);
         drop_origin(point.arclength - before.arclength);
         judge(before.solution.certificate.admissible);
@@ -302,20 +321,29 @@ private:
         detail = std::move(why);
     }
 
-    /// The same along a curve: beyond, near the point that is kept, from what the model does there.
+    /// The same along a curve: beyond, near the point that is kept, from what the model does there. Beside a curve of
+    /// touches, on one side or the other: what is touched would be met or missed by chance.
     bool go_on_curve(const SpecialPoint& special) {
         constexpr double distances[] = {1e-4, 1e-5, 1e-3}; // in units of the scales
+        constexpr double share = 0.1;                      // beside the curve, of that
         const double rise = special.tangent.parameters.empty() ? 0 : special.tangent.parameters.front();
+        const std::vector<double> beside = keeps_touch() ? std::vector{share, -share} : std::vector{0.0};
         for (const double distance : distances)
-            for (const int side : {1, -1}) {
-                const auto guess = reordered_beyond(state_.system(), special, state_.settings(), side * distance);
-                if (!guess || !state_.go_on_curve(*guess, side * rise < 0 ? -1 : 1, special.arclength))
-                    continue;
-                describe_here();
-                if (point.solution.certificate.admissible)
-                    return true;
-            }
+            for (const int side : {1, -1})
+                for (const double aside : beside) {
+                    const auto guess = reordered_beyond(state_.system(), special, state_.settings(), side * distance,
+                                                        aside * distance);
+                    if (!guess || !state_.go_on_curve(*guess, side * rise < 0 ? -1 : 1, special.arclength))
+                        continue;
+                    describe_here();
+                    if (point.solution.certificate.admissible)
+                        return true;
+                }
         return false;
+    }
+    bool keeps_touch() const {
+        const auto& kept = state_.settings().kept;
+        return kept && kept->type == PointType::grazing && !kept->at_end;
     }
 
     /// Follows the orbits that have another signature beyond a point. @return false when there are none
@@ -350,6 +378,22 @@ private:
             std::erase_if(found, [&](const SpecialPoint& special) {
                 return special.type != PointType::bound && special.arclength < same_place * length;
             });
+    }
+
+    /// A curve begins with orbits that the model follows; one that is a limit of such has them next to it.
+    bool is_unphysical_curve(const BranchPoint& before) const {
+        return state_.settings().kept && state_.settings().stop_when_unphysical &&
+               !before.solution.certificate.admissible && !point.solution.certificate.admissible;
+    }
+
+    /// From a resonance a curve of torus points leads one way only.
+    bool is_beyond_torus() const {
+        const auto& kept = state_.settings().kept;
+        return kept && kept->type == PointType::torus &&
+               std::any_of(tests_.begin(), tests_.end(), [](const BranchTest& test) {
+                   return (test.type == PointType::resonance_1 && test.value > 0) ||
+                          (test.type == PointType::resonance_2 && test.value < 0);
+               });
     }
 
     /// A torus leaves the orbit as long as the pair is complex.
@@ -393,10 +437,11 @@ private:
                 !point.solution.certificate.admissible) {
                 const std::string reason = point.solution.certificate.reason;
                 cut_after(i);
-                // What is kept in a segment is not looked for among those of another signature.
+                // What is kept in a segment is not looked for among those of another signature, but for a touch.
                 const auto& kept = state_.settings().kept;
-                const bool reordering = state_.settings().reorder && (!kept || !kind_of(kept->type).limits) &&
-                                        found[i].type != PointType::grazing;
+                const bool reordering = state_.settings().reorder &&
+                                        (!kept || !kind_of(kept->type).limits || keeps_touch()) &&
+                                        !is_grazing(found[i].type);
                 if (!reordering || !go_on_reordered(found[i]))
                     finish(BranchOutcome::unphysical, reason);
                 return;
@@ -411,6 +456,7 @@ private:
     std::vector<BranchTest> tests_; ///< at the last point
     PointLocator locator_;
     std::size_t reorderings_ = 0;
+    bool is_kept_point_;      ///< a curve is to begin at the point itself, not at other parameters
     bool came_back_ = false;  ///< to more regular orbits, with the last step
     bool is_regular_ = false; ///< an orbit several times over, or symmetric but not given by its half
     bool ended_ = true;

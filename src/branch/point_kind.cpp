@@ -6,7 +6,11 @@
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
+#include <string>
 
 namespace graze {
 
@@ -27,6 +31,7 @@ constexpr std::array table{
                        .may_be_kept = true,
                        .mark = 7},
               .test = test_fold,
+              .confirm = confirm_fold,
               .condition = condition_of_fold},
     PointRule{.kind = {.type = PointType::flip,
                        .short_name = "PD",
@@ -91,6 +96,7 @@ constexpr std::array table{
                        .changes = true,
                        .limits = true,
                        .may_stop = true,
+                       .may_be_kept = true,
                        .mark = 8},
               .test = test_vanishing,
               .confirm = confirm_vanishing,
@@ -103,6 +109,7 @@ constexpr std::array table{
                        .changes = true,
                        .limits = true,
                        .may_stop = true,
+                       .may_be_kept = true,
                        .mark = 4},
               .test = test_two_events,
               .confirm = confirm_two_events,
@@ -115,6 +122,7 @@ constexpr std::array table{
                        .changes = true,
                        .limits = true,
                        .may_stop = true,
+                       .may_be_kept = true,
                        .mark = 10},
               .test = test_guard,
               .confirm = confirm_guard,
@@ -122,7 +130,8 @@ constexpr std::array table{
               .condition = condition_of_guard,
               .leave = leave_order},
     PointRule{.kind = {.type = PointType::cusp, .short_name = "CP", .name = "cusp", .may_stop = true, .mark = 3},
-              .test = test_degeneracy<PointType::cusp>},
+              .test = test_degeneracy<PointType::cusp>,
+              .confirm = confirm_cusp},
     PointRule{.kind = {.type = PointType::generalised,
                        .short_name = "GF",
                        .name = "generalised flip",
@@ -133,11 +142,13 @@ constexpr std::array table{
     PointRule{
         .kind =
             {.type = PointType::resonance_1, .short_name = "R1", .name = "1:1 resonance", .may_stop = true, .mark = 6},
-        .test = test_degeneracy<PointType::resonance_1>},
+        .test = test_degeneracy<PointType::resonance_1>,
+        .confirm = confirm_resonance},
     PointRule{
         .kind =
             {.type = PointType::resonance_2, .short_name = "R2", .name = "1:2 resonance", .may_stop = true, .mark = 6},
-        .test = test_degeneracy<PointType::resonance_2>},
+        .test = test_degeneracy<PointType::resonance_2>,
+        .confirm = confirm_resonance},
     PointRule{
         .kind =
             {.type = PointType::resonance_3, .short_name = "R3", .name = "1:3 resonance", .may_stop = true, .mark = 6},
@@ -153,6 +164,29 @@ constexpr std::array table{
                        .mark = 14},
               .test = test_sensitivity,
               .confirm = confirm_sensitivity},
+    PointRule{.kind = {.type = PointType::double_grazing,
+                       .short_name = "DG",
+                       .name = "double grazing",
+                       .limits = true,
+                       .may_stop = true,
+                       .mark = 12},
+              .confirm = confirm_double_grazing,
+              .rank = rank_of_grazing},
+    PointRule{
+        .kind = {.type = PointType::fold_flip, .short_name = "FP", .name = "fold-flip", .may_stop = true, .mark = 15},
+        .confirm = confirm_fold_flip},
+    PointRule{
+        .kind = {.type = PointType::fold_torus, .short_name = "FT", .name = "fold-torus", .may_stop = true, .mark = 15},
+        .confirm = confirm_with_torus},
+    PointRule{
+        .kind = {.type = PointType::flip_torus, .short_name = "PT", .name = "flip-torus", .may_stop = true, .mark = 15},
+        .confirm = confirm_with_torus},
+    PointRule{.kind = {.type = PointType::chatter,
+                       .short_name = "CH",
+                       .name = "onset of chatter",
+                       .changes = true,
+                       .limits = true,
+                       .mark = 11}},
     PointRule{
         .kind = {.type = PointType::extremum, .short_name = "EX", .name = "extremum", .may_stop = true, .mark = 1},
         .test = test_extremum,
@@ -199,6 +233,30 @@ std::optional<PointType> point_type(std::string_view name) {
         if (name == rule.kind.short_name)
             return rule.kind.type;
     return std::nullopt;
+}
+
+namespace {
+
+constexpr std::string_view digits = "0123456789";
+
+/// Between a type and a number, where the one ends with a digit.
+std::string_view separator_after(std::string_view type) {
+    return digits.find(type.back()) != std::string_view::npos ? "-" : "";
+}
+
+} // namespace
+
+std::string point_label(PointType type, std::size_t number) {
+    const std::string_view name = short_name(type);
+    return fmt::format("{}{}{}", name, separator_after(name), number);
+}
+
+bool is_point_label(std::string_view text) {
+    return std::any_of(table.begin(), table.end(), [&](const PointRule& rule) {
+        const std::string begin = fmt::format("{}{}", rule.kind.short_name, separator_after(rule.kind.short_name));
+        return text.size() > begin.size() && text.starts_with(begin) &&
+               text.find_first_not_of(digits, begin.size()) == std::string_view::npos;
+    });
 }
 
 std::vector<BranchTest> branch_tests(const TestedPoint& point) {

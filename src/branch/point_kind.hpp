@@ -15,6 +15,11 @@ namespace graze {
 
 class BranchState;
 
+/// Whether points of a type are touches, or contacts without speed, on branches or on curves of such.
+inline bool is_grazing(PointType type) {
+    return type == PointType::grazing || type == PointType::double_grazing;
+}
+
 /// A function along a branch whose change of sign means that something happens.
 struct BranchTest {
     PointType type = PointType::end;

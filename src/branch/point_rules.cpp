@@ -81,10 +81,11 @@ void drop_crossings_of_nothing(BranchState& state, std::vector<SpecialPoint>& fo
     std::erase_if(found, [&](const SpecialPoint& one) {
         const bool crossing = one.type == PointType::branch_point || one.type == PointType::asymmetry;
         // On curves the equations without what is held may be singular there, which are those that folds are told by.
-        const bool multiplier = on_curve && (one.type == PointType::fold || one.type == PointType::flip);
+        const bool multiplier = on_curve && (one.type == PointType::fold || one.type == PointType::flip ||
+                                             one.type == PointType::fold_flip);
         return (crossing || multiplier) && std::any_of(all.begin(), all.end(), [&](const auto& other) {
                    const bool contact_ends =
-                       other.type == PointType::vanishing || (other.type == PointType::grazing && other.at_end);
+                       other.type == PointType::vanishing || (is_grazing(other.type) && other.at_end);
                    const double distance = std::abs(one.arclength - other.arclength);
                    return contact_ends && ((multiplier && distance < same_place * length) ||
                                            (crossing && distance < near * length && is_singular_at(state, other)));
@@ -97,8 +98,10 @@ void drop_multipliers_of_resonances(std::vector<SpecialPoint>& found, double len
     const std::vector<SpecialPoint> all = found;
     std::erase_if(found, [&](const SpecialPoint& one) {
         return std::any_of(all.begin(), all.end(), [&](const SpecialPoint& other) {
-            const bool same = (one.type == PointType::fold && other.type == PointType::resonance_1) ||
-                              (one.type == PointType::flip && other.type == PointType::resonance_2);
+            const bool of_one = one.type == PointType::fold || one.type == PointType::fold_torus,
+                       of_minus_one = one.type == PointType::flip || one.type == PointType::flip_torus;
+            const bool same = (of_one && other.type == PointType::resonance_1) ||
+                              (of_minus_one && other.type == PointType::resonance_2);
             return same && std::abs(one.arclength - other.arclength) < same_place * length;
         });
     });

@@ -58,8 +58,25 @@ bool are_alike(const Orbit& one, const Orbit& other) {
 
 } // namespace
 
+namespace {
+
+/// Unknowns along the branch in the first parameter, of unit length in units of the scales. None where it turns.
+std::optional<Eigen::VectorXd> along_branch(const Simulation& simulation, const Orbit& orbit,
+                                            const BranchSettings& settings, const OrbitProblem& with_all) {
+    OrbitProblem problem(simulation, orbit, settings.parameter);
+    std::vector<double> row(problem.unknowns(), 0.0), onward(problem.unknowns());
+    row[problem.parameter_place()] = 1;
+    if (!problem.evaluate(problem.unknowns_of(orbit)) || !problem.solve(row, 1, true, onward, nullptr))
+        return std::nullopt;
+    const std::vector<double> all = with_all.unknowns_of(problem.direction_of(onward));
+    const Eigen::VectorXd result = OrbitProblem::vector_of(all);
+    return result / result.cwiseQuotient(OrbitProblem::vector_of(with_all.scales())).norm();
+}
+
+} // namespace
+
 std::optional<Orbit> reordered_beyond(const System& system, const SpecialPoint& point, const BranchSettings& settings,
-                                      double distance) {
+                                      double distance, double aside) {
     const Simulation simulation(system, {}, {}, integration(settings.orbit.tolerance));
     const Orbit& orbit = point.solution.orbit;
     OrbitProblem problem(simulation, orbit, settings);
@@ -67,10 +84,15 @@ std::optional<Orbit> reordered_beyond(const System& system, const SpecialPoint& 
     if (point.tangent.is_empty() || !problem.evaluate(u))
         return std::nullopt;
     const std::vector<double> tangent = problem.unknowns_of(point.tangent);
+    Eigen::VectorXd there = OrbitProblem::vector_of(u) + distance * OrbitProblem::vector_of(tangent);
+    if (aside != 0) {
+        const auto off = along_branch(simulation, orbit, settings, problem);
+        if (!off)
+            return std::nullopt;
+        there += aside * *off;
+    }
     std::string why;
-    auto candidate = followed(
-        simulation,
-        problem.equations().orbit_of(OrbitProblem::vector_of(u) + distance * OrbitProblem::vector_of(tangent)), why);
+    auto candidate = followed(simulation, problem.equations().orbit_of(there), why);
     return candidate && !are_alike(*candidate, orbit) ? candidate : std::nullopt;
 }
 

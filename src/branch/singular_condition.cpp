@@ -43,6 +43,29 @@ std::optional<std::pair<std::complex<double>, std::complex<double>>> pair_near(c
     return result;
 }
 
+/// The complex pair that is nearest to the unit circle, or two real ones that meet there if these are nearer.
+std::optional<std::pair<std::complex<double>, std::complex<double>>> pair_to_keep(const Multipliers& all) {
+    constexpr double meeting = 0.01; // off 1 or -1: what two that are equal differ by is a root of round-off
+    std::optional<std::pair<std::complex<double>, std::complex<double>>> result;
+    double nearest = std::numeric_limits<double>::infinity();
+    const auto note = [&](std::complex<double> one, std::complex<double> other) {
+        const double off = std::abs(std::log(std::abs(one * other)));
+        if (off < nearest) {
+            nearest = off;
+            result = {one, other};
+        }
+    };
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (all[i].imag() > 0)
+            note(all[i], std::conj(all[i]));
+        for (std::size_t j = i + 1; all[i].imag() == 0 && j < all.size(); ++j)
+            if (all[j].imag() == 0 && std::abs(std::abs(all[i].real()) - 1) < meeting &&
+                std::abs(all[i] - all[j]) < meeting)
+                note(all[i], all[j]);
+    }
+    return result;
+}
+
 } // namespace
 
 MultiplierCondition::MultiplierCondition(const OrbitEquations& equations, const OrbitEvaluation& at)
@@ -117,44 +140,32 @@ TorusCondition::TorusCondition(const OrbitEquations& equations, const OrbitEvalu
 
 std::unique_ptr<OrbitCondition> TorusCondition::of_pair(const OrbitEquations& equations, const OrbitEvaluation& at) {
     const Eigen::VectorXd ones = Eigen::VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
-    const auto one = pair_on_circle(CyclicMatrix(at.system, 1, ones, ones).multipliers());
-    if (!one)
+    const auto pair = pair_to_keep(CyclicMatrix(at.system, 1, ones, ones).multipliers());
+    if (!pair)
         return nullptr;
-    return std::unique_ptr<OrbitCondition>(new TorusCondition(equations, at, 2 * one->real(), std::norm(*one)));
+    const double sum = (pair->first + pair->second).real(), product = (pair->first * pair->second).real();
+    return std::unique_ptr<OrbitCondition>(new TorusCondition(equations, at, sum, product));
 }
 
+/// Both are kept together in the plane that they have, in which all is smooth where they meet.
 bool TorusCondition::evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) {
     const CyclicMatrix here = matrix(equations, at, 1);
     const auto pair = pair_near(here.multipliers(), sum_, product_);
-    CyclicMatrix::Multiplier first, second;
-    Eigen::RowVectorXcd by_first, by_second;
-    if (!pair || !here.multiplier_near(pair->first, first) || !change_of(equations, at, first, by_first))
+    CyclicMatrix::Plane plane;
+    if (!pair || !here.plane_near(pair->first, pair->second, plane))
         return false;
-    if (pair->first.imag() != 0) {
-        gradient_ = 2 * (std::conj(first.value) * by_first).real();
-    } else {
-        if (!here.multiplier_near(pair->second, second) || !change_of(equations, at, second, by_second))
+    gradient_ = Eigen::RowVectorXd::Zero(at.unknowns.size());
+    for (Eigen::Index j = 0; j < 2; ++j) {
+        Eigen::MatrixXd changes; // of column j of the map, but for the sign
+        if (!contract(equations, at, plane.left, plane.right.col(j), changes))
             return false;
-        gradient_ = (first.value * by_second + second.value * by_first).real();
+        const Eigen::Index k = 1 - j; // of the determinant, by the entries of that column
+        gradient_ -= plane.map(k, k) * changes.row(j) - plane.map(j, k) * changes.row(k);
     }
-    sum_ = (pair->first + pair->second).real();
-    product_ = (pair->first * pair->second).real();
+    sum_ = plane.map.trace();
+    product_ = plane.map.determinant();
     value_ = product_ - 1;
     return std::isfinite(value_) && gradient_.allFinite();
-}
-
-/// A multiplier changes by -l^T dA r; both vectors may be complex.
-bool TorusCondition::change_of(const OrbitEquations& equations, const OrbitEvaluation& at,
-                               const CyclicMatrix::Multiplier& one, Eigen::RowVectorXcd& change) {
-    Eigen::MatrixXd left(one.left.size(), 2), by_real, by_imaginary;
-    left << one.left.real(), one.left.imag();
-    if (!contract(equations, at, left, one.right.real(), by_real) ||
-        !contract(equations, at, left, one.right.imag(), by_imaginary))
-        return false;
-    change.resize(by_real.cols());
-    change.real() = by_imaginary.row(1) - by_real.row(0);
-    change.imag() = -by_real.row(1) - by_imaginary.row(0);
-    return true;
 }
 
 std::vector<Degeneracy> TorusCondition::degeneracies(const OrbitEquations&, const OrbitEvaluation&) {

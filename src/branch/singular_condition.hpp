@@ -63,8 +63,8 @@ private:
 /// one. So it goes on smoothly where the pair becomes real at 1 or -1, beyond which nothing leaves the orbit.
 class TorusCondition final : public MultiplierCondition {
 public:
-    /// Of the complex pair that is nearest to the unit circle, or that becomes complex there. @return none when there
-    /// is none
+    /// Of the complex pair that is nearest to the unit circle, or of two multipliers that meet there, at 1 or at -1.
+    /// @return none when there is none
     static std::unique_ptr<OrbitCondition> of_pair(const OrbitEquations& equations, const OrbitEvaluation& at);
     /// Follows the pair from one evaluation to the next: it is the one nearest to where it was.
     bool evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) override;
@@ -73,8 +73,6 @@ public:
 
 private:
     TorusCondition(const OrbitEquations& equations, const OrbitEvaluation& at, double sum, double product);
-    bool change_of(const OrbitEquations& equations, const OrbitEvaluation& at, const CyclicMatrix::Multiplier& one,
-                   Eigen::RowVectorXcd& change);
 
     double sum_, product_; ///< of the pair
 };

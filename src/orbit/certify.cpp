@@ -186,8 +186,8 @@ namespace {
 /// Looks at one segment after the other.
 class Certifier {
 public:
-    Certifier(OrbitEquations& equations, const OrbitEvaluation& at, const std::optional<HeldTouch>& touch)
-        : equations_(&equations), touch_(touch), system_(&equations.system()), at_(&at),
+    Certifier(OrbitEquations& equations, const OrbitEvaluation& at, const std::optional<HeldLimit>& held)
+        : equations_(&equations), held_(held), system_(&equations.system()), at_(&at),
           states_(equations.layout().states()), roots_(equations.simulation().order()), work_(system_->workspace()),
           inputs_(states_ + at.parameters.size()), field_(states_) {
         std::copy(at.parameters.begin(), at.parameters.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(states_));
@@ -208,6 +208,9 @@ private:
             certificate_.reason = std::move(reason);
         }
     }
+    bool is_held(HeldLimit::Kind kind, std::size_t segment) const {
+        return held_ && held_->kind == kind && held_->segment == segment;
+    }
     void set_state(const std::vector<double>& state) { std::copy(state.begin(), state.end(), inputs_.begin()); }
     /// Rate of a mode's watched event along a field, once its gradients have been evaluated.
     double rate_of(std::size_t watched, const Eigen::VectorXd& field) const {
@@ -222,8 +225,8 @@ private:
         const OrbitLayout& layout = equations_->layout();
         const Segment& segment = equations_->signature()[s];
         const auto& mode = system_->mode(segment.mode);
-        const bool touched = touch_ && touch_->segment == s;
-        ArcWatcher watcher(*equations_, s, roots_, touched ? std::optional(touch_->event) : std::nullopt);
+        ArcWatcher watcher(*equations_, s, roots_,
+                           is_held(HeldLimit::Kind::touch, s) ? std::optional(held_->event) : std::nullopt);
         double begin = 0;
         for (std::size_t k = layout.first_piece(s); k <= layout.last_piece(s); ++k) {
             const double duration = at_->unknowns[index(layout.duration_of(k))];
@@ -241,7 +244,8 @@ private:
         for (std::size_t w = 0; w < mode.watched.size(); ++w)
             if (!watcher.is_own(w) && !watcher.is_harmless_here(w))
                 certificate_.end_values.push_back({s, mode.watched[w], values_[w], rate_of(w, last.field)});
-        object(watcher.verdict(begin, values_));
+        if (!is_held(HeldLimit::Kind::vanishing, s)) // of no time nothing can be said but round-off
+            object(watcher.verdict(begin, values_));
         for (const OrbitMinimum& minimum : watcher.minima())
             certificate_.minima.push_back(minimum);
     }
@@ -276,7 +280,7 @@ private:
         const std::size_t next = mode_after(s);
         const double margin = guard_margin(system_->transition(segment.index), next, inputs_, work_);
         certificate_.guard_margins.push_back(margin);
-        if (margin < 0)
+        if (margin < 0 && !is_held(HeldLimit::Kind::guard, s))
             object(fmt::format("the guard after segment {} leads to another mode", s + 1));
         system_->mode(next).rates.evaluate(inputs_, field_, work_);
         const auto& mode = system_->mode(segment.mode);
@@ -297,7 +301,7 @@ private:
     }
 
     OrbitEquations* equations_;
-    std::optional<HeldTouch> touch_;
+    std::optional<HeldLimit> held_;
     const System* system_;
     const OrbitEvaluation* at_;
     std::size_t states_;
@@ -309,8 +313,8 @@ private:
 
 } // namespace
 
-Certificate certify(OrbitEquations& equations, const OrbitEvaluation& at, const std::optional<HeldTouch>& touch) {
-    return Certifier(equations, at, touch).certify();
+Certificate certify(OrbitEquations& equations, const OrbitEvaluation& at, const std::optional<HeldLimit>& held) {
+    return Certifier(equations, at, held).certify();
 }
 
 bool is_admissible(const Simulation& simulation, const Orbit& orbit, std::string& why) {

@@ -15,15 +15,18 @@ namespace graze {
 /// Whether a transition changes nothing: neither state nor mode. Orbits need not list it.
 bool is_harmless(const System& model, std::size_t transition);
 
-/// A touch that an orbit is held to: that of an event within a segment.
-struct HeldTouch {
+/// What an orbit is held to, of which round-off would decide whether it is admissible: that an event is touched within
+/// a segment, that a segment takes no time, that the guard after one is about to choose another mode.
+struct HeldLimit {
+    enum class Kind { touch, vanishing, guard };
+    Kind kind = Kind::touch;
     std::size_t segment = 0, event = 0;
 };
 
 /// Checks every watched event over every arc, by the roots of its Taylor polynomials.
-/// @param touch which is zero to within the accuracy of the flow, and no contact
+/// @param held zero to within the accuracy of the flow: no contact, no negative duration, no other mode
 Certificate certify(OrbitEquations& equations, const OrbitEvaluation& at,
-                    const std::optional<HeldTouch>& touch = std::nullopt);
+                    const std::optional<HeldLimit>& held = std::nullopt);
 
 /// Whether the model would follow an orbit, all of whose segments take time. @param why not, if it is known
 bool is_admissible(const Simulation& simulation, const Orbit& orbit, std::string& why);

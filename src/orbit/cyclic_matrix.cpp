@@ -14,41 +14,85 @@ namespace graze {
 
 namespace {
 
-using Solver = Eigen::GeneralizedEigenSolver<Eigen::MatrixXd>;
+using Complex = std::complex<double>;
 
-/// Eigenvalues of the relation between the first start and the one after the last segment. Those that are infinite, as
-/// where a contact has no speed, are left out. @return none where that fails
-std::optional<Solver> solved(const CyclicSystem& system,
-                             std::vector<std::pair<std::complex<double>, Eigen::Index>>& all) {
-    const auto [first, last] = system.relation();
-    Solver solver(first, -last);
-    if (solver.info() != Eigen::Success)
-        return std::nullopt;
-    for (Eigen::Index i = 0; i < solver.betas().size(); ++i) {
-        const std::complex<double> one = solver.alphas()[i] / solver.betas()[i];
-        if (solver.betas()[i] != 0 && std::isfinite(std::abs(one)))
-            all.emplace_back(one, i);
+/// Multipliers of a relation first * x_0 + last * x_m = 0 with x_m = mu x_0, but for infinite ones, with their places.
+struct Spectrum {
+    explicit Spectrum(const CyclicSystem& system) : relation(system.relation()), solver(relation.first.rows()) {
+        if (relation.first.rows() > 0)
+            solver.compute(relation.first, -relation.second);
+        for (Eigen::Index i = 0; relation.first.rows() > 0 && i < solver.betas().size(); ++i) {
+            const Complex one = solver.alphas()[i] / solver.betas()[i];
+            if (solver.info() == Eigen::Success && solver.betas()[i] != 0 && std::isfinite(std::abs(one)))
+                all.emplace_back(one, i);
+        }
     }
-    return solver;
+    /// Takes out the one nearest to a number. @return none where there is none
+    std::optional<Eigen::Index> take(Complex wanted) {
+        const auto nearest = std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
+            return std::abs(a.first - wanted) < std::abs(b.first - wanted);
+        });
+        if (nearest == all.end())
+            return std::nullopt;
+        const Eigen::Index place = nearest->second;
+        all.erase(nearest);
+        return place;
+    }
+
+    std::pair<Eigen::MatrixXd, Eigen::MatrixXd> relation;
+    Eigen::GeneralizedEigenSolver<Eigen::MatrixXd> solver;
+    std::vector<std::pair<Complex, Eigen::Index>> all;
+};
+
+/// The plane of two multipliers next to one another, by subspace iteration with the relation inverted beside them.
+Eigen::MatrixXd plane_of_close(const Spectrum& others, double middle) {
+    constexpr double share = 0.1;   // of the way to the nearest of the others
+    constexpr int repetitions = 20; // each makes of what does not belong to it a tenth or less
+    const auto& [first, last] = others.relation;
+    double nearest = std::abs(middle);
+    for (const auto& one : others.all)
+        nearest = std::min(nearest, std::abs(one.first - middle));
+    const Eigen::PartialPivLU<Eigen::MatrixXd> shifted(first +
+                                                       middle * (1 + share * nearest / std::abs(middle)) * last);
+    Eigen::MatrixXd starts = Eigen::MatrixXd::NullaryExpr(first.rows(), 2, [](Eigen::Index i, Eigen::Index j) {
+        return std::cos(static_cast<double>(i) * (1.7 + static_cast<double>(j)) + 0.3);
+    });
+    for (int repetition = 0; repetition < repetitions && starts.allFinite(); ++repetition)
+        starts = Eigen::HouseholderQR<Eigen::MatrixXd>(shifted.solve(last * starts)).householderQ() *
+                 Eigen::MatrixXd::Identity(first.rows(), 2);
+    return starts;
 }
 
-/// The vector of the multiplier nearest to a number.
-bool vector_near(const CyclicSystem& system, std::complex<double> wanted, std::complex<double>& value,
-                 Eigen::VectorXcd& vector) {
-    std::vector<std::pair<std::complex<double>, Eigen::Index>> all;
-    const auto solver = solved(system, all);
-    if (!solver || all.empty())
+/// The plane, as starts, that belongs to two multipliers, and what one round makes of it.
+bool plane_of(const CyclicSystem& system, Complex one, Complex other, Eigen::MatrixXd& starts, Eigen::Matrix2d& map) {
+    constexpr double close = 1e-3; // vectors of multipliers that differ by so little are nearly the same
+    Spectrum spectrum(system);
+    const auto& [first, last] = spectrum.relation;
+    const auto at = spectrum.take(one), beside = spectrum.take(other);
+    if (!at || !beside)
         return false;
-    // By size and angle: those that are zero are near to nothing.
-    const auto distance = [&](std::complex<double> one) { return std::abs(std::log(one / wanted)); };
-    const auto nearest = std::min_element(
-        all.begin(), all.end(), [&](const auto& a, const auto& b) { return distance(a.first) < distance(b.first); });
-    value = nearest->first;
-    const Eigen::VectorXcd start = solver->eigenvectors().col(nearest->second), end = value * start;
-    const Eigen::VectorXd real = system.between(start.real(), end.real()),
-                          imaginary = system.between(start.imag(), end.imag());
-    vector = real.cast<std::complex<double>>() + std::complex<double>(0, 1) * imaginary;
-    return vector.allFinite() && vector.norm() > 0;
+    if (std::abs(one - other) < close * std::abs(one)) {
+        starts = plane_of_close(spectrum, 0.5 * (one + other).real());
+    } else {
+        const Eigen::VectorXcd vector = spectrum.solver.eigenvectors().col(*at),
+                               second = spectrum.solver.eigenvectors().col(*beside);
+        starts.resize(first.rows(), 2);
+        starts.col(0) = vector.real();
+        starts.col(1) = one.imag() != 0 ? Eigen::VectorXd(vector.imag()) : Eigen::VectorXd(second.real());
+    }
+    if (!starts.allFinite())
+        return false;
+    map = -(last * starts).colPivHouseholderQr().solve(first * starts);
+    return map.allFinite();
+}
+
+/// All unknowns between such starts and what comes of them.
+Eigen::MatrixXd between(const CyclicSystem& system, const Eigen::MatrixXd& starts, const Eigen::Matrix2d& map) {
+    const Eigen::MatrixXd ends = starts * map;
+    Eigen::MatrixXd result(system.unknowns(), 2);
+    for (Eigen::Index i = 0; i < 2; ++i)
+        result.col(i) = system.between(starts.col(i), ends.col(i));
+    return result;
 }
 
 } // namespace
@@ -150,33 +194,34 @@ double CyclicMatrix::closing_product(const Eigen::VectorXd& left, const Eigen::V
 
 std::vector<std::complex<double>> CyclicMatrix::multipliers() const {
     CyclicSystem system = direct({});
-    std::vector<std::pair<std::complex<double>, Eigen::Index>> all;
-    if (system.factor())
-        solved(system, all);
     std::vector<std::complex<double>> result;
-    for (const auto& one : all)
-        result.push_back(one.first);
+    if (system.factor())
+        for (const auto& one : Spectrum(system).all)
+            result.push_back(one.first);
     return result;
 }
 
-bool CyclicMatrix::multiplier_near(std::complex<double> wanted, Multiplier& result) const {
-    CyclicSystem system = direct({}), other = transposed({});
-    std::complex<double> again;
-    Eigen::VectorXcd backwards;
-    if (!system.factor() || !other.factor() || !vector_near(system, wanted, result.value, result.right) ||
-        !vector_near(other, result.value, again, backwards))
+bool CyclicMatrix::plane_near(std::complex<double> one, std::complex<double> other, Plane& result) const {
+    CyclicSystem system = direct({}), backwards = transposed({});
+    Eigen::MatrixXd starts, left_starts;
+    Eigen::Matrix2d left_map;
+    if (!system.factor() || !backwards.factor() || !plane_of(system, one, other, starts, result.map) ||
+        !plane_of(backwards, one, other, left_starts, left_map))
         return false;
-    result.left.resize(backwards.size());
-    result.left.real() = restored(backwards.real());
-    result.left.imag() = restored(backwards.imag());
-    // A(mu) = A_0 + mu N, where N closes: what the left vector makes of N times the right one is to be one.
-    const Eigen::VectorXcd closing = next_.back().cast<std::complex<double>>() * result.right.head(n_);
-    const std::complex<double> product = result.left.tail(n_ + 1).transpose() * closing;
-    constexpr double least_angle = 1e-10; // of left and right vector: a multiplier with less is not simple
-    if (!(std::abs(product) > least_angle * result.left.norm() * result.right.norm()))
+    result.right = between(system, starts, result.map);
+    const Eigen::MatrixXd left = between(backwards, left_starts, left_map);
+    result.left.resize(left.rows(), 2);
+    for (Eigen::Index i = 0; i < 2; ++i)
+        result.left.col(i) = restored(left.col(i));
+    // A(mu) = A_0 + mu N, where N closes: what the left plane makes of N times the right one is to be one.
+    const Eigen::Matrix2d product =
+        result.left.bottomRows(n_ + 1).transpose() * (next_.back() * result.right.topRows(n_));
+    constexpr double least = 1e-20; // of both angles between the planes: with less, other multipliers are as near
+    const double sizes = result.left.colwise().norm().prod() * result.right.colwise().norm().prod();
+    if (!(std::abs(product.determinant()) > least * sizes))
         return false;
-    result.left /= product;
-    return result.left.allFinite();
+    result.left *= product.inverse().transpose();
+    return result.right.allFinite() && result.left.allFinite();
 }
 
 } // namespace graze

@@ -33,14 +33,16 @@ public:
 
     /// All that are finite. For a matrix that was made with the factor 1, as below.
     std::vector<std::complex<double>> multipliers() const;
-    /// A multiplier with its vectors, scaled so that a change dA of the matrix changes it by -left^T dA right.
-    struct Multiplier {
-        std::complex<double> value;
-        Eigen::VectorXcd right, left;
+    /// What two multipliers that belong together, conjugate or real, make of the plane that belongs to both: a map with
+    /// these eigenvalues, and the planes from the right and from the left, two columns each. A change dA of the matrix
+    /// changes the map by -left^T dA right. All is smooth where the two become equal, also where only one vector is
+    /// left.
+    struct Plane {
+        Eigen::Matrix2d map;
+        Eigen::MatrixXd right, left;
     };
-    /// The one nearest to a number in size and angle.
-    /// @return false when there is none that is simple
-    bool multiplier_near(std::complex<double> wanted, Multiplier& result) const;
+    /// Of the two nearest to these numbers. @return false where others are as near, or the matrix is not finite
+    bool plane_near(std::complex<double> one, std::complex<double> other, Plane& result) const;
 
 private:
     CyclicSystem direct(const Eigen::VectorXd& column) const;

@@ -13,8 +13,8 @@ SimulationOptions integration(double tolerance);
 OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknowns, const OrbitOptions& options,
                              OrbitEvaluation& at, std::size_t& iterations, std::string& detail);
 /// Everything that is known of an orbit from an evaluation of its equations: multipliers and certificate.
-/// @param touch to which it is held
+/// @param held to what it is held
 void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitSolution& solution,
-                    const std::optional<HeldTouch>& touch = std::nullopt);
+                    const std::optional<HeldLimit>& held = std::nullopt);
 
 } // namespace graze

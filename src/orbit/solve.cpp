@@ -110,7 +110,7 @@ OrbitOutcome solve_equations(OrbitEquations& equations, Eigen::VectorXd& unknown
 }
 
 void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitSolution& solution,
-                    const std::optional<HeldTouch>& touch) {
+                    const std::optional<HeldLimit>& held) {
     solution.residual = at.residual;
     solution.multipliers = floquet_multipliers(equations, at);
     if (equations.symmetry()) {
@@ -118,7 +118,7 @@ void describe_orbit(OrbitEquations& equations, const OrbitEvaluation& at, OrbitS
         for (auto& multiplier : solution.multipliers)
             multiplier *= multiplier;
     }
-    solution.certificate = certify(equations, at, touch);
+    solution.certificate = certify(equations, at, held);
 }
 
 OrbitSolution solve_orbit(const System& system, const Orbit& candidate, const OrbitOptions& options) {

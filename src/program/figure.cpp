@@ -1,7 +1,9 @@
 #include "program/figure.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "program/covered_lines.hpp"
 #include "program/curve.hpp"
+#include "program/dot_strokes.hpp"
 #include "program/figure_layout.hpp"
 #include "program/gnuplot_text.hpp"
 #include "program/mingled_dots.hpp"
@@ -18,6 +20,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <utility>
 
 namespace graze {
@@ -48,6 +51,7 @@ struct Terminal {
     double letters = 1; ///< the font's size, for a point
     std::string font;   ///< its name
     bool latex = false;
+    bool pixels = false;
 
     std::string text(const RichText& rich) const { return latex ? latex_markup(rich) : gnuplot_markup(rich); }
     std::string font_text(double size) const { return fmt::format("font '{},{:.4g}'", font, size * letters); }
@@ -60,6 +64,7 @@ Terminal terminal_of(const Figure& figure, const FigureLayout& page, const std::
     const double width = page.width / points_per_inch, height = page.height / points_per_inch;
     const double stroke = page.font / usual_font; // lines become thicker as letters become larger
     if (ending == "png") {
+        terminal.pixels = true;
         const double scale = dots_per_inch / svg_per_inch;
         terminal.command = fmt::format(
             "pngcairo noenhanced size {:.0f},{:.0f} fontscale {:.4g} linewidth {:.4g} pointscale {:.4g} "
@@ -131,20 +136,20 @@ private:
                            placed.upright ? " rotate by 90" : "", terminal_.font_text(placed.size));
     }
 
-    std::string line_text(const FigureSeries::Style style) const {
+    static std::string line_text(const FigureSeries::Style style, double wider = 0) {
         switch (style) {
         case FigureSeries::Style::dashed:
-            return "lw 1.3 dt (7,4)";
+            return fmt::format("lw {:.3g} dt (7,4)", 1.3 + wider);
         case FigureSeries::Style::dotted:
-            return "lw 1.1 dt (2,3.5)";
+            return fmt::format("lw {:.3g} dt (2,3.5)", 1.1 + wider);
         case FigureSeries::Style::impulses:
             return "lw 1.1";
         default:
-            return "lw 1.3";
+            return fmt::format("lw {:.3g}", 1.3 + wider);
         }
     }
 
-    /// @param over how many series are drawn over this one
+    /// @param over how many series lie on this one
     std::string style_text(const FigureSeries& series, std::size_t over) const {
         const std::string colour = fmt::format("lc rgb '{}'", colour_text(series.colour));
         switch (series.style) {
@@ -162,8 +167,8 @@ private:
         }
         case FigureSeries::Style::cells:
             return fmt::format("with boxxyerror fs solid 1 noborder {}", colour);
-        default:
-            return fmt::format("with lines {} {}", line_text(series.style), colour);
+        default: // each line on it leaves an edge of it
+            return fmt::format("with lines {} {}", line_text(series.style, 1.6 * static_cast<double>(over)), colour);
         }
     }
 
@@ -275,11 +280,13 @@ private:
         };
         const bool cells = std::any_of(panel.series.begin(), panel.series.end(),
                                        [](const FigureSeries& series) { return !series.cells.empty(); });
+        const std::vector<std::size_t> covering = covering_lines(panel, layout);
         bool dots = false;
-        for (const FigureSeries& series : panel.series) {
+        for (std::size_t s = 0; s < panel.series.size(); ++s) {
+            const FigureSeries& series = panel.series[s];
             if (series.style == FigureSeries::Style::dots) {
                 if (!dots)
-                    add(dots_text(panel, layout), dots_style(panel));
+                    add_dots(panel, layout, add);
                 dots = true;
                 continue;
             }
@@ -287,7 +294,8 @@ private:
                 add(data_text(series, panel, layout),
                     fmt::format("with points pt 7 ps {:.3g} lc rgb 'white'", 2 * symbol_));
             add(data_text(series, panel, layout),
-                style_text(series, static_cast<std::size_t>(&panel.series.back() - &series)));
+                style_text(series,
+                           series.style == FigureSeries::Style::impulses ? panel.series.size() - 1 - s : covering[s]));
         }
         return data.empty() ? "" : "plot " + plots + '\n' + data;
     }
@@ -326,21 +334,35 @@ private:
 
     static constexpr std::size_t few = 1000, crowd = 20000;
 
-    std::string dots_style(const FigurePanel& panel) const {
-        std::size_t points = 0;
-        for (const FigureSeries& series : panel.series)
-            points += series.style == FigureSeries::Style::dots ? series.points.size() : 0;
-        const double size = points > few ? 0.17 : 0.22;
-        return (points > crowd ? std::string("with dots") : fmt::format("with points pt 7 ps {:.3g}", size * symbol_)) +
-               " lc rgb variable";
-    }
-
-    static std::string dots_text(const FigurePanel& panel, const PanelLayout& layout) {
+    /// @param add is given data and style
+    template <class Add>
+    void add_dots(const FigurePanel& panel, const PanelLayout& layout, const Add& add) const {
+        const std::vector<MingledDot> dots = mingled_dots(panel, layout);
+        if (dots.size() > few && !terminal_.pixels)
+            return add_strokes(panel, layout, dots, add);
         std::string text;
-        for (const MingledDot& dot : mingled_dots(panel, layout))
+        for (const MingledDot& dot : dots)
             text +=
                 fmt::format("{:.7g} {:.7g} {}\n", dot.at.x, dot.at.y, colour_number(panel.series[dot.series].colour));
-        return text;
+        const double size = dots.size() > few ? 0.17 : 0.22;
+        const std::string style =
+            dots.size() > crowd ? "with dots" : fmt::format("with points pt 7 ps {:.3g}", size * symbol_);
+        add(text, style + " lc rgb variable");
+    }
+
+    /// A file with each dot of a crowd would have tens of megabytes.
+    template <class Add>
+    void add_strokes(const FigurePanel& panel, const PanelLayout& layout, const std::vector<MingledDot>& dots,
+                     const Add& add) const {
+        constexpr double of_unit = 0.75; ///< points: what is as wide as gnuplot's unit where lines are as usual
+        const double width = dots.size() > crowd ? 1 : 0.17 * mark_size(page_.font); // as those of dots
+        std::map<std::pair<std::size_t, std::size_t>, std::string> texts;            // by layer, then by series
+        for (const DotStroke& stroke : dot_strokes(dots, layout, width))
+            texts[{stroke.layer, stroke.series}] +=
+                fmt::format("{:.7g} {:.7g}\n{:.7g} {:.7g}\n\n", stroke.from.x, stroke.from.y, stroke.to.x, stroke.to.y);
+        for (const auto& [key, text] : texts)
+            add(text, fmt::format("with lines lw {:.3g} lc rgb '{}'", width / (of_unit * page_.font / usual_font),
+                                  colour_text(panel.series[key.second].colour)));
     }
 
     const Figure* figure_;

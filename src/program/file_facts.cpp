@@ -68,8 +68,8 @@ void add_parameters(Facts& facts, const std::string& run, const Model& model) {
         facts.add("parameter", run, names[p], values[p], model.parameters[*model.find_parameter(names[p])].unit);
 }
 
-void add_settings(Facts& facts, const std::string& run, const std::string& settings) {
-    for (const Setting& setting : setting_list(settings))
+void add_settings(Facts& facts, const std::string& run, const std::string& settings, const std::string& file) {
+    for (const Setting& setting : setting_list(settings, stored_place(file, fmt::format("settings of run '{}'", run))))
         if (setting.number)
             facts.add("setting", run, setting.name, *setting.number);
         else
@@ -125,13 +125,8 @@ void add_words(Facts& facts, const std::string& item, const std::string& name, c
 void add_stored_run(Facts& facts, const ResultFile& file, const RunRecord& record, const StudyRun* asked) {
     const std::string& run = record.name;
     facts.add("run", run, "kind", record.kind);
-    const auto failure = record.status == RunStatus::complete ? std::nullopt : failure_of(file, run);
-    facts.add("run", run, "status",
-              record.status == RunStatus::complete ? "complete"
-              : failure                            ? "failed"
-                                                   : "unfinished");
-    if (failure)
-        facts.add("run", run, "failure", *failure);
+    facts.add("run", run, "status", std::string(name_of(record.status)));
+    facts.add("run", run, "failure", record.failure);
     if (!record.is_branch())
         facts.add("run", run, "planned", static_cast<double>(record.points));
     facts.add("run", run, "points", static_cast<double>(file.point_count(run)));
@@ -194,7 +189,7 @@ void add_facts(Facts& facts, const Study& study) {
     }
     for (const StudyRun& run : study.runs) {
         add_parameters(facts, run.name, run.model);
-        add_settings(facts, run.name, settings_of(run));
+        add_settings(facts, run.name, settings_of(run), "");
     }
     add_pictures(facts, study);
 }
@@ -222,7 +217,7 @@ void add_facts(Facts& facts, const ResultFile& file) {
         }
     for (const RunRecord& record : records) {
         add_parameters(facts, record.name, stored_model(record));
-        add_settings(facts, record.name, record.settings);
+        add_settings(facts, record.name, record.settings, record.file);
     }
     if (study)
         add_pictures(facts, *study);

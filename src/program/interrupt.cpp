@@ -7,10 +7,11 @@ namespace graze {
 namespace {
 
 // A signal handler can reach nothing but what has static lifetime.
-volatile std::sig_atomic_t interrupted = 0;
+volatile std::sig_atomic_t interrupted = 0; ///< the signal's number
+volatile std::sig_atomic_t guarded = 0;
 
-void note_interrupt(int /*signal*/) {
-    interrupted = 1;
+void note_interrupt(int signal) {
+    interrupted = signal;
 }
 
 void catch_signal(int signal, struct sigaction& before) {
@@ -29,19 +30,31 @@ struct InterruptGuard::Handlers {
     struct sigaction interrupt, terminate;
 };
 
-InterruptGuard::InterruptGuard() : before_(std::make_unique<Handlers>()) {
+InterruptGuard::InterruptGuard() {
+    if (guarded != 0)
+        return;
+    before_ = std::make_unique<Handlers>();
+    guarded = 1;
     interrupted = 0;
     catch_signal(SIGINT, before_->interrupt);
     catch_signal(SIGTERM, before_->terminate);
 }
 
 InterruptGuard::~InterruptGuard() {
+    if (!before_)
+        return;
     sigaction(SIGINT, &before_->interrupt, nullptr);
     sigaction(SIGTERM, &before_->terminate, nullptr);
+    guarded = 0;
 }
 
 bool InterruptGuard::requested() {
     return interrupted != 0;
+}
+
+int InterruptGuard::exit_code() {
+    constexpr int of_shells = 128;
+    return interrupted == 0 ? 0 : of_shells + interrupted;
 }
 
 } // namespace graze

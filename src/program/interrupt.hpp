@@ -5,7 +5,7 @@
 namespace graze {
 
 /// While it lives, Ctrl-C (SIGINT) and SIGTERM set a flag instead of ending the process; the second one of a kind does
-/// end it. Those that the process was started to ignore stay ignored.
+/// end it. Those that the process was started to ignore stay ignored. One within another changes nothing.
 class InterruptGuard {
 public:
     InterruptGuard();
@@ -14,10 +14,13 @@ public:
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
     static bool requested();
+    /// As shells tell of a process that a signal has ended: 130 after Ctrl-C, 143 after SIGTERM; 0 when nothing was
+    /// requested.
+    static int exit_code();
 
 private:
     struct Handlers;
-    std::unique_ptr<Handlers> before_;
+    std::unique_ptr<Handlers> before_; ///< none: another guard has them
 };
 
 } // namespace graze

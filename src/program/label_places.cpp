@@ -1,5 +1,7 @@
 #include "program/label_places.hpp"
 
+#include "program/curve.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,11 +15,12 @@ namespace {
 
 // In heights of a label.
 constexpr double letters_beyond = 0.25, gap_at_mark = 0.1;
-constexpr std::array<double, 7> distances{0, 0.5, 1.1, 1.8, 2.8, 4, 5.5};
+constexpr std::array<double, 14> distances{0, 0.1, 0.5, 0.8, 1.1, 1.4, 1.8, 2.3, 2.8, 3.4, 4, 4.7, 5.5, 6.5};
 constexpr double led_from = 0.3; ///< distance from which on a line is needed to see what belongs together
-constexpr std::size_t directions = 16;
+constexpr std::size_t directions = 32;
 
 constexpr double cost_of_distance = 3, cost_of_curve = 8, cost_of_crossing = 0.5, cost_of_side = 0.3;
+constexpr double cost_of_any_curve = 35; ///< a longer leader is better than a label that a curve runs through
 constexpr std::size_t most_labels = 30, most_in_one = 3;
 constexpr double room_of_label = 8; ///< area of a panel for each label, in areas of labels with four letters
 
@@ -149,7 +152,7 @@ private:
         const bool symbols = series.style == Style::symbols || series.style == Style::circles;
         const bool joined = !symbols && series.style != Style::dots;
         std::optional<PlanePoint> last;
-        for (const PlanePoint& point : series.points) {
+        for (const PlanePoint& point : smoothed(series.points, series.along, series.corners)) {
             if (!is_drawn(point, panel)) {
                 last.reset();
                 continue;
@@ -249,7 +252,8 @@ private:
     }
 
     double cost_of(const PlacedLabel& label) const {
-        double cost = cost_of_curve * std::min(1.0, 4 * curves_.share(label.box));
+        const double share = curves_.share(label.box);
+        double cost = share > 0 ? cost_of_any_curve + cost_of_curve * std::min(1.0, 4 * share) : 0;
         if (!label.led)
             return cost;
         for (const Box& mark : found_.marks) // a line may touch its own symbol

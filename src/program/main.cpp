@@ -1,8 +1,11 @@
+#include "program/interrupt.hpp"
 #include "program/program.hpp"
 
 #include <algorithm>
 #include <iostream>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <sys/ioctl.h>
 #include <unistd.h>
 #include <vector>
@@ -18,9 +21,17 @@ std::size_t width_of_terminal() {
     return std::max<std::size_t>(size.ws_col, least);
 }
 
+/// Commands that end in order when they are interrupted; others are broken off, and have nothing to lose.
+bool ends_in_order(int count, char** values) {
+    return count > 1 && (std::string_view(values[1]) == "run" || std::string_view(values[1]) == "simulate");
+}
+
 } // namespace
 
 int main(int count, char** values) {
+    std::optional<graze::InterruptGuard> guard; // from the first moment, not only from where computing begins
+    if (ends_in_order(count, values))
+        guard.emplace();
     std::ios::sync_with_stdio(false);
     const std::vector<std::string> arguments(values + std::min(count, 1), values + count); // none, not even a name
     return graze::run_program(arguments,

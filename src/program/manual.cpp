@@ -149,7 +149,8 @@ std::string manual_page(const CLI::App& app, const CLI::App& command) {
     }
     text +=
         ".SH EXIT STATUS\n0 on success, 2 when something that was given cannot be used, 3 when a trajectory or a run "
-        "did not end as it should, 130 when it was interrupted, 1 for a mistake of graze itself.\n.SH SEE ALSO\n";
+        "did not end as it should, 130 when it was interrupted (143 by SIGTERM), 1 for a mistake of graze itself.\n.SH "
+        "SEE ALSO\n";
     std::string others = whole ? "" : "\\fBgraze\\fR(1)";
     for (const CLI::App* one : declared_commands(app))
         if (one != &command)

@@ -1,5 +1,6 @@
 #include "graze/results/stored_run.hpp"
 #include "graze/study/picture.hpp"
+#include "graze/study/showable_names.hpp"
 #include "program/commands.hpp"
 #include "program/figure.hpp"
 #include "program/values.hpp"
@@ -54,6 +55,21 @@ FigureStyle style_of(const PlotArguments& arguments) {
     return style;
 }
 
+/// What `--name` says.
+std::vector<std::pair<std::string, std::string>> names_given(const PlotArguments& arguments) {
+    std::vector<std::pair<std::string, std::string>> names;
+    for (const std::string& item : arguments.names) {
+        const std::size_t equals = item.find('=');
+        if (equals == std::string::npos || equals == 0)
+            throw InputError({"--name", 0, 0}, fmt::format("'{}' names nothing", item), "write NAME=TEXT");
+        const std::string name = item.substr(0, equals);
+        if (std::any_of(names.begin(), names.end(), [&](const auto& other) { return other.first == name; }))
+            throw InputError({"--name", 0, 0}, fmt::format("'{}' is given twice", name), "leave one of them out");
+        names.emplace_back(name, item.substr(equals + 1));
+    }
+    return names;
+}
+
 StudyPicture picture_of(const PlotArguments& arguments, const RunRecord& run) {
     StudyPicture picture = default_picture(run);
     picture.points = split_list(arguments.points);
@@ -80,12 +96,7 @@ StudyPicture picture_of(const PlotArguments& arguments, const RunRecord& run) {
             throw InputError({"--at", 0, 0}, fmt::format("'{}' names no point", item), "write NAME=VALUE");
         picture.at.emplace_back(item.substr(0, equals), number_of(item.substr(equals + 1), "--at"));
     }
-    for (const std::string& item : arguments.names) {
-        const std::size_t equals = item.find('=');
-        if (equals == std::string::npos || equals == 0)
-            throw InputError({"--name", 0, 0}, fmt::format("'{}' names nothing", item), "write NAME=TEXT");
-        picture.names.emplace_back(item.substr(0, equals), item.substr(equals + 1));
-    }
+    picture.names = names_given(arguments);
     picture.x_label = arguments.x_label;
     picture.y_labels = arguments.y_labels;
     picture.style = style_of(arguments);
@@ -103,6 +114,46 @@ StudyPicture picture_of(const PlotArguments& arguments, const RunRecord& run) {
             throw InputError({"--direction", 0, 0}, fmt::format("run '{}' has no direction '{}'", run.name, direction),
                              name_advice(direction, run.directions, "it has none"));
     return picture;
+}
+
+/// All runs of a file that have something to show.
+struct ShownRuns {
+    std::vector<std::string> names;
+    bool complete = true;
+};
+
+/// Whoever names a run wants to know why it cannot be drawn; of all runs, those that can be are.
+ShownRuns runs_to_show(const ResultFile& file, const Console& console) {
+    ShownRuns shown;
+    for (const RunRecord& run : file.runs()) {
+        if (file.point_count(run.name) > 0) {
+            shown.names.push_back(run.name);
+            continue;
+        }
+        shown.complete = false;
+        console.err << fmt::format("graze: warning: run '{}' was not drawn: it {}\n", run.name,
+                                   run.status == RunStatus::failed ? "failed: " + run.failure : "has no points");
+    }
+    if (shown.names.empty())
+        throw InputError(Place{file.path(), 0, 0},
+                         shown.complete ? "there are no runs in the file" : "no run in the file has points",
+                         "run the study first");
+    return shown;
+}
+
+/// Names that one of the runs has may be given, though others are drawn too.
+void check_names(const PlotArguments& arguments, const ResultFile& file, const std::vector<std::string>& runs) {
+    if (arguments.names.empty())
+        return;
+    StudyPicture picture;
+    picture.x = arguments.x;
+    picture.group = arguments.group;
+    picture.y = split_list(arguments.y);
+    ShowableNames showable(picture);
+    for (const std::string& name : runs)
+        showable.add(StoredRun(file, name, {"--run", 0, 0}).record);
+    for (const auto& [name, text] : names_given(arguments))
+        showable.require(name, {"--name", 0, 0}, fmt::format("'{}'", name));
 }
 
 /// Branches go into one picture. @return whether these do
@@ -128,30 +179,46 @@ bool draw_together(const PlotArguments& arguments, const ResultFile& file, const
     return true;
 }
 
+void draw_alone(const PlotArguments& arguments, const ResultFile& file, const std::string& name,
+                const Console& console) {
+    const StoredRun run(file, name, {"--run", 0, 0});
+    if (run.record.status == RunStatus::failed && run.points() == 0)
+        throw InputError({"--run", 0, 0},
+                         fmt::format("run '{}' has no points: it failed: {}", name, run.record.failure), "");
+    const std::string path = arguments.output.empty() ? name + ".png" : arguments.output;
+    const ResultPicture made = make_picture(picture_of(arguments, run.record), file);
+    draw_figure(made.figure, path, arguments.data);
+    if (made.table.rows() > 0)
+        deliver(made.table, {TableFormat::table, 6, "", true}, {}, console);
+    console.out << path << '\n';
+}
+
 } // namespace
 
 int plot_command(const PlotArguments& arguments, const Console& console) {
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
-    std::vector<std::string> names = split_list(arguments.runs);
-    if (names.empty())
-        for (const RunRecord& run : file.runs())
-            names.push_back(run.name);
-    if (names.empty())
-        throw InputError("there are no runs in the file", "run the study first");
-    if (names.size() > 1 && !arguments.output.empty() && draw_together(arguments, file, names, console))
-        return exit_success;
-    if (names.size() > 1 && !arguments.output.empty())
-        throw InputError({"--output", 0, 0}, "several runs cannot go into one picture", "choose one by --run NAME");
-    for (const std::string& name : names) {
-        const StoredRun run(file, name, {"--run", 0, 0});
-        const std::string path = arguments.output.empty() ? name + ".png" : arguments.output;
-        const ResultPicture made = make_picture(picture_of(arguments, run.record), file);
-        draw_figure(made.figure, path, arguments.data);
-        if (made.table.rows() > 0)
-            deliver(made.table, {TableFormat::table, 6, "", true}, {}, console);
-        console.out << path << '\n';
+    ShownRuns shown{split_list(arguments.runs)};
+    if (shown.names.empty())
+        shown = runs_to_show(file, console);
+    const std::vector<std::string>& names = shown.names;
+    check_names(arguments, file, names);
+    if (names.size() > 1 && !arguments.output.empty()) {
+        if (!draw_together(arguments, file, names, console))
+            throw InputError({"--output", 0, 0}, "several runs cannot go into one picture", "choose one by --run NAME");
+        return shown.complete ? exit_success : exit_irregular;
     }
-    return exit_success;
+    std::size_t drawn = 0;
+    for (const std::string& name : names)
+        try {
+            draw_alone(arguments, file, name, console);
+            ++drawn;
+        } catch (const InputError& error) {
+            if (!arguments.runs.empty() || (drawn == 0 && name == names.back()))
+                throw;
+            console.err << fmt::format("graze: warning: run '{}' was not drawn: {}\n", name, error.what());
+            shown.complete = false;
+        }
+    return shown.complete ? exit_success : exit_irregular;
 }
 
 } // namespace graze

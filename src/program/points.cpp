@@ -354,6 +354,12 @@ int points_command(const PointsArguments& arguments, const Console& console) {
             "graze: {} points are left out that are images of others under the model's symmetry; "
             "--all lists them\n",
             list.twins);
+    for (const StoredRun& run : list.runs)
+        if (run.record.status == RunStatus::failed)
+            console.err << fmt::format("graze: run '{}' failed: {}\n", run.record.name, run.record.failure);
+        else if (run.record.status == RunStatus::unfinished)
+            console.err << fmt::format("graze: run '{}' is unfinished; graze run does it to its end\n",
+                                       run.record.name);
     if (list.points.empty())
         console.err << "graze: there are no such points; --all lists the regular ones too\n";
     return exit_success;

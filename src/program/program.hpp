@@ -26,8 +26,9 @@ enum ExitCode : int {
     exit_success = 0,
     exit_internal_error = 1,
     exit_bad_input = 2,
-    exit_irregular = 3, ///< the trajectory ended where it should not have; what was computed is written
-    exit_interrupted = 130,
+    exit_irregular = 3,     ///< the trajectory ended where it should not have; what was computed is written
+    exit_interrupted = 130, ///< by Ctrl-C, SIGINT
+    exit_terminated = 143,  ///< by SIGTERM
 };
 
 /// The whole program, without a process around it.

@@ -61,6 +61,8 @@ std::vector<std::pair<std::string, std::string>> ends_of(const StoredRun& run) {
     auto rows = run.rows({.columns = {"part", "detail"}});
     while (rows.next()) {
         std::erase_if(ends, [part = rows.text(0)](const auto& end) { return end.first == part; });
+        if (run.record.kind == name_of(RunKind::ladder))
+            ends.clear(); // each rung ends where the next begins
         ends.emplace_back(rows.text(0), rows.text(1));
     }
     const bool unfinished = run.record.status == RunStatus::unfinished; // of which only the last part can be
@@ -116,21 +118,25 @@ std::vector<Table::Column> report_columns() {
     return {{"run", ""}, {"kind", ""}, {"points", ""}, {"computed", ""}, {"seconds", "s"}, {"status", ""}};
 }
 
-/// For people: "periodic 1330, chaotic 270", and "up: ..."
+/// For people: "periodic 1330, chaotic 270; up: ..." in the last column, which is broken into lines; besides what fits
+/// into a terminal's width beside it.
 Table table_of(const std::vector<RunReport>& reports, const ResultFile& file) {
-    std::vector<Table::Column> columns = report_columns();
-    columns.insert(columns.end(), {{"labels", ""}, {"ended", ""}});
-    Table table(columns);
+    Table table({{"run", ""}, {"points", ""}, {"seconds", "s"}, {"status", ""}, {"results", ""}});
     for (const RunReport& report : reports) {
-        add_report(table, report);
+        table.add(report.name);
+        table.add(static_cast<double>(report.points));
+        table.add(report.seconds);
+        table.add(status_of(report));
         const ListedRun run = listed(report, file);
-        std::string labels, ends = run.remedy;
+        std::string results;
         for (const auto& [label, count] : run.labels)
-            labels += fmt::format("{}{} {}", labels.empty() ? "" : ", ", label, count);
+            results += fmt::format("{}{} {}", results.empty() ? "" : ", ", label, count);
+        const auto add = [&](const std::string& text) { results += (results.empty() ? "" : "; ") + text; };
+        if (!run.remedy.empty())
+            add(run.remedy);
         for (const auto& [part, detail] : run.ends)
-            ends += fmt::format("{}{}: {}", ends.empty() ? "" : "; ", part, detail);
-        table.add(labels);
-        table.add(ends);
+            add(fmt::format("{}: {}", part, detail));
+        table.add(results);
     }
     return table;
 }
@@ -294,9 +300,9 @@ int run_command(const RunArguments& arguments, const Console& console) {
     make_folder(folder, "--output");
     ResultFile file(request.file, ResultFile::Access::write);
     require_same_values(study, file);
+    const InterruptGuard guard;
     std::vector<RunReport> reports;
     {
-        const InterruptGuard guard;
         ProgressLine progress(console, (arguments.progress || console.terminal) && !arguments.steps);
         StepLines steps(study, console.err);
         RunnerOptions options;
@@ -327,7 +333,7 @@ int run_command(const RunArguments& arguments, const Console& console) {
     if (std::any_of(reports.begin(), reports.end(),
                     [](const RunReport& report) { return report.outcome == RunOutcome::interrupted; })) {
         console.err << "graze: interrupted; what was computed is kept, and the same command goes on from there\n";
-        return exit_interrupted;
+        return InterruptGuard::exit_code();
     }
     if (!arguments.no_pictures && arguments.only.empty()) {
         const WrittenTables tables = write_study_tables(study, file, folder, console);
@@ -336,6 +342,10 @@ int run_command(const RunArguments& arguments, const Console& console) {
             for (const std::string& path : *paths)
                 if (!arguments.quiet && arguments.output.format == TableFormat::table)
                     console.out << path << '\n';
+        if (drawn.interrupted) {
+            console.err << "graze: interrupted; all is computed, and the same command draws the other pictures\n";
+            return InterruptGuard::exit_code();
+        }
         if (!tables.complete || !drawn.complete)
             return exit_bad_input;
     }

@@ -224,7 +224,7 @@ private:
             graze::run(*trajectory_, jets);
             const Ending ending = trajectory_->outcome().ending;
             if (InterruptGuard::requested() || (ending != Ending::end_time && ending != Ending::stopped)) {
-                interrupted_ = InterruptGuard::requested();
+                interrupted_ = InterruptGuard::exit_code();
                 return;
             }
             trajectory_->extend(trajectory_->time() + length_.shown.duration);
@@ -232,13 +232,13 @@ private:
         control.begin(length_.shown, trajectory_->time(), true);
         table_->begin(*trajectory_, length_.shown.expected);
         graze::run(*trajectory_, jets);
-        interrupted_ = InterruptGuard::requested();
+        interrupted_ = InterruptGuard::exit_code();
     }
 
     std::string ending_name() const {
-        return interrupted_ ? "interrupted"
-               : is_full()  ? "table-full"
-                            : std::string(name_of(trajectory_->outcome().ending));
+        return interrupted_ > 0 ? "interrupted"
+               : is_full()      ? "table-full"
+                                : std::string(name_of(trajectory_->outcome().ending));
     }
 
     JsonObject heading() const {
@@ -279,7 +279,7 @@ private:
         const std::string unit = model_.time_unit.empty() ? "" : ' ' + model_.time_unit;
         const bool regular = is_regular(outcome.ending);
         const std::string when = fmt::format("at time {:.15g}{}", outcome.time, unit);
-        if (interrupted_)
+        if (interrupted_ > 0)
             console_.err << "graze: interrupted " << when << '\n';
         else if (is_full())
             console_.err << fmt::format("graze: the table is full {}, with {} rows; ask for a shorter time, fewer "
@@ -304,7 +304,7 @@ private:
             console_.err << fmt::format("graze: warning: {} has no finite value in some rows, where cells are empty\n",
                                         fmt::join(names, ", "));
         }
-        return interrupted_ ? exit_interrupted : regular && !undefined && !is_full() ? exit_success : exit_irregular;
+        return interrupted_ > 0 ? interrupted_ : regular && !undefined && !is_full() ? exit_success : exit_irregular;
     }
 
     const SimulateArguments& arguments_;
@@ -312,7 +312,8 @@ private:
     Model model_;
     TableRequest request_;
     RunLength length_;
-    bool wants_table_ = true, interrupted_ = false;
+    bool wants_table_ = true;
+    int interrupted_ = 0; ///< exit code of an interrupted run
     std::optional<PlotRequest> plot_;
     std::optional<std::size_t> period_probe_;
     std::unique_ptr<Simulation> simulation_;

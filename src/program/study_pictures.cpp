@@ -3,6 +3,7 @@
 #include "graze/study/stored_study.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "program/figure.hpp"
+#include "program/interrupt.hpp"
 #include "program/output_file.hpp"
 #include "program/table.hpp"
 
@@ -97,6 +98,18 @@ std::vector<std::string> draw(const StudyPicture& picture, const PictureFiles& f
     return written;
 }
 
+/// Of runs that failed. @throws InputError when no run is left
+void leave_out_empty_runs(StudyPicture& picture, const ResultFile& file, const Console& console) {
+    const auto is_empty = [&](const std::string& run) { return file.point_count(run) == 0; };
+    if (std::all_of(picture.runs.begin(), picture.runs.end(), is_empty))
+        throw InputError(fmt::format("run '{}' has no points", picture.runs.front()), "see why above");
+    for (const std::string& run : picture.runs)
+        if (is_empty(run))
+            console.err << fmt::format("graze: warning: picture '{}' was drawn without run '{}', which has no points\n",
+                                       picture.name, run);
+    std::erase_if(picture.runs, is_empty);
+}
+
 } // namespace
 
 DrawnPictures draw_study_pictures(const Study& study, ResultFile& file, const std::string& folder,
@@ -108,11 +121,11 @@ DrawnPictures draw_study_pictures(const Study& study, ResultFile& file, const st
             if (const auto record = file.find_run(run.name); record && file.point_count(run.name) > 0)
                 pictures.push_back(default_picture(*record));
     DrawnPictures drawn;
-    for (const StudyPicture& picture : pictures) {
+    for (StudyPicture& picture : pictures) {
+        if ((drawn.interrupted = InterruptGuard::requested()))
+            break;
         try {
-            if (std::none_of(picture.runs.begin(), picture.runs.end(),
-                             [&](const std::string& run) { return file.point_count(run) > 0; }))
-                throw InputError(fmt::format("run '{}' has no points", picture.runs.front()), "see why above");
+            leave_out_empty_runs(picture, file, console);
             PictureFiles files(picture, file, folder);
             std::vector<std::string> targets = files.drawing_files();
             targets.push_back(files.table());
@@ -128,6 +141,8 @@ DrawnPictures draw_study_pictures(const Study& study, ResultFile& file, const st
                 files.remember(paths = draw(picture, files, file));
             drawn.paths.insert(drawn.paths.end(), paths.begin(), paths.end());
         } catch (const InputError& error) {
+            if ((drawn.interrupted = InterruptGuard::requested())) // as gnuplot was, by the same Ctrl-C
+                break;
             console.err << fmt::format("graze: warning: picture '{}' was not drawn: {}\n", picture.name, error.what());
             drawn.complete = false;
         }

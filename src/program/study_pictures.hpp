@@ -13,6 +13,7 @@ struct DrawnPictures {
     std::vector<std::string> paths; ///< of what there is now
     std::size_t kept = 0;           ///< pictures that were there already
     bool complete = true;           ///< false: something could not be drawn
+    bool interrupted = false;       ///< before all were drawn
 };
 
 /// Draws all pictures of a study into a folder, or one for each run if it asks for nothing; tables beside them.

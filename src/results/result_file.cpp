@@ -2,6 +2,7 @@
 
 #include "graze/results/name_advice.hpp"
 #include "graze/symbolic/file_name.hpp"
+#include "graze/symbolic/printable.hpp"
 #include "results/point_columns.hpp"
 #include "results/result_file_state.hpp"
 #include "results/run_columns.hpp"
@@ -21,11 +22,13 @@ namespace graze {
 
 namespace {
 
+constexpr std::size_t longest_failure = 4000; ///< bytes that are shown
+
 /// Names from a file end up in tables, pictures and file names, whoever has written it.
 void require_names(const RunRecord& run, const std::string& path) {
     const Place place{path, 0, 0};
     require_file_name(run.name, "name of a run", place);
-    const std::array<std::string_view, 6> kinds{"simulate", "sweep", "basin", "orbit", "continue", "curve"};
+    const std::array<std::string_view, 7> kinds{"simulate", "sweep", "basin", "orbit", "continue", "curve", "ladder"};
     if (std::find(kinds.begin(), kinds.end(), run.kind) == kinds.end())
         throw InputError(place, fmt::format("run '{}' is of unknown kind '{}'", run.name, run.kind),
                          "use the version of graze that wrote it");
@@ -135,8 +138,11 @@ std::vector<RunRecord> ResultFile::runs() const {
         database.prepare(fmt::format("SELECT {} FROM runs ORDER BY number", listed(kinds_of(run_columns()))));
     while (rows.step()) {
         RunRecord& run = runs.emplace_back();
+        run.file = path();
         read_row(rows, run_columns(), NoContext{}, run, run);
         read_lists(database, run);
+        if (run.status == RunStatus::failed)
+            run.failure = shortened(printable_line(note(key_of_failure(run.name)).value_or("")), longest_failure);
         require_names(run, path());
     }
     return runs;
@@ -166,6 +172,7 @@ void ResultFile::remove_run(const std::string& name) {
         for (const std::string& table : shared)
             database.prepare(fmt::format("DELETE FROM {} WHERE run = ?", table)).bind(1, std::string_view(name)).run();
         database.prepare("DELETE FROM runs WHERE name = ?").bind(1, std::string_view(name)).run();
+        database.prepare("DELETE FROM meta WHERE key = ?").bind(1, std::string_view(key_of_failure(name))).run();
         database.execute(views(runs()));
     });
 }
@@ -173,6 +180,7 @@ void ResultFile::remove_run(const std::string& name) {
 void ResultFile::begin_run(const RunRecord& given) {
     RunRecord run = given;
     run.status = RunStatus::unfinished;
+    run.failure.clear();
     require_names(run, path());
     require_free_name(run.name, run.is_branch(), names_of(runs()), Place{path(), 0, 0});
     remove_run(run.name);
@@ -225,11 +233,15 @@ std::optional<std::string> ResultFile::note(const std::string& key) const {
 }
 
 void ResultFile::complete_run(const std::string& name) {
-    state_->begin();
-    state_->database.prepare("UPDATE runs SET status = 'complete' WHERE name = ?")
-        .bind(1, std::string_view(name))
-        .run();
-    flush();
+    state_->mark(name, RunStatus::complete, "");
+}
+
+void ResultFile::fail_run(const std::string& name, const std::string& failure) {
+    state_->mark(name, RunStatus::failed, failure);
+}
+
+void ResultFile::reopen_run(const std::string& name) {
+    state_->mark(name, RunStatus::unfinished, "");
 }
 
 } // namespace graze

@@ -3,6 +3,7 @@
 #include "graze/results/result_file.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "results/database.hpp"
+#include "results/run_columns.hpp"
 #include "results/schema.hpp"
 #include "results/write_lock.hpp"
 
@@ -86,6 +87,22 @@ struct ResultFile::State {
             sqlite_rollback();
             throw;
         }
+    }
+    void mark(const std::string& run, RunStatus status, const std::string& failure) {
+        at_once([&] {
+            database.prepare("UPDATE runs SET status = ? WHERE name = ?")
+                .bind(1, name_of(status))
+                .bind(2, std::string_view(run))
+                .run();
+            const std::string key = key_of_failure(run);
+            if (status != RunStatus::failed)
+                database.prepare("DELETE FROM meta WHERE key = ?").bind(1, std::string_view(key)).run();
+            else
+                database.prepare("INSERT OR REPLACE INTO meta(key, value) VALUES(?,?)")
+                    .bind(1, std::string_view(key))
+                    .bind(2, std::string_view(failure))
+                    .run();
+        });
     }
     void sqlite_rollback() noexcept {
         try {

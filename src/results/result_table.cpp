@@ -1,6 +1,7 @@
 #include "graze/results/result_table.hpp"
 
 #include "graze/results/name_advice.hpp"
+#include "results/run_columns.hpp"
 #include "results/run_query.hpp"
 
 #include <fmt/format.h>
@@ -60,8 +61,10 @@ ResultTable table_of_runs(const ResultFile& file) {
         counts += fmt::format(" WHEN {} THEN (SELECT count(*) FROM {})", text_literal(run.name), RunTables(run).points);
     return with_units(
         file.query(fmt::format("SELECT r.name AS run, r.kind, r.status, r.points, {} AS done, r.model_name AS model, "
-                               "r.version FROM runs AS r ORDER BY r.number",
-                               counts.empty() ? "0" : fmt::format("CASE r.name{} END", counts))),
+                               "r.version, m.value AS failure FROM runs AS r LEFT JOIN meta AS m "
+                               "ON r.status = {} AND m.key = {} || r.name ORDER BY r.number",
+                               counts.empty() ? "0" : fmt::format("CASE r.name{} END", counts),
+                               text_literal(std::string(name_of(RunStatus::failed))), text_literal(begin_of_failure))),
         {});
 }
 

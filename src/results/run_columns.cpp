@@ -6,6 +6,18 @@
 
 namespace graze {
 
+std::string_view name_of(RunStatus status) {
+    switch (status) {
+    case RunStatus::complete:
+        return "complete";
+    case RunStatus::failed:
+        return "failed";
+    case RunStatus::unfinished:
+        break;
+    }
+    return "unfinished";
+}
+
 namespace {
 
 using Run = RunRecord;
@@ -44,11 +56,12 @@ const ColumnsOf<NoContext, RunRecord>& run_columns() {
         text_column<&Run::name>("name"),
         text_column<&Run::kind>("kind"),
         {{"status", Type::text},
-         [](const NoContext&, const Run& run, CellWriter& cell) {
-             cell.text(run.status == RunStatus::complete ? "complete" : "unfinished");
-         },
+         [](const NoContext&, const Run& run, CellWriter& cell) { cell.text(name_of(run.status)); },
          [](const NoContext&, Run& run, CellReader& cell) {
-             run.status = cell.text() == "complete" ? RunStatus::complete : RunStatus::unfinished;
+             const std::string text = cell.text();
+             for (const RunStatus status : {RunStatus::complete, RunStatus::failed})
+                 if (text == name_of(status))
+                     run.status = status;
          }},
         {{"points", Type::whole},
          [](const NoContext&, const Run& run, CellWriter& cell) { cell.whole(run.points); },
@@ -60,6 +73,10 @@ const ColumnsOf<NoContext, RunRecord>& run_columns() {
         text_column<&Run::version>("version"),
     };
     return columns;
+}
+
+std::string key_of_failure(const std::string& run) {
+    return std::string(begin_of_failure) + run;
 }
 
 void write_lists(const Database& database, const RunRecord& run) {

@@ -26,8 +26,12 @@ bool fits(const Model& model, const RunRecord& run) {
 
 } // namespace
 
+Place stored_place(const std::string& file, const std::string& what) {
+    return {file.empty() ? what : fmt::format("{}: {}", file, what), 0, 0};
+}
+
 Model stored_model(const RunRecord& run) {
-    const Place place{run.name + ".toml", 0, 0};
+    const Place place = stored_place(run.file, fmt::format("model of run '{}'", run.name));
     Model model = parse_model(run.model, place.file);
     if (!fits(model, run))
         throw InputError(place, fmt::format("the model stored for run '{}' is not the one of its columns", run.name),

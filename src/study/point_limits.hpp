@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 namespace graze {
 
 // How much a run may ask for.
@@ -8,6 +10,15 @@ namespace graze {
 constexpr double most_points = 1e9;
 /// Points that begin by themselves, of each of which something is kept in memory.
 constexpr double most_chains = 2e7;
+/// Values along one axis.
+constexpr std::size_t most_values = 10'000'000;
+/// Returns until a motion has settled, and of which an exponent is averaged; those that are kept, in memory, of a
+/// motion that is not periodic; those of one period. As AttractorOptions::validate has them.
+constexpr std::size_t most_cycles = 100'000'000, most_kept_returns = 1'000'000, most_returns_of_orbit = 1000;
+/// Steps along a branch, each of which stores an orbit.
+constexpr std::size_t most_branch_steps = 10'000'000;
+/// Grazings of a ladder: each is many steps, and their distances fall below round-off long before.
+constexpr std::size_t most_rungs = 1000;
 /// Digits to which located points of a branch are the same, with some reserve: relative to what is compared.
 constexpr double same_point = 1e-6;
 

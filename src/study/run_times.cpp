@@ -1,7 +1,6 @@
 #include "graze/study/run_times.hpp"
 
 #include "graze/symbolic/file_name.hpp"
-#include "graze/symbolic/printable.hpp"
 #include "study/settings_fields.hpp"
 
 #include <fmt/chrono.h>
@@ -12,10 +11,6 @@ namespace {
 
 std::string key_of(const std::string& run) {
     return "times of " + run;
-}
-
-std::string key_of_failure(const std::string& run) {
-    return "failure of run " + run;
 }
 
 template <class Fields, class Times>
@@ -41,23 +36,11 @@ void note_times(ResultFile& file, const std::string& run, const RunTimes& times)
     file.set_note(key_of(run), fields.text());
 }
 
-void note_failure(ResultFile& file, const std::string& run, const std::string& problem) {
-    if (!problem.empty() || failure_of(file, run))
-        file.set_note(key_of_failure(run), problem);
-}
-
-std::optional<std::string> failure_of(const ResultFile& file, const std::string& run) {
-    const auto note = file.note(key_of_failure(run));
-    if (!note || note->empty())
-        return std::nullopt;
-    return printable_line(*note);
-}
-
 std::optional<RunTimes> times_of(const ResultFile& file, const std::string& run) {
     const auto note = file.note(key_of(run));
     if (!note)
         return std::nullopt;
-    const Place place{"stored times of run '" + run + "'", 0, 0};
+    const Place place = stored_place(file.path(), fmt::format("times of run '{}'", run));
     const Json json = parse_json(*note, place);
     RunTimes times;
     const SettingsReader fields(json, nullptr, place);

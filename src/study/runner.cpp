@@ -95,7 +95,7 @@ RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, 
 } // namespace
 
 std::vector<std::string> direction_names(const StudyRun& run) {
-    if (run.kind != RunKind::sweep && !run.is_followed())
+    if ((run.kind != RunKind::sweep && !run.is_followed()) || run.kind == RunKind::ladder)
         return {""};
     switch (run.direction) {
     case SweepDirection::up:
@@ -159,15 +159,27 @@ bool has_columns_of(const RunRecord& stored, const RunRecord& record) {
            same(stored.values, record.values);
 }
 
+/// Whether a run has come to its end and has failed: it would do so again.
+bool lacks_orbits(const RunRecord& run, const ResultFile& file) {
+    if (run.status != RunStatus::failed || !run.is_branch())
+        return false;
+    const std::vector<OrbitRecord> orbits = file.orbits(run.name, true);
+    return std::any_of(orbits.begin(), orbits.end(), [](const OrbitRecord& record) {
+        return record.point.solution.outcome != OrbitOutcome::converged;
+    });
+}
+
 /// Whether the file has all of a run as it is asked for now. Otherwise what it has is kept only if it can be gone on
 /// with.
 bool is_done(const RunRecord& record, ResultFile& file) {
     const auto stored = file.find_run(record.name);
     const bool same = stored && stored->fingerprint == record.fingerprint && has_columns_of(*stored, record);
-    if (same && stored->status == RunStatus::complete)
+    if (same && (stored->status == RunStatus::complete || lacks_orbits(*stored, file)))
         return true;
     if (!same || record.is_branch())
         file.begin_run(record);
+    else if (stored->status == RunStatus::failed)
+        file.reopen_run(record.name);
     return false;
 }
 
@@ -253,7 +265,8 @@ private:
             --progress_.branches_left;
         else
             progress_.study_done += planned_points(run) - work.counted;
-        note_failure(file, run.name, work.report.problem);
+        if (!work.report.problem.empty())
+            file.fail_run(run.name, work.report.problem + "; " + work.report.remedy);
         if (!work.times)
             return;
         work.times->seconds += work.report.seconds;

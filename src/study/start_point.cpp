@@ -1,6 +1,5 @@
 #include "study/start_point.hpp"
 
-#include "graze/model/model_file.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "study/branch_run.hpp"
 
@@ -17,7 +16,7 @@ namespace {
 
 /// All parameters of a point of a run that is no branch: those of the run as it was computed, and what varies.
 std::vector<double> parameters_of(const RunRecord& run, const PointRecord& point) {
-    Model model = parse_model(run.model, run.name + ".toml");
+    Model model = stored_model(run);
     for (std::size_t c = 0; c < run.coordinates.size(); ++c)
         if (!model.find_state(run.coordinates[c].name))
             model.set_parameter(run.coordinates[c].name, point.coordinates[c]);

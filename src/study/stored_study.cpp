@@ -113,7 +113,7 @@ void describe_runs(Fields& fields, Runs& runs) {
 }
 
 PlannedRun planned(const StudyRun& run) {
-    PlannedRun result{{run.name, std::string(name_of(run.kind)), settings_of(run), GRAZE_VERSION, run.value_units},
+    PlannedRun result{{run.name, std::string(name_of(run.kind)), settings_of(run), GRAZE_VERSION, {}, run.value_units},
                       write_model(run.model)};
     if (run.is_branch()) {
         result.asked.units.clear();
@@ -128,7 +128,10 @@ StudyRun run_of(const PlannedRun& run, const Place& place) {
     require_file_name(run.asked.name, "name of a run", place);
     for (const std::string& unit : run.asked.units)
         require_plain_line(unit, "unit of a value", place);
-    return graze::run_of(run.asked, parse_model(run.model, run.asked.name + ".toml"));
+    AskedRun asked = run.asked;
+    asked.file = place.file;
+    const Place of_model = stored_place(place.file, fmt::format("model of run '{}'", asked.name));
+    return graze::run_of(asked, parse_model(run.model, of_model.file));
 }
 
 /// Names end up in names of files, and texts in pictures. @throws InputError as for those of study files

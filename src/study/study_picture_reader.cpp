@@ -1,8 +1,6 @@
 #include "graze/study/picture.hpp"
+#include "graze/study/showable_names.hpp"
 #include "graze/symbolic/file_name.hpp"
-#include "graze/symbolic/parser.hpp"
-#include "results/orbit_columns.hpp"
-#include "results/point_columns.hpp"
 #include "study/picture_style.hpp"
 #include "study/study_reader.hpp"
 
@@ -80,51 +78,6 @@ void read_key(const StudyReader& reader, const TomlEntry& item, StudyPicture& pi
     }
 }
 
-template <class Items>
-void add_names(std::vector<std::string>& names, const Items& items) {
-    for (const auto& item : items)
-        names.push_back(item.name);
-}
-
-/// What a study itself calls something that the picture may show.
-std::vector<std::string> names_of_study(const Study& study, const StudyPicture& picture) {
-    std::vector<std::string> names = picture.runs;
-    for (const std::string& name : picture.runs) {
-        const StudyRun& run = *study.find_run(name);
-        names.insert(names.end(), run.value_names.begin(), run.value_names.end());
-        add_names(names, run.axes);
-        add_names(names, run.samplings);
-        if (run.is_branch())
-            add_names(names, run.branch.settings.monitors);
-    }
-    std::sort(names.begin(), names.end());
-    names.erase(std::unique(names.begin(), names.end()), names.end());
-    return names;
-}
-
-/// What else there may be to see: of the models, and of all results.
-std::vector<std::string> other_names(const Study& study, const StudyPicture& picture) {
-    std::vector<std::string> names{"t", "multiplier", "frequency", picture.x, picture.group};
-    names.insert(names.end(), picture.y.begin(), picture.y.end());
-    add_names(names, kinds_of(point_columns()));
-    add_names(names, kinds_of(orbit_columns()));
-    for (const std::string& run : picture.runs) {
-        const Model& model = study.find_run(run)->model;
-        add_names(names, model.parameters);
-        add_names(names, model.states);
-        add_names(names, model.definitions);
-        add_names(names, model.quantities);
-        add_names(names, model.modes);
-        add_names(names, model.events);
-        add_names(names, model.sections);
-        for (const Transition& transition : model.transitions)
-            names.push_back(transition.label);
-    }
-    for (int label = 0; label <= static_cast<int>(Label::failed); ++label)
-        names.emplace_back(name_of(static_cast<Label>(label)));
-    return names;
-}
-
 } // namespace
 
 StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
@@ -154,20 +107,12 @@ void check_shown_names(const StudyReader& reader, const Study& study, const Stud
                        const TomlEntry& entry) {
     if (picture.names.empty())
         return;
-    const std::vector<std::string> own = names_of_study(study, picture);
-    std::vector<std::string> all = other_names(study, picture);
-    all.insert(all.end(), own.begin(), own.end());
-    const auto check = [&](const TomlEntry& item) {
-        // Attractors are called by their period and signature.
-        if (item.name.starts_with("period ") || std::find(all.begin(), all.end(), item.name) != all.end())
-            return;
-        const std::string nearest = nearest_name(item.name, all);
-        throw InputError(item.place, fmt::format("{}: the picture shows nothing of that name", item.path),
-                         study_name_remedy(item.name, nearest.empty() ? own : std::vector<std::string>{nearest}));
-    };
+    ShowableNames showable(picture);
+    for (const std::string& run : picture.runs)
+        showable.add(*study.find_run(run));
     for (const TomlEntry& key : reader.toml().entries(reader.toml().table(entry), entry.path))
         if (key.name == "names")
-            reader.each_of(key, {}, check);
+            reader.each_of(key, {}, [&](const TomlEntry& item) { showable.require(item.name, item.place, item.path); });
 }
 
 } // namespace graze

@@ -1,4 +1,5 @@
 #include "study/study_reader.hpp"
+#include "study/point_limits.hpp"
 
 #include "graze/results/name_advice.hpp"
 
@@ -46,13 +47,13 @@ double StudyReader::positive(const Model& model, const TomlEntry& entry) const {
     return value;
 }
 
-std::size_t StudyReader::count(const TomlEntry& entry, std::size_t least) const {
+std::size_t StudyReader::count(const TomlEntry& entry, std::size_t least, std::size_t most) const {
     const auto* integer = entry.node->as_integer();
     if (!integer)
         toml_.fail_type(entry, "a whole number");
-    if (integer->get() < static_cast<std::int64_t>(least) || integer->get() > 1'000'000'000)
+    if (integer->get() < static_cast<std::int64_t>(least) || integer->get() > static_cast<std::int64_t>(most))
         fail(entry, fmt::format("{} is {}", entry.path, integer->get()),
-             fmt::format("give a whole number from {} to 1000000000", least));
+             fmt::format("give a whole number from {} to {}", least, most));
     return static_cast<std::size_t>(integer->get());
 }
 
@@ -88,8 +89,6 @@ std::size_t StudyReader::choice(const TomlEntry& entry, const std::vector<std::s
 }
 
 namespace {
-
-constexpr std::size_t most_values = 10'000'000;
 
 /// from + i step without the error that grows with i: where both are decimals, so is the result.
 double stepped(double from, double step, std::size_t i) {
@@ -134,7 +133,7 @@ void read_variation_table(const StudyReader& reader, const Model& model, const T
         else if (item.name == "step")
             step = reader.positive(model, item);
         else if (item.name == "points")
-            points = reader.count(item, 2);
+            points = reader.count(item, 2, most_values);
         else if (item.name == "scale")
             variation.logarithmic = reader.choice(item, {"linear", "log"}) == 1;
         else if (item.name == "offset")

@@ -24,7 +24,7 @@ public:
     /// A number, or an expression in the model's parameters.
     double number(const Model& model, const TomlEntry& entry) const;
     double positive(const Model& model, const TomlEntry& entry) const;
-    std::size_t count(const TomlEntry& entry, std::size_t least = 0) const;
+    std::size_t count(const TomlEntry& entry, std::size_t least = 0, std::size_t most = 1'000'000'000) const;
     /// Two numbers in order.
     std::pair<double, double> range(const Model& model, const TomlEntry& entry) const;
     std::vector<std::string> strings(const TomlEntry& entry) const;

@@ -164,6 +164,15 @@ void read_bounds(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
     run.transient.bounds = run.attractor.bounds;
 }
 
+/// Which branch through a point, or which curve.
+std::vector<std::string> ways_on() {
+    std::vector<std::string> names{"same", "other", "twin"};
+    for (const PointKind& kind : point_kinds())
+        if (kind.may_be_kept)
+            names.emplace_back(kind.short_name);
+    return names;
+}
+
 void read_start(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
     StartFrom start;
     start.place = entry.place;
@@ -176,7 +185,7 @@ void read_start(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
         } else if (item.name == "point") {
             start.point = item.node->is_integer() ? std::to_string(reader.count(item)) : reader.toml().string(item);
         } else if (item.name == "onto") {
-            reader.choice(item, {"same", "other", "twin", "SN", "PD", "SB"});
+            reader.choice(item, ways_on());
             start.onto = reader.toml().string(item);
         } else {
             const auto at = reader.toml().entries(reader.toml().table(item), item.path);
@@ -228,12 +237,13 @@ void read_settings(const StudyReader& reader, StudyRun& run, const RunKeys& keys
         run.direction = static_cast<SweepDirection>(reader.choice(e, {"up", "down", "both"}));
     });
     with("carry", [&](const TomlEntry& e) { run.carry = reader.toml().boolean(e); });
-    with("cycles", [&](const TomlEntry& e) { attractor.cycles = reader.count(e, 1); });
-    with("keep", [&](const TomlEntry& e) { attractor.keep = reader.count(e, 1); });
-    with("largest_period", [&](const TomlEntry& e) { attractor.largest_period = reader.count(e, 1); });
+    with("cycles", [&](const TomlEntry& e) { attractor.cycles = reader.count(e, 1, most_cycles); });
+    with("keep", [&](const TomlEntry& e) { attractor.keep = reader.count(e, 1, most_kept_returns); });
+    with("largest_period",
+         [&](const TomlEntry& e) { attractor.largest_period = reader.count(e, 1, most_returns_of_orbit); });
     with("recurrence", [&](const TomlEntry& e) { attractor.recurrence = reader.positive(model, e); });
     with("disturbance", [&](const TomlEntry& e) { attractor.disturbance = reader.number(model, e); });
-    with("lyapunov_cycles", [&](const TomlEntry& e) { attractor.lyapunov_cycles = reader.count(e); });
+    with("lyapunov_cycles", [&](const TomlEntry& e) { attractor.lyapunov_cycles = reader.count(e, 0, most_cycles); });
     with("longest_return", [&](const TomlEntry& e) { attractor.longest_return = reader.positive(model, e); });
     with("bounds", [&](const TomlEntry& e) { read_bounds(reader, run, e); });
     with("time", [&](const TomlEntry& e) { transient.time = reader.positive(model, e); });
@@ -359,12 +369,13 @@ void read_keys(const StudyReader& reader, StudyRun& run, const TomlEntry& entry,
             keys.emplace(item.name, item);
         });
         if (!keys.contains("kind"))
-            throw InputError(entry.place, fmt::format("{} has no kind", entry.path),
-                             "give kind = \"simulate\", \"sweep\", \"basin\", \"orbit\", \"continue\" or \"curve\"");
+            throw InputError(
+                entry.place, fmt::format("{} has no kind", entry.path),
+                "give kind = \"simulate\", \"sweep\", \"basin\", \"orbit\", \"continue\", \"curve\" or \"ladder\"");
     });
     with_key(mistakes, keys, "kind", [&](const TomlEntry& kind) {
-        run.kind =
-            static_cast<RunKind>(reader.choice(kind, {"simulate", "sweep", "basin", "orbit", "continue", "curve"}));
+        run.kind = static_cast<RunKind>(
+            reader.choice(kind, {"simulate", "sweep", "basin", "orbit", "continue", "curve", "ladder"}));
         check_keys_of_kind(reader, run.kind, keys);
     });
     with_key(mistakes, keys, "text", [&](const TomlEntry& text) { run.text = reader.toml().string(text); });

@@ -61,8 +61,7 @@ void read_ratios(const StudyReader& reader, const TomlEntry& entry, StudyTable& 
 void read_points(const StudyReader& reader, const TomlEntry& entry, StudyTable& table) {
     table.points = reader.strings(entry);
     for (const std::string& point : table.points) {
-        const std::size_t digits = std::min(point.find_first_of("0123456789"), point.size());
-        if (point_type(point.substr(0, digits)) && point.find_first_not_of("0123456789", digits) == std::string::npos)
+        if (point_type(point) || is_point_label(point))
             continue;
         std::vector<std::string> types;
         for (const PointKind& kind : point_kinds())

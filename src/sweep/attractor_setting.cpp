@@ -30,8 +30,10 @@ void AttractorOptions::validate(const Model& model) const {
     section_probe(model, section);
     if (cycles < 1 || cycles > 100'000'000)
         refuse(fmt::format("{} cycles are out of range", cycles), "give 1 to 100 million");
-    if (keep < 1)
-        refuse("no returns are kept", "keep at least one");
+    if (lyapunov_cycles > 100'000'000)
+        refuse(fmt::format("{} cycles of an exponent are out of range", lyapunov_cycles), "give up to 100 million");
+    if (keep < 1 || keep > 1'000'000)
+        refuse(fmt::format("{} kept returns are out of range", keep), "give 1 to a million");
     if (largest_period < 1 || largest_period > 1000)
         refuse(fmt::format("a largest period of {} returns is out of range", largest_period), "give 1 to 1000");
     if (!(recurrence > 0 && recurrence <= 0.1))

@@ -169,6 +169,35 @@ TEST(Curves, of_the_impact_oscillator_have_their_closed_forms) {
     }
 }
 
+TEST(Curves, of_folds_that_end_in_a_touch_have_no_resonance_there_in_any_units) {
+    // Two multipliers have the product of the impact's and the damper's losses: both can never be 1.
+    const Oscillator known;
+    for (const double length : {1.0, 1e-9, 1e6}) {
+        Model model = oscillator_model(known, 0.02 * length);
+        model.set_parameter("amplitude", length);
+        model.set_initial("x", (0.02 - 1) * length);
+        BranchSettings settings;
+        settings.parameter = model.independent_parameter("sigma");
+        settings.least = -length;
+        settings.greatest = length;
+        settings.direction = -1;
+        const Branch branch = follow_branch(model, settled(model, "phase0", 400).orbit, settings);
+        ASSERT_EQ(names(branch), "SN GR") << length;
+        settings.free_bounds = {{model.independent_parameter("omega"), 0.7, 6}};
+        std::size_t ends = 0;
+        for (const int way : {1, -1}) {
+            const Branch curve = curve_of(model, branch.special[0], settings, "omega", way);
+            ASSERT_GT(curve.points.size(), 5U) << curve.detail;
+            EXPECT_TRUE(of_type(curve, PointType::resonance_1).empty()) << names(curve) << ' ' << length;
+            for (const BranchPoint& one : curve.points)
+                EXPECT_NEAR(one.parameter, length * Oscillator(value_of(model, one.solution, "omega")).fold(false),
+                            1e-10 * length);
+            ends += curve.outcome == BranchOutcome::unphysical && curve.special.back().type == PointType::grazing;
+        }
+        EXPECT_EQ(ends, 1U) << length;
+    }
+}
+
 TEST(Curves, of_touches_of_a_linear_oscillator_follow_its_response) {
     Model model = oscillator_model(Oscillator(), 0.1);
     model.set_parameter("amplitude", 0.1);

@@ -3,6 +3,7 @@
 
 #include "follow.hpp"
 #include "impact_oscillator.hpp"
+#include "maps.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,69 +18,14 @@ using namespace testing;
 using Complex = std::complex<double>;
 constexpr double pi = std::numbers::pi;
 
-/// States that rest but for what a map makes of them once in each unit of time.
-Model map_model(const std::string& parameters, const std::string& x, const std::string& y) {
-    return model_from(fmt::format(R"toml(
-[parameters]
-{}
-[states]
-x = 0
-y = 0
-clock = 0
-[modes.rest]
-rates = {{ x = 0, y = 0, clock = 1 }}
-watch = ["tick"]
-[events.tick]
-function = "1 - clock"
-[jumps.map]
-x = "{}"
-y = "{}"
-clock = 0
-[[transitions]]
-mode = "rest"
-event = "tick"
-jump = "map"
-next = "rest"
-label = "map"
-[initial]
-mode = "rest"
-)toml",
-                                  parameters, x, y));
-}
-
-Orbit fixed_point(const Model& model, double x, double y) {
-    return {parse_signature(model, "map"), model.parameter_values(), {{x, y, 0}}, {1}, {}};
-}
-
-double value_of(const Model& model, const OrbitSolution& solution, const std::string& parameter) {
-    return solution.orbit.parameters[model.independent_parameter(parameter).place()];
-}
-
-BranchSettings in_parameter(const Model& model, const std::string& name, double least, double greatest) {
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter(name);
-    settings.least = least;
-    settings.greatest = greatest;
-    return settings;
-}
-
-Branch curve_of(const Model& model, const SpecialPoint& point, BranchSettings settings, const std::string& further,
-                double least, double greatest, int direction) {
-    settings.kept = point;
-    settings.free = {model.independent_parameter(further)};
-    settings.free_bounds = {{settings.free[0], least, greatest}};
-    settings.direction = direction;
-    return follow_branch(model, point.solution.orbit, settings);
-}
-
 /// The number behind the last `=` of a detail.
 double coefficient_of(const SpecialPoint& point) {
     return std::stod(point.detail.substr(point.detail.rfind('=') + 1));
 }
 
 TEST(NormalForm, flip_of_the_logistic_map_is_supercritical) {
-    const Model model = map_model("r = 2.5", "r*x*(1 - x)", "0.1*y");
-    const Branch branch = follow_branch(model, fixed_point(model, 0.6, 0), in_parameter(model, "r", 1.5, 3.4));
+    const Model model = map_model("r = 2.5", {"r*x*(1 - x)", "0.1*y"});
+    const Branch branch = follow_branch(model, fixed_point(model, {0.6, 0}), in_parameter(model, "r", 1.5, 3.4));
     ASSERT_EQ(names(branch), "PD BD") << name_of(branch.outcome) << branch.detail << branch.points.size();
     EXPECT_NEAR(branch.special[0].parameter, 3, 1e-12);
     // f'' = -2 r and f''' = 0: c = (f'' / 2)^2 + f''' / 6.
@@ -91,18 +37,84 @@ TEST(NormalForm, cubic_terms_make_flips_subcritical) {
     // x -> -(1 + p) x + q x^2 + s x^3: c = q^2 + s.
     for (const double s : {-2.0, -0.5, 1.0}) {
         const Model model =
-            map_model(fmt::format("p = -0.2\nq = 1.0\ns = {}", s), "-(1 + p)*x + q*x^2 + s*x^3", "0.1*y");
-        const Branch branch = follow_branch(model, fixed_point(model, 0, 0), in_parameter(model, "p", -0.5, 0.5));
+            map_model(fmt::format("p = -0.2\nq = 1.0\ns = {}", s), {"-(1 + p)*x + q*x^2 + s*x^3", "0.1*y"});
+        const Branch branch = follow_branch(model, fixed_point(model, {0, 0}), in_parameter(model, "p", -0.5, 0.5));
         ASSERT_EQ(names(branch), "PD BD");
         EXPECT_NEAR(coefficient_of(branch.special[0]), 1 + s, 1e-5);
         EXPECT_EQ(branch.special[0].detail.starts_with("super"), 1 + s > 0) << branch.special[0].detail;
     }
 }
 
+TEST(NormalForm, coefficients_follow_the_units) {
+    // In units of length L: x -> L f(x / L), whose coefficient is divided by L^2.
+    for (const double length : {1e-9, 1e-3, 1e4, 1e9}) {
+        const Model model = map_model(fmt::format("r = 2.5\nL = {:.17g}", length), {"r*x*(1 - x/L)", "0.1*y"});
+        const Branch branch =
+            follow_branch(model, fixed_point(model, {0.6 * length, 0}), in_parameter(model, "r", 1.5, 3.4));
+        ASSERT_EQ(names(branch), "PD BD") << length;
+        EXPECT_NEAR(coefficient_of(branch.special[0]) * length * length, 9, 1e-4) << length;
+    }
+}
+
+TEST(NormalForm, folds_say_on_which_side_two_orbits_are) {
+    // u -> u + b p + a u^2 with u = x - 1, which drives y: (1, r) with r = 0.3/0.9 is the critical vector, and w has
+    // its length.
+    const double length = std::hypot(1, 0.3 / 0.9);
+    for (const double a : {1.0, -0.7})
+        for (const double b : {1.0, -2.0}) {
+            const double side = a * b < 0 ? 1 : -1, start = 1 + std::sqrt(-b * side * 0.04 / a);
+            const Model model = map_model(fmt::format("p = {:.17g}\na = {}\nb = {}", side * 0.04, a, b),
+                                          {"x + b*p + a*(x - 1)^2", "2 + 0.1*(y - 2) + 0.3*(x - 1)"});
+            BranchSettings settings = in_parameter(model, "p", -1, 1);
+            settings.direction = -static_cast<int>(side);
+            const Branch branch =
+                follow_branch(model, fixed_point(model, {start, 2 + (start - 1) * 0.3 / 0.9}), settings);
+            ASSERT_EQ(of_type(branch, PointType::fold).size(), 1U) << names(branch) << branch.detail;
+            const SpecialPoint fold = of_type(branch, PointType::fold)[0];
+            EXPECT_NEAR(coefficient_of(fold), std::abs(a) / length, 1e-5) << fold.detail;
+            EXPECT_TRUE(fold.detail.starts_with(side > 0 ? "two orbits at greater p" : "two orbits at smaller p"))
+                << fold.detail;
+        }
+}
+
+TEST(NormalForm, cusps_have_the_coefficient_of_their_map) {
+    // u -> u + p + q u + s u^3 + 2 u v, v -> 0.1 v + 0.9 k u^2 with u = x - 1 and v = y - 2: on the centre manifold
+    // v = k u^2 to that order, so that c = s + 2 k.
+    for (const double s : {-1.0, 0.5}) {
+        const Model model =
+            map_model(fmt::format("p = -0.1\nq = -0.3\ns = {}\nk = 0.1", s),
+                      {"x + p + q*(x - 1) + s*(x - 1)^3 + 2*(x - 1)*(y - 2)", "2 + 0.1*(y - 2) + 0.9*k*(x - 1)^2"});
+        const double c = s + 0.2; // q + 3 c u^2 = 0 at the folds
+        Model with = model;
+        with.set_parameter("q", c < 0 ? 0.3 : -0.3);
+        const double u = std::sqrt(0.1 / std::abs(c)), q = c < 0 ? 0.3 : -0.3;
+        with.set_parameter("p", -(q * u + c * u * u * u) * 0.99);
+        BranchSettings settings = in_parameter(with, "p", -1, 1);
+        Branch branch;
+        SpecialPoint fold;
+        for (const int direction : {1, -1}) {
+            settings.direction = direction;
+            branch = follow_branch(with, fixed_point(with, {1 + u * 1.05, 2 + 0.1 * u * u}), settings);
+            if (!of_type(branch, PointType::fold).empty())
+                fold = of_type(branch, PointType::fold)[0];
+        }
+        ASSERT_EQ(fold.type, PointType::fold) << names(branch) << branch.detail;
+        for (const int way : {1, -1}) {
+            const Branch curve = curve_of(with, fold, in_parameter(with, "q", -1, 1), "p", -1, 1, way);
+            for (const SpecialPoint& cusp : of_type(curve, PointType::cusp)) {
+                EXPECT_NEAR(cusp.parameter, 0, 1e-9);
+                EXPECT_NEAR(coefficient_of(cusp), c, 1e-5) << cusp.detail;
+                fold.located = false; // found
+            }
+        }
+        EXPECT_FALSE(fold.located) << "no cusp";
+    }
+}
+
 TEST(NormalForm, generalised_flip_is_found_where_the_coefficient_vanishes) {
-    const Model model = map_model("p = -0.2\nq = 1.0\ns = -2", "-(1 + p)*x + q*x^2 + s*x^3", "0.1*y");
+    const Model model = map_model("p = -0.2\nq = 1.0\ns = -2", {"-(1 + p)*x + q*x^2 + s*x^3", "0.1*y"});
     BranchSettings settings = in_parameter(model, "p", -0.5, 0.5);
-    const Branch branch = follow_branch(model, fixed_point(model, 0, 0), settings);
+    const Branch branch = follow_branch(model, fixed_point(model, {0, 0}), settings);
     ASSERT_EQ(names(branch), "PD BD");
     const Branch curve = curve_of(model, branch.special[0], settings, "s", -3, 0.5, 1);
     EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
@@ -112,7 +124,7 @@ TEST(NormalForm, generalised_flip_is_found_where_the_coefficient_vanishes) {
 
 /// Of Henon's map x -> y, y -> a - b x - y^2: fixed points y with trace -2 y and determinant b.
 Model henon(double a, double b) {
-    return map_model(fmt::format("a = {:.17g}\nb = {:.17g}", a, b), "y", "a - b*x - y^2");
+    return map_model(fmt::format("a = {:.17g}\nb = {:.17g}", a, b), {"y", "a - b*x - y^2"});
 }
 
 TEST(NormalForm, henons_map_has_its_resonances) {
@@ -121,8 +133,8 @@ TEST(NormalForm, henons_map_has_its_resonances) {
     BranchSettings settings = in_parameter(model, "a", -2, 5);
     BranchSettings down = settings;
     down.direction = -1;
-    const Branch up = follow_branch(model, fixed_point(model, y, y), settings),
-                 back = follow_branch(model, fixed_point(model, y, y), down);
+    const Branch up = follow_branch(model, fixed_point(model, {y, y}), settings),
+                 back = follow_branch(model, fixed_point(model, {y, y}), down);
     const auto flips = of_type(up, PointType::flip), folds = of_type(back, PointType::fold);
     ASSERT_EQ(flips.size(), 1U);
     ASSERT_EQ(folds.size(), 1U);
@@ -160,8 +172,8 @@ TEST(NormalForm, henons_map_has_its_resonances) {
 /// A map near z -> (1 + p) e^(i w) z + c_1 z |z|^2, seen askew: z is u + 0.3 u^2, and v.
 Model spiral(double p, double w) {
     return map_model(fmt::format("p = {:.17g}\nw = {:.17g}\nk = -0.4", p, w),
-                     "(1 + p)*(cos(w)*x - sin(w)*y) + k*x*(x^2 + y^2) + 0.5*x^2 - 0.2*x*y",
-                     "(1 + p)*(sin(w)*x + cos(w)*y) + k*y*(x^2 + y^2) + 0.3*x^2 + 0.1*y^2");
+                     {"(1 + p)*(cos(w)*x - sin(w)*y) + k*x*(x^2 + y^2) + 0.5*x^2 - 0.2*x*y",
+                      "(1 + p)*(sin(w)*x + cos(w)*y) + k*y*(x^2 + y^2) + 0.3*x^2 + 0.1*y^2"});
 }
 
 /// Its coefficient by the second and third derivatives (Kuznetsov 2004, section 4.7), with q = (1, -i) / sqrt(2).
@@ -199,7 +211,7 @@ double coefficient_of_spiral(double w, double k) {
 TEST(NormalForm, torus_has_the_coefficient_of_its_map) {
     for (const double w : {0.7, 1.1, 2.4}) {
         const Model model = spiral(-0.1, w);
-        const Branch branch = follow_branch(model, fixed_point(model, 0, 0), in_parameter(model, "p", -0.3, 0.3));
+        const Branch branch = follow_branch(model, fixed_point(model, {0, 0}), in_parameter(model, "p", -0.3, 0.3));
         ASSERT_EQ(names(branch), "NS BD") << w;
         EXPECT_NEAR(branch.special[0].parameter, 0, 1e-12);
         const double expected = coefficient_of_spiral(w, -0.4);
@@ -211,9 +223,9 @@ TEST(NormalForm, torus_has_the_coefficient_of_its_map) {
 TEST(NormalForm, curve_of_torus_points_has_all_resonances_of_a_generalised_henon_map) {
     // x -> y, y -> a - b x - y^2 + r x y: at fixed points y the trace is (r - 2) y and the determinant b - r y.
     const double r = -0.1, y = 0.2, b = 0.5, a = y * (1 + b) + (1 - r) * y * y;
-    const Model model = map_model(fmt::format("a = {:.17g}\nb = 0.5\nr = -0.1", a), "y", "a - b*x - y^2 + r*x*y");
+    const Model model = map_model(fmt::format("a = {:.17g}\nb = 0.5\nr = -0.1", a), {"y", "a - b*x - y^2 + r*x*y"});
     BranchSettings settings = in_parameter(model, "b", -2, 4);
-    const Branch branch = follow_branch(model, fixed_point(model, y, y), settings);
+    const Branch branch = follow_branch(model, fixed_point(model, {y, y}), settings);
     const auto torus = of_type(branch, PointType::torus);
     ASSERT_EQ(torus.size(), 1U) << names(branch);
     const auto at_trace = [&](double trace) { return trace / (r - 2); };
@@ -237,6 +249,44 @@ TEST(NormalForm, curve_of_torus_points_has_all_resonances_of_a_generalised_henon
     for (const char* one : {"R1", "R2", "R3", "R4"})
         EXPECT_NE(both.find(one), std::string::npos) << one << " in " << both;
     EXPECT_EQ(both.size(), 12U) << both;
+}
+
+TEST(NormalForm, curves_of_torus_points_begin_at_resonances_on_the_side_of_the_complex_pair) {
+    // Henon's map above: the determinant b is 1 all along, and a = y^2 + 2 y with the trace -2 y between -2 and 2.
+    const double b = 0.3, y = 0.2, a = y * y + (1 + b) * y;
+    const Model model = henon(a, b);
+    const BranchSettings settings = in_parameter(model, "a", -2, 5);
+    for (const bool at_one : {true, false}) {
+        BranchSettings along = settings;
+        along.direction = at_one ? -1 : 1;
+        const Branch branch = follow_branch(model, fixed_point(model, {y, y}), along);
+        const auto points = of_type(branch, at_one ? PointType::fold : PointType::flip);
+        ASSERT_EQ(points.size(), 1U);
+        const Branch curve = curve_of(model, points[0], settings, "b", -0.5, 1.5, at_one ? -1 : 1);
+        const auto resonances = of_type(curve, at_one ? PointType::resonance_1 : PointType::resonance_2);
+        ASSERT_EQ(resonances.size(), 1U) << names(curve);
+        SpecialPoint start = resonances[0];
+        start.type = PointType::torus;
+        std::size_t followed = 0;
+        for (const int way : {1, -1}) {
+            const Branch torus = curve_of(model, start, settings, "b", -0.5, 1.5, way);
+            EXPECT_EQ(torus.outcome, BranchOutcome::stopped) << torus.detail;
+            if (torus.points.size() == 1) {
+                EXPECT_EQ(torus.detail, "this way the two multipliers are real");
+                continue;
+            }
+            ++followed;
+            // From the one resonance over 1:3 and 1:4 to the other.
+            EXPECT_EQ(names(torus), at_one ? "R4 R3 R2" : "R3 R4 R1");
+            for (const BranchPoint& one : torus.points) {
+                const double at = one.solution.orbit.starts[0][0];
+                EXPECT_NEAR(value_of(model, one.solution, "b"), 1, 1e-11);
+                EXPECT_NEAR(one.parameter, at * at + 2 * at, 1e-11);
+                EXPECT_LT(std::abs(at), 1 + 1e-9);
+            }
+        }
+        EXPECT_EQ(followed, 1U);
+    }
 }
 
 TEST(NormalForm, coefficient_is_how_the_doubled_orbits_of_an_impact_oscillator_open) {

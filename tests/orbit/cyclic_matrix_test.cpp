@@ -72,38 +72,84 @@ TEST(CyclicMatrices, bordered_systems_are_those_of_the_matrix_written_out) {
             }
 }
 
-TEST(CyclicMatrices, multipliers_make_the_matrix_singular_and_their_vectors_change_them) {
+TEST(CyclicMatrices, multipliers_make_the_matrix_singular) {
     for (const std::size_t n : {2, 4})
         for (const std::size_t m : {1, 3}) {
             const Case one(n, m, unsigned(100 * n + m));
             const auto all = one.matrix(1).multipliers();
             EXPECT_EQ(all.size(), n);
-            for (const std::complex<double> wanted : all) {
-                CyclicMatrix::Multiplier found;
-                ASSERT_TRUE(one.matrix(1).multiplier_near(wanted, found));
-                EXPECT_LT(std::abs(found.value - wanted), 1e-10 * std::abs(wanted));
-                const Eigen::MatrixXcd matrix = one.written_out(found.value);
-                EXPECT_LT((matrix * found.right).norm(), 1e-10 * matrix.norm() * found.right.norm());
-                EXPECT_LT((found.left.transpose() * matrix).norm(), 1e-10 * matrix.norm() * found.left.norm());
-                // Another matrix next to it: the change of the multiplier against a difference.
-                Case changed = one;
-                const Eigen::MatrixXd change = Eigen::MatrixXd::Random(one.n + 1, one.n + 1);
-                constexpr double step = 1e-6;
-                std::complex<double> difference = 0;
-                for (const double sign : {1.0, -1.0}) {
-                    changed.system.block(0).own = one.system.block(0).own + sign * step * change;
-                    CyclicMatrix::Multiplier moved;
-                    ASSERT_TRUE(changed.matrix(1).multiplier_near(found.value, moved));
-                    difference += sign * moved.value / (2 * step);
-                }
-                const Eigen::MatrixXd scaled =
-                    one.rows.head(one.n + 1).asDiagonal() * change * one.columns.head(one.n + 1).asDiagonal();
-                const std::complex<double> expected =
-                    -(found.left.head(one.n + 1).transpose() * scaled.cast<std::complex<double>>() *
-                      found.right.head(one.n + 1))(0, 0);
-                EXPECT_LT(std::abs(difference - expected), 1e-6 * (std::abs(expected) + std::abs(wanted)));
+            for (const std::complex<double> multiplier : all) {
+                const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(one.written_out(multiplier));
+                EXPECT_LT(svd.singularValues()[one.size() - 1], 1e-11 * svd.singularValues()[0]) << multiplier;
             }
         }
+}
+
+/// Two multipliers' plane is taken to nothing with its map, from both sides; and the map's changes are what is said,
+/// against differences of its trace and determinant.
+void expect_plane(const Case& one, std::complex<double> first, std::complex<double> second) {
+    CyclicMatrix::Plane plane;
+    ASSERT_TRUE(one.matrix(1).plane_near(first, second, plane));
+    EXPECT_NEAR(plane.map.trace(), (first + second).real(), 1e-6 * (std::abs(first) + std::abs(second)));
+    EXPECT_NEAR(plane.map.determinant(), (first * second).real(), 1e-6 * std::abs(first * second));
+    const Eigen::MatrixXd open = one.written_out(0).real(), closing = one.written_out(1).real() - open;
+    const double size = open.norm() * plane.right.norm();
+    EXPECT_LT((open * plane.right + closing * plane.right * plane.map).norm(), 1e-10 * size);
+    EXPECT_LT((plane.left.transpose() * closing * plane.right - Eigen::Matrix2d::Identity()).norm(),
+              1e-10 * plane.left.norm() * closing.norm() * plane.right.norm());
+    Case changed = one;
+    const Eigen::MatrixXd change = Eigen::MatrixXd::Random(one.n + 1, one.n + 1);
+    constexpr double step = 1e-6;
+    double of_trace = 0, of_determinant = 0;
+    for (const double sign : {1.0, -1.0}) {
+        changed.system.block(0).own = one.system.block(0).own + sign * step * change;
+        CyclicMatrix::Plane moved;
+        ASSERT_TRUE(changed.matrix(1).plane_near(first, second, moved));
+        of_trace += sign * moved.map.trace() / (2 * step);
+        of_determinant += sign * moved.map.determinant() / (2 * step);
+    }
+    const Eigen::MatrixXd scaled =
+        one.rows.head(one.n + 1).asDiagonal() * change * one.columns.head(one.n + 1).asDiagonal();
+    const Eigen::Matrix2d by = -plane.left.topRows(one.n + 1).transpose() * scaled * plane.right.topRows(one.n + 1);
+    const double expected = (by(0, 0) * plane.map(1, 1) + by(1, 1) * plane.map(0, 0) - by(0, 1) * plane.map(1, 0) -
+                             by(1, 0) * plane.map(0, 1));
+    EXPECT_NEAR(of_trace, by.trace(), 1e-6 * (1 + by.norm()));
+    EXPECT_NEAR(of_determinant, expected, 1e-6 * (1 + by.norm()) * (1 + plane.map.norm()));
+}
+
+TEST(CyclicMatrices, planes_of_two_multipliers_have_their_map_and_its_changes) {
+    std::size_t complex = 0, real = 0;
+    for (const std::size_t n : {2, 3, 4, 6})
+        for (const std::size_t m : {1, 3}) {
+            const Case one(n, m, unsigned(100 * n + m));
+            const auto all = one.matrix(1).multipliers();
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                if (all[i].imag() > 0) {
+                    expect_plane(one, all[i], std::conj(all[i]));
+                    ++complex;
+                }
+                for (std::size_t j = i + 1; j < all.size(); ++j)
+                    if (all[i].imag() == 0 && all[j].imag() == 0) {
+                        expect_plane(one, all[i], all[j]);
+                        ++real;
+                    }
+            }
+        }
+    EXPECT_GT(complex, 2U);
+    EXPECT_GT(real, 2U);
+}
+
+TEST(CyclicMatrices, planes_are_smooth_where_two_multipliers_are_one_with_one_vector) {
+    // One segment with next = identity: x_1 = -G x_0 for own = (1, 0; 0, G) up to order; here G has a Jordan block.
+    Case one(3, 1, 7);
+    CyclicSystem::Block& block = one.system.block(0);
+    Eigen::Matrix3d basis, jordan;
+    basis << 1, 0.3, -0.2, 0.1, 1, 0.4, -0.3, 0.2, 1;
+    jordan << 1, 1, 0, 0, 1, 0, 0, 0, -0.4;
+    block.own.setZero();
+    block.own(0, 3) = 1; // the condition gives the duration
+    block.own.block(1, 0, 3, 3) = -basis * jordan * basis.inverse();
+    expect_plane(one, 1, 1);
 }
 
 TEST(CyclicMatrices, null_vectors_of_a_singular_matrix) {

@@ -81,12 +81,12 @@ energy = { value = "v^2/2 + g*x", unit = "m^2/s^2" }
     }
     void write_run(ResultFile& file, const RunRecord& run, std::vector<OrbitRecord> orbits) const {
         file.begin_run(run);
-        std::map<std::string, int> counts;
+        std::map<PointType, std::size_t> counts;
         for (std::size_t i = 0; i < orbits.size(); ++i) {
             orbits[i].number = i;
-            const std::string type(short_name(orbits[i].point.type));
-            if (type != "RG")
-                orbits[i].label = type + std::to_string(++counts[type]);
+            const PointType type = orbits[i].point.type;
+            if (type != PointType::regular)
+                orbits[i].label = point_label(type, ++counts[type]);
             file.add_orbit(run.name, orbits[i]);
         }
         file.complete_run(run.name);

@@ -260,18 +260,30 @@ TEST_F(Hostile, StudiesThatWantEverythingAreRefused) {
     const std::string deep(100'000, '('), nested(100'000, '[');
     const std::string point = "[runs.r]\nkind = \"simulate\"\ntime = 1\n";
     for (const std::string& text :
-         {keys, runs, head + "x = " + nested, head + "[a." + std::string(100'000, 'b') + "]",
+         {keys,
+          runs,
+          head + "x = " + nested,
+          head + "[a." + std::string(100'000, 'b') + "]",
           head + "text = \"\xff\xfe\"",
           head + "[runs.r]\nkind = \"sweep\"\nvary = { omega = { from = 1, to = 2, points = 1000000000000000000 } }",
           head + "[runs.r]\nkind = \"sweep\"\nvary = { omega = { from = 1, to = 2, step = 1e-18 } }",
+          head + "[runs.r]\nkind = \"sweep\"\nvary = { omega = { from = 1, to = 2, points = 1000000000 } }",
+          head + "[runs.r]\nkind = \"sweep\"\nvary = { omega = [1, 2] }\nkeep = 1000000000",
+          head + "[runs.r]\nkind = \"sweep\"\nvary = { omega = [1, 2] }\nlargest_period = 1000000",
+          head + "[runs.r]\nkind = \"sweep\"\nvary = { omega = [1, 2] }\nlyapunov_cycles = 1000000000",
+          head + "[runs.r]\nkind = \"simulate\"\ntime = 1\norder = 1000000000",
+          head + "[runs.r]\nkind = \"continue\"\nalong = { omega = [1, 2] }\nsteps = 1000000000",
+          head + "[runs.r]\nkind = \"basin\"\nvary = { x = { random = [0, 1] } }\ndraws = 1000000000",
           head + "[runs.r]\nkind = \"basin\"\nvary = { x = { from = 0, to = 1, points = 100000 }, v = { from = 0, to = "
                  "1, points "
                  "= 100000 } }",
           head + point + "values = [\"" + deep + "x\"]",
           head + point + "values = [\"" + std::string(200'000, '-') + "x\"]",
-          head + point + "set = { zeta = " + std::string(100'000, '9') + " }", head + point + "set = { zeta = 1e999 }",
+          head + point + "set = { zeta = " + std::string(100'000, '9') + " }",
+          head + point + "set = { zeta = 1e999 }",
           head + "[runs.r]\nkind = \"orbit\"\nsignature = \"((((((impact)^1000)^1000)^1000)^1000)^1000)^1000\"",
-          head + "[runs.r]\nkind = \"orbit\"\nsignature = \"impact^1000000000\"", std::string("\0", 1),
+          head + "[runs.r]\nkind = \"orbit\"\nsignature = \"impact^1000000000\"",
+          std::string("\0", 1),
           std::string("name = \"s\"")}) {
         std::ofstream(folder / "study.toml") << text;
         const Printed printed = run_graze("run " + (folder / "study.toml") + " --output " + (folder / "out"));

@@ -1,9 +1,13 @@
 #pragma once
 
+#include "program/curve.hpp"
 #include "program/figure_layout.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,6 +69,42 @@ inline std::vector<std::string> overlaps_of(const FigureLayout& page) {
             if (!label.led && !label.box.grown(mark_size(page.font)).holds(label.point))
                 found.push_back("label " + label.text + " has lost its point");
         }
+    return found;
+}
+
+/// Labels that a line of their panel runs through, of lines as they are drawn. @param counted receives how many labels
+/// there are
+inline std::vector<std::string> labels_on_lines(const Figure& figure, const FigureLayout& page, std::size_t& counted) {
+    using Style = FigureSeries::Style;
+    constexpr double step = 0.5; // points, which is less than the width of a line
+    std::vector<std::string> found;
+    for (std::size_t p = 0; p < page.panels.size(); ++p) {
+        const PanelLayout& layout = page.panels[p];
+        std::set<std::string> crossed;
+        counted += layout.labels.labels.size();
+        const auto place_of = [&](const PlanePoint& point) {
+            return PlanePoint{layout.frame.left + layout.x.share(point.x) * layout.frame.width(),
+                              layout.frame.low + layout.y.share(point.y) * layout.frame.height()};
+        };
+        for (const FigureSeries& series : figure.panels[p].series) {
+            if (series.style != Style::line && series.style != Style::dashed && series.style != Style::dotted)
+                continue;
+            const Polyline line = smoothed(series.points, series.along, series.corners);
+            for (std::size_t i = 1; i < line.size(); ++i) {
+                if (!is_drawn(line[i - 1], figure.panels[p]) || !is_drawn(line[i], figure.panels[p]))
+                    continue;
+                const PlanePoint from = place_of(line[i - 1]), to = place_of(line[i]);
+                const double length = std::min(std::hypot(to.x - from.x, to.y - from.y), 1e4);
+                for (double at = 0; at <= length; at += step)
+                    for (const PlacedLabel& label : layout.labels.labels)
+                        if (const double part = length > 0 ? at / length : 0; label.box.holds(
+                                PlanePoint{from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)}))
+                            crossed.insert(label.text);
+            }
+        }
+        for (const std::string& text : crossed)
+            found.push_back(fmt::format("panel {}: a line runs through label {}", p + 1, text));
+    }
     return found;
 }
 

@@ -64,6 +64,14 @@ TEST_F(RunList, SaysWhatToDoAboutChattering) {
     EXPECT_THAT(printed.out, HasSubstr("give it `chatter = "));
 }
 
+TEST_F(RunList, FitsATerminalOfAHundredColumns) {
+    std::string study = contents(folder / "study.toml");
+    study.replace(study.find("bouncing"), 8, "bouncing_until_it_comes_to_rest");
+    std::ofstream(folder / "study.toml") << study;
+    for (const std::string& line : split(list("table").out, '\n'))
+        EXPECT_LE(line.size(), 100U) << line;
+}
+
 TEST_F(RunList, HasACellForEachNumberInCsv) {
     const Printed printed = list("csv");
     EXPECT_EQ(header(printed.out), "run,kind,points,computed,seconds,status,points_chattering,points_ended,problem");

@@ -158,7 +158,77 @@ TEST_F(BranchRun, curves_are_chosen_where_several_meet) {
         EXPECT_EQ(chosen[i].point.parameter, plain[i].point.parameter);
     // What chooses a branch says nothing of a curve.
     EXPECT_THROW(run(with("other")), InputError);
-    EXPECT_THROW(run(with("GR")), InputError);
+    // The point must be what is asked for.
+    std::filesystem::remove(path_);
+    EXPECT_THAT(refusal(with("GR")), HasSubstr("the point of type PD (flip) is no grazing: its multipliers are -1, "));
+    EXPECT_THAT(refusal(with("SN")), HasSubstr("curves that begin there are \"PD\""));
+    for (const RunReport& report : run(with("NS")))
+        EXPECT_EQ(report.outcome == RunOutcome::failed, report.name == "flips") << report.name << report.problem;
+}
+
+TEST_F(BranchRun, curves_go_on_from_resonances) {
+    // Henon's map x -> y, y -> a - b x - y^2: folds a = -(1 + b)^2/4, and b = 1 along the torus points.
+    const std::string model = (folder_ / "henon.toml").string();
+    std::ofstream(model) << R"([parameters]
+a = 0.3
+b = 0.3
+[states]
+x = 0.2
+y = 0.2
+clock = 0
+[modes.rest]
+rates = { x = 0, y = 0, clock = 1 }
+watch = ["tick"]
+[events.tick]
+function = "1 - clock"
+[jumps.map]
+x = "y"
+y = "a - b*x - y^2"
+clock = 0
+[[transitions]]
+mode = "rest"
+event = "tick"
+jump = "map"
+next = "rest"
+label = "map"
+[initial]
+mode = "rest"
+)";
+    const auto study = [&](const std::string& last) {
+        return "name = \"s\"\nmodel = \"" + model + R"("
+[runs.fixed]
+kind = "continue"
+signature = "map"
+along = { a = [-2, 5] }
+direction = "down"
+[runs.folds]
+kind = "curve"
+start = { run = "fixed", point = "SN1" }
+along = { b = [0.1, 1.5], a = [-2, 5] }
+[runs.last]
+kind = "curve"
+start = { run = "folds", point = "R1-1")" +
+               last + " }\nalong = { a = [-2, 5], b = [0.1, 1.5] }\n";
+    };
+    for (const RunReport& report : run(study(", onto = \"NS\"")))
+        EXPECT_EQ(report.problem, "") << report.name;
+    {
+        const ResultFile file(path_, ResultFile::Access::read);
+        const auto orbits = file.orbits("last", false);
+        ASSERT_GT(orbits.size(), 10u);
+        EXPECT_EQ(orbits.front().label, "EP1");
+        EXPECT_EQ(orbits.back().label, "R2-1") << orbits.back().point.detail;
+        for (const OrbitRecord& one : orbits)
+            EXPECT_NEAR(one.point.solution.orbit.parameters[1], 1, 1e-11);
+        EXPECT_TRUE(file.orbit("last", std::string("R3-1")) && file.orbit("last", std::string("R4-1")));
+    }
+    std::filesystem::remove(path_);
+    EXPECT_THAT(refusal(study(", onto = \"PD\"")),
+                testing::AllOf(HasSubstr("the point of type R1 (1:1 resonance) is no flip"),
+                               HasSubstr("multipliers are 1"),
+                               HasSubstr("curves that begin there are \"SN\", \"NS\"")));
+    std::filesystem::remove(path_);
+    EXPECT_THAT(refusal(study("")), HasSubstr("onto = \"SN\" or onto = \"NS\""));
 }
 
 TEST_F(BranchRun, follows_special_points_in_two_parameters) {

@@ -30,11 +30,16 @@ enum class PointType {
     resonance_3,  ///< R3: on a curve of torus points: a pair of multipliers are third roots of 1
     resonance_4,  ///< R4: on a curve of torus points: a pair of multipliers is i and -i
     sensitivity,  ///< VS: on a curve of touches: an impact of vanishing speed leaves the next pass as it is
-    extremum,     ///< EX: the period, where it is free, is longest or shortest; or a parameter, on a curve
-    bound,        ///< BD: a bound that was given is reached
-    crossing,     ///< UZ: a monitor takes a value that was asked for
-    end,          ///< EP: the first or last point of a branch
-    regular,      ///< RG: nothing happens here
+    double_grazing, ///< DG: on a curve of touches: another event is touched, or the same one elsewhere
+    fold_flip,      ///< FP: on a curve of folds or flips: one multiplier is 1, another -1
+    fold_torus,     ///< FT: on a curve of folds or torus points: a multiplier is 1, and two lie on the unit circle
+    flip_torus,     ///< PT: on a curve of flips or torus points: a multiplier is -1, and two lie on the unit circle
+    chatter,        ///< CH: contacts accumulate just where the motion leaves: a ladder of grazings leads there
+    extremum,       ///< EX: the period, where it is free, is longest or shortest; or a parameter, on a curve
+    bound,          ///< BD: a bound that was given is reached
+    crossing,       ///< UZ: a monitor takes a value that was asked for
+    end,            ///< EP: the first or last point of a branch
+    regular,        ///< RG: nothing happens here
 };
 /// What everybody needs to know of points of one type.
 struct PointKind {
@@ -65,6 +70,11 @@ inline std::string_view name_of(PointType type) {
 /// The type with these two letters, if there is one.
 std::optional<PointType> point_type(std::string_view short_name);
 
+/// The name of a point, by which others know it: of the third fold "SN3", and of the first 1:1 resonance "R1-1".
+std::string point_label(PointType type, std::size_t number);
+/// Whether a text may be such a name.
+bool is_point_label(std::string_view text);
+
 /// A point of a branch at which something happens, located between two computed ones.
 struct SpecialPoint {
     PointType type = PointType::end;
@@ -77,7 +87,7 @@ struct SpecialPoint {
     std::size_t step = 0;   ///< of the branch: found between this one and the one before
     OrbitDirection tangent; ///< of the branch
     std::vector<double> monitors;
-    // Of grazing, two_events, vanishing and guard:
+    // Of grazing, double_grazing, two_events, vanishing and guard:
     std::size_t segment = 0, event = 0;
     double time = 0;     ///< since the segment's start
     bool at_end = false; ///< the segment's own event is met without speed, rather than another touched

@@ -2,6 +2,7 @@
 
 #include "graze/results/orbit_record.hpp"
 #include "graze/sweep/attractor.hpp"
+#include "graze/symbolic/input_error.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace graze {
@@ -21,7 +23,14 @@ struct ResultColumn {
     std::string name, unit;
 };
 
-enum class RunStatus { unfinished, complete };
+enum class RunStatus {
+    unfinished,
+    complete,
+    failed, ///< it will not become complete unless the study changes, or what it reads
+};
+
+/// As in the file: "unfinished", "complete" or "failed".
+std::string_view name_of(RunStatus status);
 
 /// What is known of a run besides its points.
 struct RunRecord {
@@ -40,15 +49,20 @@ struct RunRecord {
     std::vector<std::string> samplings, modes, directions;
     std::size_t points = 0; ///< planned
     RunStatus status = RunStatus::unfinished;
+    std::string file = {};    ///< from which it was read
+    std::string failure = {}; ///< why it failed, and what to do; on one line, without what controls a terminal
 
     /// Whether its points are orbits.
     bool is_branch() const { return kind == "orbit" || is_followed(); }
     /// Whether orbits are followed: along a branch, or a curve.
-    bool is_followed() const { return kind == "continue" || kind == "curve"; }
+    bool is_followed() const { return kind == "continue" || kind == "curve" || kind == "ladder"; }
 };
 
 /// The result file of a study's folder, or the file itself.
 std::string result_path(const std::string& file_or_folder);
+
+/// The place of a text that a result file keeps, for messages: "file: what".
+Place stored_place(const std::string& file, const std::string& what);
 
 /// The model with which a run was made. @throws InputError when it cannot be read, or is not that of the run's columns
 Model stored_model(const RunRecord& run);
@@ -90,6 +104,10 @@ public:
     void flush();
     /// Marks a run as complete.
     void complete_run(const std::string& run);
+    /// Marks a run as failed, with what it has. @param failure why, and what to do
+    void fail_run(const std::string& run, const std::string& failure);
+    /// Marks a run as unfinished, for it to be gone on with.
+    void reopen_run(const std::string& run);
 
     /// Keeps a text that belongs to no run, in place of one with the same key.
     void set_note(const std::string& key, const std::string& text);

@@ -19,10 +19,6 @@ std::string text_of(std::time_t moment);
 std::string present_time();
 /// Keeps them in a result file.
 void note_times(ResultFile& file, const std::string& run, const RunTimes& times);
-/// Keeps why a run failed; empty: that it did not.
-void note_failure(ResultFile& file, const std::string& run, const std::string& problem);
-/// Why it failed when it was last tried; none: it did not. On one line, without what controls a terminal
-std::optional<std::string> failure_of(const ResultFile& file, const std::string& run);
 /// None in files of versions that did not keep them. @throws InputError when they cannot be read
 std::optional<RunTimes> times_of(const ResultFile& file, const std::string& run);
 

@@ -1,0 +1,354 @@
+#include "branch/accumulating_orbit.hpp"
+
+#include "flow/lie_derivative.hpp"
+#include "orbit/eigen_index.hpp"
+#include "orbit/newton.hpp"
+#include "orbit/orbit_flow.hpp"
+#include "orbit/shooting.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+/// Share of a round for which the surface is left before contacts are looked for: there the height is of third order.
+constexpr double leaving = 1e-3;
+/// Of a round: so long is followed, as contacts of a guess may come late.
+constexpr double followed = 1.1;
+
+VectorXd vector_of(const std::vector<double>& values) {
+    return Eigen::Map<const VectorXd>(values.data(), index(values.size()));
+}
+
+std::vector<double> numbers_of(const VectorXd& values) {
+    return {values.begin(), values.end()};
+}
+
+} // namespace
+
+AccumulatingOrbit::AccumulatingOrbit(const System& system, const SpecialPoint& grazing, ParameterId along,
+                                     double tolerance)
+    : simulation_(system, {}, {}, integration(tolerance)), flow_(flow_of(simulation_)), grazing_(grazing),
+      along_(along), mode_(grazing.solution.orbit.signature[grazing.segment].mode), first_mode_(mode_) {
+    const Orbit& orbit = grazing.solution.orbit;
+    const Model& model = simulation_.model();
+    if (orbit.symmetry)
+        if (const Transition* contact = model.find_transition(mode_, grazing.event)) {
+            const auto transition = static_cast<std::size_t>(contact - model.transitions.data());
+            first_mode_ = image_of(system, *orbit.symmetry, {mode_, SegmentEnd::event, transition}, orbit).mode;
+        }
+    constexpr int derivatives = 3;
+    heights_.push_back(simulation_.system().event(grazing.event));
+    for (const Expression& rate : rates_of(simulation_.system(), mode_, grazing.event, derivatives))
+        heights_.push_back(simulation_.system().with_gradient(rate));
+    const Shooting shooting(simulation_, orbit, {along});
+    const auto n = index(model.states.size());
+    scales_.resize(n + 1);
+    scales_ << shooting.scales().head(n), shooting.scales()[index(shooting.layout().parameter(0))];
+    for (const State& state : model.states)
+        closes_.push_back(!state.drifting);
+}
+
+std::vector<double> AccumulatingOrbit::inputs(const VectorXd& state) const {
+    std::vector<double> result = numbers_of(state);
+    result.insert(result.end(), parameters_.begin(), parameters_.end());
+    return result;
+}
+
+bool AccumulatingOrbit::set(const VectorXd& unknowns) {
+    parameters_ = grazing_.solution.orbit.parameters;
+    parameters_[along_.place()] = unknowns[parameter_place()];
+    if (!unknowns.allFinite())
+        return false;
+    flow_.set_parameters(parameters_);
+    periods_ = simulation_.system().periods()(parameters_);
+    return true;
+}
+
+VectorXd AccumulatingOrbit::heights(const VectorXd& state) const {
+    VectorXd values(index(heights_.size()));
+    for (std::size_t k = 0; k < heights_.size(); ++k)
+        values[index(k)] = heights_[k](inputs(state))[0];
+    return values;
+}
+
+MatrixXd AccumulatingOrbit::slopes(const VectorXd& state) const {
+    MatrixXd result(index(heights_.size()), state.size());
+    for (std::size_t k = 0; k < heights_.size(); ++k)
+        result.row(index(k)) = vector_of(heights_[k](inputs(state))).segment(1, state.size()).transpose();
+    return result;
+}
+
+VectorXd AccumulatingOrbit::field(const VectorXd& state) const {
+    return vector_of(simulation_.system().mode(mode_).rates(inputs(state)));
+}
+
+bool AccumulatingOrbit::begin(double parameter, std::size_t count, std::string& problem) {
+    count_ = count;
+    jacobian_.resize(0, 0);
+    const Orbit& orbit = grazing_.solution.orbit;
+    const auto n = index(orbit.starts.front().size());
+    std::vector<double> touch = orbit.starts[grazing_.segment];
+    flow_.set_parameters(orbit.parameters);
+    if (flow_.run(mode_, touch, grazing_.time) != ModeFlow::Ending::done) {
+        problem = "the grazing orbit cannot be followed";
+        return false;
+    }
+    unknowns_.resize(n + 1);
+    unknowns_ << vector_of(touch), parameter;
+    if (!set(unknowns_))
+        return false;
+    VectorXd start = vector_of(touch);
+    if (!project(start) || !(heights(start)[3] > 0)) {
+        problem = "near the touch there is no state in which contacts can accumulate just where the motion leaves: the "
+                  "height's third rate is not positive there";
+        return false;
+    }
+    unknowns_.head(n) = start;
+    rows_ = (slopes(start).topRows(3) * scales_.head(n).asDiagonal()).rowwise().norm();
+    return (rows_.array() > 0).all();
+}
+
+/// The nearest state, in units of the scales, in which the height and its first two rates are zero.
+bool AccumulatingOrbit::project(VectorXd& state) const {
+    const auto n = state.size();
+    constexpr int iterations = 30;
+    double last = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < iterations; ++i) {
+        const MatrixXd rows = slopes(state).topRows(3) * scales_.head(n).asDiagonal();
+        const VectorXd sizes = rows.rowwise().norm();
+        if (!(sizes.minCoeff() > 0))
+            return false;
+        const VectorXd move = (sizes.cwiseInverse().asDiagonal() * rows)
+                                  .completeOrthogonalDecomposition()
+                                  .solve(-heights(state).head(3).cwiseQuotient(sizes));
+        const double size = move.cwiseAbs().maxCoeff();
+        if (!std::isfinite(size))
+            return false;
+        state += scales_.head(n).cwiseProduct(move);
+        if (size <= 4 * epsilon || (size < 1e-10 && size >= last))
+            return true;
+        last = size;
+    }
+    return last < 1e-10;
+}
+
+bool AccumulatingOrbit::judge(const VectorXd& before, const VectorXd& after, Rest& rest) const {
+    const double arriving = -heights(before)[1];
+    const VectorXd leaves = heights(after);
+    const double speed = leaves[1], deceleration = -leaves[2], third = leaves[3], restitution = speed / arriving;
+    if (!(arriving > 0 && restitution > 0 && restitution < 1 && deceleration > 0 && third > 0))
+        return false;
+    rest.contacts = self_similar_contacts(restitution);
+    rest.excess = speed / deceleration * (third / deceleration) / rest.contacts.speed - 1;
+    // Heights fall with the third power of the time that is left, and the states that they are made of do not.
+    const double left = deceleration / third, height = third * left * left * left;
+    rest.uncertainty = 4 * epsilon * slopes(after).row(0).cwiseAbs().dot(after.cwiseAbs()) / height;
+    return std::isfinite(rest.excess);
+}
+
+/// Where contacts will have held the motion on the surface until its second rate is zero: it goes on with the field and
+/// what the contacts to come add, in the proportions of the last one, and is put on the surface.
+bool AccumulatingOrbit::accumulate(const VectorXd& before, const VectorXd& after, Rest& rest) const {
+    const auto n = after.size();
+    VectorXd movable = scales_.head(n);
+    for (Eigen::Index i = 0; i < n; ++i)
+        if (periods_[static_cast<std::size_t>(i)] > 0)
+            movable[i] = 0; // contacts do not turn clocks
+    const VectorXd rates = field(after), at = heights(after);
+    const VectorXd kick =
+        (after - before).cwiseQuotient(scales_.head(n)).cwiseProduct(movable) / (at[1] - heights(before)[1]);
+    double time = -at[2] / at[3];
+    constexpr int iterations = 8;
+    for (int i = 0; i < iterations; ++i) {
+        rest.state = after + time * rates;
+        rest.state -= heights(rest.state)[1] * kick;
+        for (int k = 0; k < 3; ++k) {
+            const MatrixXd rows = slopes(rest.state).topRows(2) * movable.asDiagonal();
+            const VectorXd missing = -heights(rest.state).head(2);
+            rest.state += movable.cwiseProduct(rows.completeOrthogonalDecomposition().solve(missing));
+        }
+        const VectorXd values = heights(rest.state);
+        const double change = -values[2] / values[3];
+        time += change;
+        if (!rest.state.allFinite() || !std::isfinite(time))
+            return false;
+        if (std::abs(change) <= 4 * epsilon * std::abs(time))
+            break;
+    }
+    return true;
+}
+
+/// From where a state would be on the surface.
+bool AccumulatingOrbit::follow(std::size_t count, Rest& rest) {
+    rest.start = unknowns_.head(parameter_place());
+    if (!project(rest.start))
+        return false;
+    const Orbit& orbit = grazing_.solution.orbit;
+    const System& system = simulation_.system();
+    std::vector<double> state = numbers_of(rest.start);
+    if (orbit.symmetry)
+        state = system.symmetry(*orbit.symmetry).map(inputs(vector_of(state)));
+    const double round = orbit.round();
+    const std::vector<double> start = state;
+    if (flow_.run(first_mode_, state, leaving * round) != ModeFlow::Ending::done)
+        return false;
+    rest.motion = follow_motion(simulation_, parameters_, state, first_mode_, followed * round);
+    FollowedMotion& motion = rest.motion;
+    std::size_t contacts = 0, contact = 0;
+    for (; contact < motion.segments.size(); ++contact)
+        if (motion.segments[contact].mode == mode_ && motion.segments[contact].end == SegmentEnd::event &&
+            system.model().transitions[motion.segments[contact].index].event == grazing_.event && ++contacts == count)
+            break;
+    rest.segments = contact + 1;
+    while (rest.segments < motion.segments.size() && motion.segments[rest.segments].mode != mode_)
+        ++rest.segments;
+    if (contacts < count || rest.segments >= motion.segments.size())
+        return false;
+    std::vector<double> before = motion.starts[contact];
+    if (flow_.run(mode_, before, motion.durations[contact]) != ModeFlow::Ending::done)
+        return false;
+    const VectorXd after = vector_of(motion.starts[rest.segments]);
+    motion.starts[0] = start;
+    motion.durations[0] += leaving * round;
+    return judge(vector_of(before), after, rest) && accumulate(vector_of(before), after, rest);
+}
+
+bool AccumulatingOrbit::residuals(const VectorXd& unknowns, VectorXd& values, Rest& rest) {
+    const VectorXd kept = unknowns_;
+    unknowns_ = unknowns;
+    const bool followed_it = set(unknowns) && follow(count_, rest);
+    unknowns_ = kept;
+    if (!followed_it)
+        return false;
+    const auto n = unknowns.size() - 1;
+    values = VectorXd::Zero(3 + n + 1);
+    values.head(3) = heights(unknowns.head(n)).head(3).cwiseQuotient(rows_);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        double gap = rest.state[i] - rest.start[i];
+        const double period = periods_[static_cast<std::size_t>(i)];
+        if (period > 0)
+            gap = std::remainder(gap, period);
+        if (closes_[static_cast<std::size_t>(i)])
+            values[3 + i] = gap / scales_[i];
+    }
+    values[3 + n] = rest.excess;
+    return values.allFinite();
+}
+
+bool AccumulatingOrbit::differentiate(const VectorXd& values) {
+    constexpr double step = 1e-6; // of the scales
+    jacobian_.resize(values.size(), unknowns_.size());
+    VectorXd shifted = unknowns_, there;
+    Rest rest;
+    for (Eigen::Index i = 0; i < unknowns_.size(); ++i) {
+        shifted[i] += step * scales_[i];
+        if (!residuals(shifted, there, rest))
+            return false;
+        jacobian_.col(i) = (there - values) / step;
+        shifted[i] = unknowns_[i];
+    }
+    return true;
+}
+
+/// With each contact the excess depends more strongly on where the motion has begun; all else does as before.
+bool AccumulatingOrbit::renew_excess(const VectorXd& values) {
+    constexpr double largest_step = 1e-6, wanted = 1e-3, smallest_step = 1e3 * epsilon;
+    const Eigen::Index last = values.size() - 1;
+    jacobian_.row(last) /= contacts_.ratio;
+    VectorXd shifted = unknowns_, there;
+    Rest rest;
+    for (Eigen::Index i = 0; i < unknowns_.size(); ++i) {
+        const double step = std::min(largest_step, wanted / std::abs(jacobian_(last, i)));
+        if (step < smallest_step)
+            continue; // the growth is known better than this could tell
+        shifted[i] += step * scales_[i];
+        const double taken = (shifted[i] - unknowns_[i]) / scales_[i];
+        if (taken != 0 && residuals(shifted, there, rest))
+            jacobian_(last, i) = (there[last] - values[last]) / taken;
+        shifted[i] = unknowns_[i];
+    }
+    return jacobian_.allFinite();
+}
+
+bool AccumulatingOrbit::solve() {
+    constexpr int iterations = 20, halvings = 12;
+    constexpr double enough = 1e-9, far = 10; // of the scales
+    VectorXd values, next;
+    Rest rest;
+    solved_ = false;
+    if (!residuals(unknowns_, values, rest))
+        return false;
+    if (jacobian_.size() == 0 ? !differentiate(values) : !renew_excess(values))
+        return false;
+    double last = std::numeric_limits<double>::infinity();
+    for (int iteration = 0; iteration < iterations; ++iteration) {
+        const VectorXd step = scales_.cwiseProduct(jacobian_.completeOrthogonalDecomposition().solve(-values));
+        const double size = size_of_step(step);
+        if (!(size < far))
+            return false;
+        // Below, round-off of the motion turns steps about.
+        if (size <= 4 * epsilon || (size < enough && size >= last))
+            break;
+        last = size;
+        double share = 1;
+        const auto helps = [&] {
+            return residuals(unknowns_ + share * step, next, rest) &&
+                   (next.norm() < values.norm() || share * size < enough);
+        };
+        int halved = 0;
+        for (; halved < halvings && !helps(); ++halved)
+            share /= 2;
+        if (halved == halvings)
+            return false;
+        unknowns_ += share * step;
+        // Broyden's update: the derivatives are those of the first iterate.
+        const VectorXd moved = share * step.cwiseQuotient(scales_);
+        jacobian_ += (next - values - jacobian_ * moved) * moved.transpose() / moved.squaredNorm();
+        values = next;
+    }
+    contacts_ = rest.contacts;
+    uncertainty_ =
+        rest.uncertainty * scales_[parameter_place()] / std::abs(jacobian_(values.size() - 1, parameter_place()));
+    solved_ = last < enough && std::isfinite(uncertainty_);
+    return solved_;
+}
+
+void AccumulatingOrbit::add_contact() {
+    ++count_;
+}
+
+Orbit AccumulatingOrbit::shown(double& gap) {
+    constexpr double little = 1e-4; // of a round
+    const auto n = parameter_place();
+    Rest rest;
+    Orbit orbit;
+    for (std::size_t count = 2; count <= count_ && set(unknowns_) && follow(count, rest); ++count) {
+        const auto taken = [&](const auto& values) {
+            return std::vector(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rest.segments));
+        };
+        orbit = {taken(rest.motion.segments), parameters_, taken(rest.motion.starts), taken(rest.motion.durations),
+                 grazing_.solution.orbit.symmetry};
+        const VectorXd after = vector_of(rest.motion.starts[rest.segments]);
+        gap = 0;
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const double period = periods_[static_cast<std::size_t>(i)], apart = after[i] - rest.start[i];
+            if (closes_[static_cast<std::size_t>(i)])
+                gap = std::max(gap, std::abs(period > 0 ? std::remainder(apart, period) : apart) / scales_[i]);
+        }
+        if (-heights(after)[2] < little * orbit.round() * heights(after)[3])
+            break;
+    }
+    return orbit;
+}
+
+} // namespace graze

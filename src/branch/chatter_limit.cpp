@@ -1,0 +1,161 @@
+#include "graze/branch/chatter_limit.hpp"
+
+#include "branch/accumulating_orbit.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+SelfSimilarContacts self_similar_contacts(double restitution) {
+    if (!(restitution > 0 && restitution < 1))
+        throw InputError(fmt::format("a restitution of {:.6g} lets no contacts accumulate", restitution),
+                         "it must lie between 0 and 1");
+    const double e = restitution;
+    double rho = std::sqrt(e); // the polynomial is negative at 0 and positive here and beyond
+    constexpr int iterations = 60;
+    for (int i = 0; i < iterations; ++i) {
+        const double value = rho * rho * (2 + rho) - e * (1 + 2 * rho), slope = 4 * rho + 3 * rho * rho - 2 * e;
+        const double step = value / slope;
+        rho -= step;
+        if (std::abs(step) < std::numeric_limits<double>::epsilon() * rho)
+            break;
+    }
+    return {e, rho, std::pow(rho, 5) / (e * e), (1 - rho) * (2 + rho) / 6};
+}
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// Richardson's extrapolation of a sequence whose errors fall by known factors, one after the other; and how far its
+/// last steps and levels still differ.
+std::pair<double, double> extrapolate(std::vector<double> values, std::span<const double> factors) {
+    // The errors of the last values, and what they are made of.
+    const auto spread = [](const std::vector<double>& row, double factor) {
+        double greatest = 0;
+        for (std::size_t k = row.size() - std::min<std::size_t>(row.size(), 3); k + 1 < row.size(); ++k)
+            greatest = std::max(greatest, std::abs(row[k + 1] - row[k]));
+        return greatest / (1 - factor);
+    };
+    constexpr double safety = 4;
+    std::pair<double, double> best{values.back(), std::numeric_limits<double>::infinity()};
+    for (const double factor : factors) {
+        if (values.size() < 3)
+            break;
+        for (std::size_t k = values.size() - 1; k > 0; --k)
+            values[k] += (values[k] - values[k - 1]) * factor / (1 - factor);
+        values.erase(values.begin());
+        const double error = safety * spread(values, factor) + 16 * epsilon * std::abs(values.back());
+        if (error < best.second)
+            best = {values.back(), error};
+    }
+    return best;
+}
+
+bool is_contact_more(const SpecialPoint& one, const SpecialPoint& other) {
+    return one.type == PointType::grazing && !one.at_end && one.event == other.event;
+}
+
+void require_ladder(std::span<const SpecialPoint> grazings) {
+    if (grazings.size() < 2)
+        throw InputError("a ladder of fewer than two grazings has no limit", "go on to the next grazing");
+    for (const SpecialPoint& one : grazings)
+        if (!is_contact_more(one, grazings.front()))
+            throw InputError("the points of a ladder are not all touches of one event",
+                             "give grazings, each with one contact more than the one before");
+}
+
+/// Limits with 2, 3, ... contacts before the self-similar rest: each a solution from which the next begins.
+class Approach {
+public:
+    Approach(const System& system, const SpecialPoint& last, ParameterId along, double tolerance)
+        : orbit_(system, last, along, tolerance) {}
+
+    bool run(double guess, std::size_t contacts, ChatterLimit& limit) {
+        constexpr std::size_t most_contacts = 80, fewest = 6;
+        // The more contacts, the better the guess has to be, and the nearer the first solution is to it.
+        for (std::size_t first = std::max<std::size_t>(contacts, 4); first > 1; --first) {
+            if (!orbit_.begin(guess, first, limit.problem))
+                return false;
+            if (orbit_.solve())
+                break;
+        }
+        double least = std::numeric_limits<double>::infinity();
+        while (values_.size() < most_contacts && orbit_.has_solution()) {
+            values_.push_back(orbit_.parameter());
+            noise_.push_back(orbit_.uncertainty());
+            limit.contacts = orbit_.contacts();
+            if (values_.size() >= fewest) {
+                const auto one = estimate(limit.contacts);
+                if (one.second < least)
+                    limit.direct = one;
+                least = std::min(least, one.second);
+                // From here on there is more and more round-off.
+                if (noise_.back() > least)
+                    break;
+            }
+            orbit_.add_contact();
+            orbit_.solve();
+        }
+        if (values_.size() < fewest) {
+            limit.problem = values_.empty()
+                                ? "no orbit with accumulating contacts was found near the last grazing"
+                                : fmt::format("orbits with accumulating contacts were found for {} numbers of contacts "
+                                              "before the rest, which is too few",
+                                              values_.size());
+            return false;
+        }
+        limit.orbit = orbit_.shown(limit.gap);
+        return true;
+    }
+
+private:
+    std::pair<double, double> estimate(const SelfSimilarContacts& known) const {
+        const double first = known.times * known.ratio;
+        const std::array factors{first, first * known.times, first * known.times * known.times};
+        auto result = extrapolate(values_, factors);
+        constexpr std::size_t used = 4; // in a value, each with a weight of about one
+        for (std::size_t k = noise_.size() - std::min(noise_.size(), used); k < noise_.size(); ++k)
+            result.second += noise_[k];
+        return result;
+    }
+
+    AccumulatingOrbit orbit_;
+    std::vector<double> values_, noise_; ///< noise: of round-off in each
+};
+
+} // namespace
+
+ChatterLimit chatter_limit(const System& system, std::span<const SpecialPoint> grazings, ParameterId along,
+                           double tolerance) {
+    require_ladder(grazings);
+    ChatterLimit limit;
+    std::vector<double> values;
+    for (const SpecialPoint& one : grazings)
+        values.push_back(one.parameter);
+    // Where nothing is known of the ratio yet, three grazings tell it.
+    double guess = values.back();
+    if (values.size() > 2) {
+        const double last = values.back() - values[values.size() - 2],
+                     before = values[values.size() - 2] - values[values.size() - 3];
+        if (std::abs(last) < std::abs(before))
+            guess += last * last / (before - last);
+    }
+    const auto contacts = grazings.size() - 1;
+    Approach approach(system, grazings.back(), along, tolerance);
+    if (!approach.run(guess, contacts, limit))
+        return limit;
+    const double ratio = limit.contacts.ratio;
+    const std::array factors{ratio, ratio * limit.contacts.times, ratio * limit.contacts.times * limit.contacts.times};
+    if (values.size() > 3)
+        limit.extrapolated = extrapolate(values, factors);
+    return limit;
+}
+
+} // namespace graze

@@ -1,0 +1,122 @@
+#include "graze/branch/curve_start.hpp"
+
+#include "branch/point_kind.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <optional>
+
+namespace graze {
+
+namespace {
+
+/// How far multipliers may be off: two that are equal are off by a root of what is left uncertain of them.
+constexpr double near = 1e-3;
+
+/// Multipliers of the shortest orbit that is followed.
+const std::vector<std::complex<double>>& own_multipliers(const SpecialPoint& point) {
+    const OrbitSolution& solution = point.solution;
+    return solution.half_multipliers.empty() ? solution.multipliers : solution.half_multipliers;
+}
+
+std::size_t multipliers_near(const SpecialPoint& point, double wanted) {
+    const auto& all = own_multipliers(point);
+    return static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [&](auto one) { return std::abs(one - wanted) < near; }));
+}
+
+bool has_pair_on_circle(const SpecialPoint& point) {
+    const auto& all = own_multipliers(point);
+    return multipliers_near(point, 1) >= 2 || multipliers_near(point, -1) >= 2 ||
+           std::any_of(all.begin(), all.end(),
+                       [](auto one) { return one.imag() > near && std::abs(std::abs(one) - 1) < near; });
+}
+
+/// A touch within an arc, which points of other types on curves of touches have as well.
+std::optional<OrbitMinimum> touch_of(const SpecialPoint& point) {
+    constexpr double zero = 1e-9; // of the function's size along the arc
+    std::optional<OrbitMinimum> lowest;
+    for (const OrbitMinimum& one : point.solution.certificate.minima)
+        if (std::abs(one.value) <= zero * one.size && (!lowest || std::abs(one.value) < std::abs(lowest->value)))
+            lowest = one;
+    return lowest;
+}
+
+bool is_one(const SpecialPoint& point, PointType type) {
+    if (point.type == type)
+        return true;
+    const bool half = point.solution.orbit.symmetry.has_value();
+    switch (type) {
+    case PointType::fold:
+        return multipliers_near(point, 1) >= 1;
+    case PointType::flip:
+        return !half && multipliers_near(point, -1) >= 1;
+    case PointType::asymmetry:
+        return half && multipliers_near(point, -1) >= 1;
+    case PointType::torus:
+        return has_pair_on_circle(point);
+    case PointType::grazing:
+        return point.type == PointType::double_grazing || touch_of(point);
+    default:
+        return false; // other events are known of points of their own type only
+    }
+}
+
+std::string quoted(const std::vector<PointType>& types) {
+    std::vector<std::string> names;
+    for (const PointType type : types)
+        names.push_back(fmt::format("\"{}\"", short_name(type)));
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+} // namespace
+
+std::string multipliers_in_words(const SpecialPoint& point) {
+    const auto& all = own_multipliers(point);
+    if (all.empty())
+        return "its multipliers are not defined, as where a contact has no speed";
+    std::vector<std::string> texts;
+    for (const std::complex<double> one : all)
+        texts.push_back(one.imag() == 0 ? fmt::format("{:.6g}", one.real())
+                                        : fmt::format("{:.6g}{:+.6g}i", one.real(), one.imag()));
+    return fmt::format("its multipliers are {}", fmt::join(texts, ", "));
+}
+
+std::vector<PointType> curves_at(const SpecialPoint& point) {
+    std::vector<PointType> types;
+    for (const PointKind& kind : point_kinds())
+        if (kind.may_be_kept && is_one(point, kind.type))
+            types.push_back(kind.type);
+    return types;
+}
+
+SpecialPoint as_type(const SpecialPoint& point, PointType type) {
+    const std::vector<PointType> known = curves_at(point);
+    if (std::find(known.begin(), known.end(), type) == known.end()) {
+        std::vector<std::string_view> kept;
+        for (const PointKind& kind : point_kinds())
+            if (kind.may_be_kept)
+                kept.push_back(kind.short_name);
+        throw InputError(fmt::format("the point of type {} ({}) is no {}: {}", short_name(point.type),
+                                     name_of(point.type), name_of(type), multipliers_in_words(point)),
+                         known.empty()
+                             ? fmt::format("no curve begins there: choose a point of type {}", fmt::join(kept, ", "))
+                             : fmt::format("curves that begin there are {}", quoted(known)));
+    }
+    SpecialPoint result = point;
+    result.type = type;
+    if (const auto touch = touch_of(point); type == PointType::grazing && !is_grazing(point.type) && touch) {
+        result.segment = touch->segment;
+        result.event = touch->event;
+        result.time = touch->time;
+        result.at_end = false;
+    }
+    return result;
+}
+
+} // namespace graze

@@ -1,0 +1,249 @@
+#include "graze/branch/chatter_limit.hpp"
+
+#include "follow.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+constexpr double zeta = 0.5, omega = 0.3;
+
+/// An oscillator at a stop s, in units of length and time.
+Model oscillator(double restitution, double length, double time) {
+    return model_from(fmt::format(R"toml(
+[parameters]
+s = {:.17g}
+[states]
+x = 0
+v = 0
+theta = {{ initial = 0, period = "2*pi" }}
+[modes.free]
+rates = {{ x = "v", v = "({:.17g}*cos(theta) - x)/{:.17g} - 2*{:.17g}*v", theta = "{:.17g}" }}
+watch = ["stop"]
+[events.stop]
+function = "s - x"
+[jumps.bounce]
+v = "-{:.17g}*v"
+[[transitions]]
+mode = "free"
+event = "stop"
+jump = "bounce"
+next = "free"
+[sections.start]
+state = "theta"
+value = 0
+)toml",
+                                  1.5 * length, length, time * time, zeta / time, omega / time, restitution));
+}
+
+/// Grazings of motions with 0, 1, ... contacts, each from the one before.
+std::vector<SpecialPoint> climb(const Model& model, BranchSettings settings, std::size_t rungs) {
+    settings.stop_at = {PointType::grazing};
+    std::vector<SpecialPoint> grazings;
+    Branch branch = follow_branch(model, settled(model, model.sections.front().name).orbit, settings);
+    while (true) {
+        const auto touches = of_type(branch, PointType::grazing);
+        if (touches.empty())
+            break;
+        grazings.push_back(touches.front());
+        if (grazings.size() == rungs)
+            break;
+        branch = follow(model, branches_at(model, grazings.back(), settings).at(0), settings);
+    }
+    EXPECT_EQ(grazings.size(), rungs) << names(branch) << ", " << branch.detail;
+    return grazings;
+}
+
+ChatterLimit limit_of_oscillator(const Model& model, double length, std::size_t rungs) {
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("s");
+    settings.direction = -1;
+    settings.least = 0.1 * length;
+    settings.greatest = 3 * length;
+    return chatter_limit(model, climb(model, settings, rungs), settings.parameter);
+}
+
+/// The same by the closed form of the flights, in extended precision: from rest at the stop, where the force is about
+/// to fall below what holds the mass there, over some contacts.
+class Flights {
+public:
+    Flights(long double stop, long double restitution) : stop_(stop), e_(restitution) {}
+
+    /// By how much the speed after a number of contacts is above the self-similar one. NaN where there are fewer.
+    long double excess(int contacts, long double factor) {
+        phase_ = std::acos(stop_);
+        set(stop_, 0);
+        long double time = 0.5L; // from rest it leaves by the third power of the time
+        for (int k = 0; k < contacts; ++k) {
+            const long double arrival = next(time);
+            if (!(arrival > 0))
+                return std::numeric_limits<long double>::quiet_NaN();
+            const long double speed = rate(arrival);
+            phase_ = std::fmod(phase_ + force_ * arrival, 2 * std::numbers::pi_v<long double>);
+            set(stop_, -e_ * speed);
+            time = 0;
+        }
+        // The height s - x: its rates after the contact.
+        const long double v = -rate_, a = -(std::cos(phase_) - stop_ - 2 * damping_ * rate_),
+                          j = -(-force_ * std::sin(phase_) - rate_ + 2 * damping_ * a);
+        return v * j / (a * a) / factor - 1;
+    }
+
+private:
+    void set(long double x, long double v) {
+        const long double own = 1 - force_ * force_, other = 2 * damping_ * force_, size = own * own + other * other;
+        cosine_ = own / size;
+        sine_ = other / size;
+        const long double forced = cosine_ * std::cos(phase_) + sine_ * std::sin(phase_),
+                          speed = force_ * (-cosine_ * std::sin(phase_) + sine_ * std::cos(phase_));
+        own_cosine_ = x - forced;
+        own_sine_ = (v - speed + damping_ * own_cosine_) / frequency_;
+        rate_ = v;
+    }
+    long double place(long double t) const {
+        return std::exp(-damping_ * t) *
+                   (own_cosine_ * std::cos(frequency_ * t) + own_sine_ * std::sin(frequency_ * t)) +
+               cosine_ * std::cos(phase_ + force_ * t) + sine_ * std::sin(phase_ + force_ * t);
+    }
+    long double rate(long double t) const {
+        const long double c = std::cos(frequency_ * t), s = std::sin(frequency_ * t);
+        return std::exp(-damping_ * t) * ((frequency_ * own_sine_ - damping_ * own_cosine_) * c -
+                                          (frequency_ * own_cosine_ + damping_ * own_sine_) * s) +
+               force_ * (-cosine_ * std::sin(phase_ + force_ * t) + sine_ * std::cos(phase_ + force_ * t));
+    }
+    /// The first time after a given one at which the stop is reached. Flights are looked through in steps that grow.
+    long double next(long double from) const {
+        long double left = from > 0 ? from : 1e-7L, step = left / 4;
+        while (left < 40) {
+            const long double right = left + step;
+            if (place(right) > stop_)
+                return bisected(left, right);
+            left = right;
+            step = std::min(0.02L, left / 8);
+        }
+        return 0;
+    }
+    long double bisected(long double left, long double right) const {
+        constexpr int halvings = 70;
+        for (int i = 0; i < halvings; ++i) {
+            const long double middle = (left + right) / 2;
+            (place(middle) > stop_ ? right : left) = middle;
+        }
+        return right;
+    }
+
+    long double stop_, e_, damping_ = zeta, force_ = omega, frequency_ = std::sqrt(1 - damping_ * damping_);
+    long double phase_ = 0, cosine_ = 0, sine_ = 0, own_cosine_ = 0, own_sine_ = 0, rate_ = 0;
+};
+
+/// The stop at which a number of contacts lead to the self-similar rest, by the secant method.
+long double stop_with(int contacts, long double guess, long double restitution) {
+    const long double factor = self_similar_contacts(static_cast<double>(restitution)).speed;
+    long double one = guess, other = guess * (1 + 1e-9L);
+    long double at_one = Flights(one, restitution).excess(contacts, factor);
+    constexpr int iterations = 12;
+    for (int i = 0; i < iterations && other != one; ++i) {
+        const long double at_other = Flights(other, restitution).excess(contacts, factor);
+        const long double next = other - at_other * (other - one) / (at_other - at_one);
+        one = std::exchange(other, next);
+        at_one = at_other;
+    }
+    return other;
+}
+
+TEST(ChatterLimit, self_similar_contacts_solve_their_equations) {
+    for (const double e : {1e-6, 0.01, 0.3, 0.5, 0.9, 0.999}) {
+        const SelfSimilarContacts known = self_similar_contacts(e);
+        const double rho = known.times;
+        EXPECT_NEAR(e * (1 + 2 * rho), rho * rho * (2 + rho), 8e-16);
+        // One flight, by its polynomial: it comes down at -rho, and leaves again as fast as rho^2 of before.
+        const double before = known.speed, flight = 1 - rho;
+        EXPECT_NEAR(before * flight - flight * flight / 2 + flight * flight * flight / 6, 0, 4e-16);
+        EXPECT_NEAR(-e * (before - flight + flight * flight / 2), rho * rho * before, 4e-16);
+    }
+    EXPECT_THROW(self_similar_contacts(0), InputError);
+    EXPECT_THROW(self_similar_contacts(1), InputError);
+}
+
+TEST(ChatterLimit, of_an_oscillator_is_that_of_its_closed_form) {
+    const ChatterLimit limit = limit_of_oscillator(oscillator(0.5, 1, 1), 1, 9);
+    ASSERT_TRUE(limit.direct) << limit.problem;
+    ASSERT_TRUE(limit.extrapolated);
+    EXPECT_NEAR(limit.contacts.restitution, 0.5, 1e-6);
+    // With n contacts it is off by (rho^6 / e^2)^n = 0.33^n, and round-off grows by (rho / e)^2 = 1.7: a few 1e-13
+    // here.
+    const auto known = static_cast<double>(stop_with(26, limit.direct->first, 0.5L));
+    EXPECT_LT(limit.direct->second, 1e-10);
+    EXPECT_NEAR(limit.direct->first, known, 1e-11);
+    EXPECT_NEAR(limit.direct->first, known, limit.direct->second + 1e-12);
+    EXPECT_LT(limit.extrapolated->second, 1e-4);
+    EXPECT_NEAR(limit.extrapolated->first, known, limit.extrapolated->second);
+    EXPECT_LT(limit.gap, 1e-3);
+    EXPECT_NEAR(limit.orbit.round(), 2 * std::numbers::pi / omega, 1e-2);
+}
+
+TEST(ChatterLimit, does_not_depend_on_units) {
+    const ChatterLimit known = limit_of_oscillator(oscillator(0.5, 1, 1), 1, 6);
+    ASSERT_TRUE(known.direct) << known.problem;
+    for (const auto [length, time] : {std::pair(1e-9, 1e-6), {1e6, 1.0}, {1e-20, 1e3}, {1e15, 1e3}}) {
+        const ChatterLimit limit = limit_of_oscillator(oscillator(0.5, length, time), length, 6);
+        ASSERT_TRUE(limit.direct) << limit.problem;
+        EXPECT_NEAR(limit.direct->first / length, known.direct->first, known.direct->second);
+        EXPECT_LT(limit.direct->second / length, 1e-10);
+    }
+}
+
+TEST(ChatterLimit, of_the_microactuator) {
+    Model model = load_model("impact-microactuator");
+    model.set_parameter("omega", 2.0056);
+    model.set_parameter("V", 0.1);
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("V");
+    settings.least = 0.005;
+    settings.greatest = 3;
+    const auto rungs = climb(model, settings, 9);
+    // "Published values": V_1 to V_8.
+    const std::array known{.52745995765981, .66636423118007, .74940362005310, .79897011651099,
+                           .82715666925300, .84240315127881, .85032000894172, .85431167398464};
+    for (std::size_t i = 0; i < known.size(); ++i)
+        EXPECT_NEAR(rungs[i].parameter, known[i], 2e-12);
+    const ChatterLimit limit = chatter_limit(model, rungs, settings.parameter);
+    ASSERT_TRUE(limit.direct) << limit.problem;
+    // After each contact a frame slips for a time that falls with the speed: in the end nothing is left of that but
+    // 0.5.
+    EXPECT_NEAR(limit.contacts.restitution, 0.5, 1e-3);
+    EXPECT_LT(limit.direct->second, 2e-11);
+    EXPECT_NEAR(limit.extrapolated.value().first, limit.direct->first, limit.extrapolated->second);
+}
+
+TEST(ChatterLimit, says_what_is_no_ladder) {
+    const Model model = oscillator(0.5, 1, 1);
+    const std::vector<SpecialPoint> none(1);
+    EXPECT_THROW(chatter_limit(model, none, model.independent_parameter("s")), InputError);
+    const std::vector<SpecialPoint> folds(3, SpecialPoint{.type = PointType::fold,
+                                                          .located = true,
+                                                          .detail = {},
+                                                          .solution = {},
+                                                          .parameter = 0,
+                                                          .bracket = {},
+                                                          .arclength = 0,
+                                                          .step = 0,
+                                                          .tangent = {},
+                                                          .monitors = {},
+                                                          .segment = 0,
+                                                          .event = 0,
+                                                          .time = 0,
+                                                          .at_end = false});
+    EXPECT_THROW(chatter_limit(model, folds, model.independent_parameter("s")), InputError);
+}
+
+} // namespace
+} // namespace graze

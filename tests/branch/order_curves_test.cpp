@@ -1,0 +1,252 @@
+// Curves along which events keep coming at once, a segment takes no time, or a guard is about to change: all closed
+// forms.
+
+#include "maps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+/// x decays, at other rates after each event of a clock: 1 up to a, 3 from then on, 2 after b^2 if that comes, until
+/// the clock is set back after a time 2 and x gains 1.
+/// @param watched in the second mode; @param next of the first event, as TOML
+Model timed(const std::string& first_watched, const std::string& second_watched, const std::string& next) {
+    return model_from(fmt::format(R"toml(
+[parameters]
+a = 0.5
+b = 1
+g = 0.2
+[states]
+x = 1
+c = 0
+[modes.first]
+rates = {{ x = "-x", c = 1 }}
+watch = [{}]
+[modes.second]
+rates = {{ x = "-3*x", c = 1 }}
+watch = [{}]
+[modes.third]
+rates = {{ x = "-2*x", c = 1 }}
+watch = ["set_back"]
+[events.early]
+function = "a - c"
+[events.late]
+function = "b^2 - c"
+[events.set_back]
+function = "2 - c"
+[jumps.stay]
+[jumps.reset]
+x = "x + 1"
+c = 0
+[[transitions]]
+mode = "first"
+event = "early"
+jump = "stay"
+next = {}
+label = "A"
+[[transitions]]
+mode = "first"
+event = "late"
+jump = "stay"
+next = "third"
+label = "D"
+[[transitions]]
+mode = "second"
+event = "late"
+jump = "stay"
+next = "third"
+label = "B"
+[[transitions]]
+mode = "second"
+event = "set_back"
+jump = "reset"
+next = "first"
+label = "E"
+[[transitions]]
+mode = "third"
+event = "set_back"
+jump = "reset"
+next = "first"
+label = "C"
+[initial]
+mode = "first"
+)toml",
+                                  first_watched, second_watched, next));
+}
+
+/// x after it has gained 1, where it decays by so much in between.
+double start_of(double decay) {
+    return 1 / (1 - std::exp(-decay));
+}
+
+/// The branch in a, up to its only point of this type.
+SpecialPoint found(const Model& model, const std::string& signature, std::vector<std::vector<double>> starts,
+                   std::vector<double> durations, PointType type) {
+    BranchSettings settings = in_parameter(model, "a", 0.1, 1.5);
+    settings.stop_at = {type};
+    const Orbit orbit{
+        parse_signature(model, signature), model.parameter_values(), std::move(starts), std::move(durations), {}};
+    const Branch branch = follow_branch(model, orbit, settings);
+    EXPECT_EQ(branch.outcome, BranchOutcome::stopped) << names(branch) << branch.detail;
+    return branch.special.empty() ? SpecialPoint{} : branch.special.back();
+}
+
+TEST(OrderCurves, of_two_events_at_once_have_their_closed_form) {
+    // After the first event the later one is watched no more: orbits are A E as long as a < b^2.
+    const Model model = timed("\"early\", \"late\"", "\"set_back\"", "\"second\"");
+    const double x = start_of(0.5 + 3 * 1.5);
+    const SpecialPoint point =
+        found(model, "A E", {{x, 0}, {x * std::exp(-0.5), 0.5}}, {0.5, 1.5}, PointType::two_events);
+    EXPECT_NEAR(point.parameter, 1, 1e-12);
+    EXPECT_EQ(point.detail, "late");
+    for (const int way : {1, -1}) {
+        const Branch curve = curve_of(model, point, in_parameter(model, "a", 0.1, 1.5), "b", 0.5, 1.3, way);
+        EXPECT_EQ(names(curve), "BD") << curve.detail;
+        ASSERT_GT(curve.points.size(), 5U);
+        for (const BranchPoint& one : curve.points) {
+            const double b = value_of(model, one.solution, "b"), a = one.parameter;
+            EXPECT_NEAR(a, b * b, 1e-12);
+            EXPECT_NEAR(one.solution.orbit.starts[0][0], start_of(a + 3 * (2 - a)), 1e-11);
+            EXPECT_TRUE(one.solution.certificate.admissible) << one.solution.certificate.reason;
+        }
+    }
+}
+
+TEST(OrderCurves, of_vanishing_segments_have_their_closed_form) {
+    const Model model = timed("\"early\"", "\"late\", \"set_back\"", "\"second\"");
+    const double x = start_of(0.5 + 3 * 0.5 + 2 * 1);
+    const SpecialPoint point = found(model, "A B C", {{x, 0}, {x * std::exp(-0.5), 0.5}, {x * std::exp(-2), 1}},
+                                     {0.5, 0.5, 1}, PointType::vanishing);
+    EXPECT_NEAR(point.parameter, 1, 1e-12);
+    EXPECT_EQ(point.detail.substr(0, 9), "segment 2");
+    for (const int way : {1, -1}) {
+        const Branch curve = curve_of(model, point, in_parameter(model, "a", 0.1, 1.5), "b", 0.5, 1.3, way);
+        EXPECT_EQ(names(curve), "BD") << curve.detail;
+        ASSERT_GT(curve.points.size(), 5U);
+        for (const BranchPoint& one : curve.points) {
+            const double b = value_of(model, one.solution, "b"), a = one.parameter;
+            EXPECT_NEAR(a, b * b, 1e-12);
+            EXPECT_NEAR(one.solution.orbit.durations[1], 0, 1e-12);
+            EXPECT_NEAR(one.solution.orbit.starts[0][0], start_of(a + 2 * (2 - a)), 1e-11);
+            EXPECT_TRUE(one.solution.certificate.admissible) << one.solution.certificate.reason;
+        }
+    }
+}
+
+TEST(OrderCurves, of_guards_about_to_change_have_their_closed_form) {
+    // Whether x exceeds g when the first event comes decides what follows.
+    const Model model =
+        timed("\"early\"", "\"set_back\"", R"([{ when = "x - g > 0", mode = "second" }, { mode = "third" }])");
+    const auto level = [](double a) { return std::exp(-a) * start_of(a + 3 * (2 - a)); };
+    const double x = start_of(0.5 + 3 * 1.5);
+    Model with = model;
+    with.set_parameter("g", level(1));
+    const SpecialPoint point = found(with, "A E", {{x, 0}, {x * std::exp(-0.5), 0.5}}, {0.5, 1.5}, PointType::guard);
+    EXPECT_NEAR(point.parameter, 1, 1e-11);
+    for (const int way : {1, -1}) {
+        const Branch curve = curve_of(with, point, in_parameter(with, "a", 0.1, 1.5), "g", 0.05, 3, way);
+        EXPECT_EQ(names(curve), "BD") << curve.detail;
+        ASSERT_GT(curve.points.size(), 5U);
+        for (const BranchPoint& one : curve.points) {
+            EXPECT_NEAR(value_of(with, one.solution, "g"), level(one.parameter), 1e-11);
+            EXPECT_TRUE(one.solution.certificate.admissible) << one.solution.certificate.reason;
+        }
+    }
+}
+
+/// x'' + 0.2 x' + x = F cos(c) with the phase c, set back at 2 pi, and two events that change what y does: at a phase
+/// 0.5 and at 0.3 omega. What the stop does is of no interest: it is only touched, at a phase beyond 2.
+Model touching_among_events() {
+    std::string text = R"toml(
+[parameters]
+F = 0.3
+omega = 1.3
+d = 1
+[states]
+x = 0
+v = 0
+y = 1
+c = 0
+[events.stop]
+function = "d - x"
+[events.fixed]
+function = "0.5 - c"
+[events.moving]
+function = "0.3*omega - c"
+[events.round]
+function = "2*pi - c"
+[jumps.impact]
+v = "-0.8*v"
+[jumps.one]
+y = "y + 1"
+[jumps.half]
+y = "y/2"
+[jumps.reset]
+c = "c - 2*pi"
+[sections.late]
+function = "c - 3"
+direction = "rising"
+[initial]
+mode = "neither"
+)toml";
+    const auto mode = [&](const std::string& name, const std::string& watched) {
+        text += fmt::format("[modes.{}]\nrates = {{ x = \"v\", v = \"F*cos(c) - 0.2*v - x\", y = \"-y\", c = \"omega\" "
+                            "}}\nwatch = [\"stop\", {}]\n",
+                            name, watched);
+    };
+    const auto transition = [&](const std::string& from, const std::string& event, const std::string& jump,
+                                const std::string& next, const std::string& label) {
+        text += fmt::format("[[transitions]]\nmode = \"{}\"\nevent = \"{}\"\njump = \"{}\"\nnext = \"{}\"\nlabel = "
+                            "\"{}\"\n",
+                            from, event, jump, next, label);
+    };
+    mode("neither", "\"fixed\", \"moving\"");
+    mode("one", "\"moving\"");
+    mode("other", "\"fixed\"");
+    mode("both", "\"round\"");
+    for (const char* name : {"neither", "one", "other", "both"})
+        transition(name, "stop", "impact", name, fmt::format("hit_{}", name));
+    transition("neither", "fixed", "one", "one", "A");
+    transition("neither", "moving", "half", "other", "B");
+    transition("one", "moving", "half", "both", "C");
+    transition("other", "fixed", "one", "both", "D");
+    transition("both", "round", "reset", "neither", "R");
+    return model_from(text);
+}
+
+TEST(OrderCurves, of_touches_go_on_where_other_events_change_their_order) {
+    const Model model = touching_among_events();
+    const auto force = [](double omega) { return std::hypot(1 - omega * omega, 0.2 * omega); };
+    const OrbitSolution start = settled(model, "late", 400);
+    BranchSettings settings = in_parameter(model, "F", 0.1, 5);
+    const Branch branch = follow_branch(model, start.orbit, settings);
+    const auto touches = of_type(branch, PointType::grazing);
+    ASSERT_EQ(touches.size(), 1U) << names(branch) << branch.detail;
+    EXPECT_NEAR(touches[0].parameter, force(1.3), 1e-11);
+    // Beyond omega = 5/3 the fixed event comes first, before that the moving one.
+    const Branch curve = curve_of(model, touches[0], settings, "omega", 0.9, 2.2, 1);
+    EXPECT_EQ(curve.outcome, BranchOutcome::bound) << names(curve) << curve.detail;
+    std::size_t changes = 0;
+    for (const SpecialPoint& one : curve.special)
+        if (one.detail.find("goes on as") != std::string::npos) {
+            ++changes;
+            EXPECT_NEAR(value_of(model, one.solution, "omega"), 5.0 / 3, 1e-11);
+        }
+    EXPECT_EQ(changes, 1U) << names(curve);
+    ASSERT_GT(curve.points.size(), 10U);
+    for (const BranchPoint& one : curve.points) {
+        const double omega = value_of(model, one.solution, "omega");
+        EXPECT_NEAR(one.parameter, force(omega), 1e-10);
+        EXPECT_TRUE(one.solution.certificate.admissible) << one.solution.certificate.reason;
+    }
+    EXPECT_NEAR(value_of(model, curve.points.back().solution, "omega"), 2.2, 1e-12);
+}
+
+} // namespace
+} // namespace graze
