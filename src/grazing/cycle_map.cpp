@@ -124,6 +124,8 @@ std::vector<OrbitTouch> touches_in(Shooting& shooting, const OrbitEvaluation& at
             std::abs(one.value) < touching * std::max(size, rate * orbit.round()))
             found.push_back({one.segment, one.event, orbit.durations[one.segment], false});
     }
+    if (found.size() < 2)
+        return found;
     std::vector<OrbitTouch> result;
     std::vector<std::vector<double>> places;
     for (const OrbitTouch& one : found) {
@@ -151,7 +153,7 @@ std::vector<OrbitTouch> touches_of(const System& system, const Orbit& orbit, con
 }
 
 CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
-                      std::optional<std::size_t> free) {
+                      std::optional<std::size_t> free, AskedContacts asked) {
     const System& system = equations.system();
     CycleMap map;
     map.touch = touch;
@@ -162,7 +164,7 @@ CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at
     map.reason = back.reason;
     if (!map.reason.empty())
         return map;
-    map.contact = discontinuity_map(system, back.touch);
+    map.contact = local_map(functions, back.touch, asked);
     map.reason = map.contact.reason;
     const Eigen::Index n = index(system.states());
     map.active = at.active;

@@ -4,6 +4,7 @@
 #include "graze/symbolic/require.hpp"
 #include "grazing/compliant_contact.hpp"
 #include "grazing/contact_chain.hpp"
+#include "grazing/local_map.hpp"
 #include "grazing/touch_geometry.hpp"
 #include "orbit/eigen_index.hpp"
 
@@ -109,10 +110,14 @@ std::string_view name_of(MapOrder order) {
 
 DiscontinuityMap discontinuity_map(const System& system, const TouchState& touch) {
     require_fitting(system, touch);
+    return local_map(TouchFunctions(system, touch.mode, touch.event), touch, AskedContacts::all);
+}
+
+DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& touch, AskedContacts asked) {
+    const System& system = functions.system();
     DiscontinuityMap map;
     map.touch = touch;
     const std::size_t n = system.states();
-    const TouchFunctions functions(system, touch.mode, touch.event);
     TouchGeometry geometry = functions.at(touch.state, touch.parameters);
     const TouchSizes sizes(touch, geometry);
     map.reason = problem_of(system, touch, geometry, sizes);
@@ -142,6 +147,10 @@ DiscontinuityMap discontinuity_map(const System& system, const TouchState& touch
     if (!chain.leaves_by_surface) {
         map.reason = fmt::format("mode '{}' is not left at the surface at which it is entered",
                                  system.model().modes[chain.modes.front()].name);
+        return map;
+    }
+    if (asked == AskedContacts::rigid) {
+        map.reason = "the contact is not rigid";
         return map;
     }
     const CompliantContact contact = compliant_contact(functions, map.touch, geometry, sizes, chain.modes.front());
