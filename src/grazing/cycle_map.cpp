@@ -114,14 +114,15 @@ std::vector<OrbitTouch> touches_in(Shooting& shooting, const OrbitEvaluation& at
     for (const OrbitMinimum& one : certificate.minima)
         if (std::abs(one.value) < touching * one.size)
             found.push_back({one.segment, one.event, one.time, false});
+    // The least value may lie a little beyond the end, by the square of the rate.
+    constexpr double slow = 1e-4;
     for (const EndValue& one : certificate.end_values) {
         double size = 0;
         for (const OrbitMinimum& other : certificate.minima)
             if (other.segment == one.segment && other.event == one.event)
                 size = std::max(size, other.size);
         const double rate = shooting.usual_rate(at, one.segment, one.event);
-        if (std::abs(one.rate) < touching * rate &&
-            std::abs(one.value) < touching * std::max(size, rate * orbit.round()))
+        if (std::abs(one.rate) < slow * rate && std::abs(one.value) < touching * std::max(size, rate * orbit.round()))
             found.push_back({one.segment, one.event, orbit.durations[one.segment], false});
     }
     if (found.size() < 2)

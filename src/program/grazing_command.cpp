@@ -53,11 +53,17 @@ private:
     JsonObject values_;
 };
 
-std::optional<ParameterId> parameter_of(const StoredRun& run, const std::string& asked) {
-    const std::string name = asked.empty() ? followed_parameter(run.record) : asked;
-    if (name.empty())
-        return std::nullopt;
-    return run.model.independent_parameter(name);
+/// What moves the orbit from its touch: what was asked for, or what the run follows. On a curve that is first the one
+/// that has been freed, since its own may have nothing to do with the orbit, as the stiffness of a stop has not.
+std::vector<ParameterId> parameters_of(const StoredRun& run, const std::string& asked) {
+    if (!asked.empty())
+        return {run.model.independent_parameter(asked)};
+    std::vector<ParameterId> result;
+    if (run.record.kind == "curve" && run.record.coordinates.size() > 1)
+        result.push_back(run.model.independent_parameter(run.record.coordinates[1].name));
+    if (const std::string followed = followed_parameter(run.record); !followed.empty())
+        result.push_back(run.model.independent_parameter(followed));
+    return result;
 }
 
 /// A grazing is kept with its place; others are looked through for one.
@@ -70,6 +76,19 @@ OrbitTouch touch_of(const System& system, const OrbitRecord& record) {
         throw InputError(Place{"POINT", 0, 0}, fmt::format("the orbit at {} touches nothing", title_of(record)),
                          "choose a grazing (GR), or a point of a curve of them");
     return touches.front();
+}
+
+/// The map with the first of the parameters that moves the orbit; if none does, with the last.
+void find_map(Findings& found, const System& system, const std::string& asked) {
+    const OrbitTouch touch = touch_of(system, found.stored.record);
+    CycleMapOptions options;
+    found.map = cycle_map(system, found.stored.record.point.solution.orbit, touch, options);
+    for (const ParameterId parameter : parameters_of(found.stored.run, asked)) {
+        found.parameter = options.parameter = parameter;
+        found.map = cycle_map(system, found.stored.record.point.solution.orbit, touch, options);
+        if (found.map.clearance_rate && *found.map.clearance_rate != 0)
+            return;
+    }
 }
 
 std::string contacts_text(const Model& model, const std::vector<std::size_t>& contacts) {
@@ -190,12 +209,8 @@ JsonObject heading_of(const ResultFile& file, const Findings& found, const Facts
 int grazing_command(const GrazingArguments& arguments, const Console& console) {
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
     Findings found{find_stored_orbit(file, arguments.point, {"POINT", 0, 0}), {}, {}, {}, {}};
-    found.parameter = parameter_of(found.stored.run, arguments.parameter);
     const System system(found.stored.run.model);
-    const Orbit& orbit = found.stored.record.point.solution.orbit;
-    CycleMapOptions options;
-    options.parameter = found.parameter;
-    found.map = cycle_map(system, orbit, touch_of(system, found.stored.record), options);
+    find_map(found, system, arguments.parameter);
     found.verdict = verdict_of(found.map);
     if (arguments.verify) {
         if (!found.parameter)
