@@ -1,6 +1,6 @@
 #include "branch/accumulating_orbit.hpp"
 
-#include "branch/orbit_quantity.hpp"
+#include "flow/lie_derivative.hpp"
 #include "orbit/eigen_index.hpp"
 #include "orbit/newton.hpp"
 #include "orbit/orbit_flow.hpp"
@@ -46,12 +46,10 @@ AccumulatingOrbit::AccumulatingOrbit(const System& system, const SpecialPoint& g
             const auto transition = static_cast<std::size_t>(contact - model.transitions.data());
             first_mode_ = image_of(system, *orbit.symmetry, {mode_, SegmentEnd::event, transition}, orbit).mode;
         }
-    Expression height = model.events[grazing.event].function;
-    constexpr int derivatives = 4;
-    for (int k = 0; k < derivatives; ++k) {
-        heights_.push_back(simulation_.system().with_gradient(height));
-        height = rate_along(simulation_.system(), mode_, height);
-    }
+    constexpr int derivatives = 3;
+    heights_.push_back(simulation_.system().event(grazing.event));
+    for (const Expression& rate : rates_of(simulation_.system(), mode_, grazing.event, derivatives))
+        heights_.push_back(simulation_.system().with_gradient(rate));
     const Shooting shooting(simulation_, orbit, {along});
     const auto n = index(model.states.size());
     scales_.resize(n + 1);
@@ -154,7 +152,7 @@ bool AccumulatingOrbit::judge(const VectorXd& before, const VectorXd& after, Res
     rest.excess = speed / deceleration * (third / deceleration) / rest.contacts.speed - 1;
     // Heights fall with the third power of the time that is left, and the states that they are made of do not.
     const double left = deceleration / third, height = third * left * left * left;
-    rest.uncertainty = epsilon * slopes(after).row(0).cwiseAbs().dot(after.cwiseAbs()) / height;
+    rest.uncertainty = 4 * epsilon * slopes(after).row(0).cwiseAbs().dot(after.cwiseAbs()) / height;
     return std::isfinite(rest.excess);
 }
 

@@ -4,7 +4,7 @@
 #include "branch/grazing_switch.hpp"
 #include "branch/orbit_quantity.hpp"
 #include "branch/reordering.hpp"
-#include "branch/touch_sensitivity.hpp"
+#include "grazing/return_map.hpp"
 #include "orbit/certify.hpp"
 
 #include <fmt/format.h>
@@ -203,17 +203,18 @@ std::vector<BranchStart> leave_order(const System& system, const SpecialPoint& p
     return {with_events_reordered(system, point, settings)};
 }
 
-/// Where fold and flip curves of the impacting orbits end on that of the touches.
+/// What an impact makes of the next pass, by its speed: where it is positive the next pass is free, where it is
+/// negative it hits the harder. Where it is zero curves of folds and flips of the impacting orbits end on that of the
+/// touches (P. Thota, X. Zhao and H. Dankowicz, "Co-dimension-two grazing bifurcations in single-degree-of-freedom
+/// impact oscillators", J. Comput. Nonlinear Dynam. 1, 2006).
 void test_sensitivity(const TestedPoint& point, std::vector<BranchTest>& tests) {
     const auto& kept = point.settings.kept;
     if (!kept || kept->type != PointType::grazing || kept->at_end)
         return;
-    const auto value =
-        touch_sensitivity(point.equations.simulation(), point.solution.orbit, kept->segment, kept->event, kept->time);
-    constexpr double least = 1e-9; // of a round: less is round-off, as where impacts change nothing of the next pass
-    tests.push_back({.type = PointType::sensitivity,
-                     .value = value.value_or(nothing),
-                     .noise = least * point.solution.orbit.round()});
+    const CycleMap map =
+        cycle_map_of(point.equations, point.at, {kept->segment, kept->event, kept->time, false}, std::nullopt);
+    const bool known = map.exists() && map.contact.order == MapOrder::square_root;
+    tests.push_back({.type = PointType::sensitivity, .value = known ? map.projections(1).front() : nothing});
 }
 
 bool confirm_sensitivity(BranchState& state, SpecialPoint& special, const BranchTest&) {

@@ -1,5 +1,6 @@
 #include "branch/orbit_quantity.hpp"
 
+#include "flow/lie_derivative.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
 #include "graze/symbolic/transform.hpp"
@@ -43,21 +44,6 @@ const Transition& transition_of(const OrbitEquations& equations, std::size_t seg
 }
 
 } // namespace
-
-Expression rate_of(const System& system, std::size_t mode, std::size_t event) {
-    return rate_along(system, mode, system.model().events[event].function);
-}
-
-Expression rate_along(const System& system, std::size_t mode, const Expression& expression) {
-    Model model = system.model();
-    const auto states = model.state_symbols();
-    const Expression function = model.expand(expression);
-    const auto rates = model.expand(model.modes[mode].rates);
-    Expression rate = model.graph->number(0);
-    for (std::size_t i = 0; i < states.size(); ++i)
-        rate = rate + differentiate(function, states[i]) * rates[i];
-    return rate;
-}
 
 OrbitQuantity OrbitQuantity::of_monitor(const OrbitEquations& equations, const Monitor& monitor,
                                         std::optional<std::size_t> segment, double value) {

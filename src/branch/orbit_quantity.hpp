@@ -87,9 +87,4 @@ private:
     std::vector<Watched> watched_;
 };
 
-/// Rate of an event's function along the flow of a mode.
-Expression rate_of(const System& system, std::size_t mode, std::size_t event);
-/// The same of any expression in the model's symbols.
-Expression rate_along(const System& system, std::size_t mode, const Expression& expression);
-
 } // namespace graze

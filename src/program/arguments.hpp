@@ -92,6 +92,12 @@ struct OrbitArguments {
     OutputArguments output;
 };
 
+struct GrazingArguments {
+    std::string file, point, parameter;
+    bool verify = false;
+    OutputArguments output;
+};
+
 struct InfoArguments {
     std::string file;
     bool all = false;
@@ -116,6 +122,7 @@ struct Arguments {
     PlotArguments plot;
     PointsArguments points;
     OrbitArguments orbit;
+    GrazingArguments grazing;
     CheckArguments check;
     ModelsArguments models;
     SimulateArguments simulate;

@@ -37,6 +37,16 @@ constexpr const char* orbit_examples = R"(Examples:
   graze orbit results chain:17 --plot orbit.svg
   graze orbit results GR1 --plot history.pdf --x t --y q,v)";
 
+constexpr const char* grazing_text = R"(Say what becomes of an orbit that touches: persists, or trips?
+At a grazing (GR), or any other point whose orbit touches an event's surface without speed: how a contact there acts on
+the motion, which follows from the model's equations alone, on which later pass the next contact comes, and whether an
+attractor remains beyond. POINT is written as for graze orbit. With --verify the verdict is checked by simulation.)";
+
+constexpr const char* grazing_examples = R"(Examples:
+  graze grazing results GR1                        what a contact does, and the verdict
+  graze grazing results chain:GR1 --verify         checked by motions just beyond
+  graze grazing results GR1 --format json          every number, with all its digits)";
+
 template <class Value>
 CLI::Option* add(CLI::App& command, const char* group, const char* name, Value& value, const char* type,
                  const char* text) {
@@ -88,11 +98,26 @@ void declare_orbit(CLI::App& app, OrbitArguments& arguments) {
         "Keep data and commands, to be changed and drawn by `gnuplot FILE`");
 }
 
+void declare_grazing(CLI::App& app, GrazingArguments& arguments) {
+    CLI::App& command = *app.add_subcommand("grazing", grazing_text);
+    command.footer(grazing_examples);
+    command.add_option("FILE", arguments.file, "Result file, or the folder of a study")->type_name("")->required();
+    command.add_option("POINT", arguments.point, "LABEL, RUN:LABEL or RUN:NUMBER")->type_name("")->required();
+    const char* group = "What to show";
+    add(command, group, "--parameter", arguments.parameter, "NAME",
+        "That moves the orbit from its touch (the one that its run follows)");
+    command.add_flag("--verify", arguments.verify, "Check the verdict by simulation beside the touch")->group(group);
+    declare_output(command, arguments.output);
+    command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal")
+        ->group("Output");
+}
+
 } // namespace
 
 void declare_branch_commands(CLI::App& app, Arguments& arguments) {
     declare_points(app, arguments.points);
     declare_orbit(app, arguments.orbit);
+    declare_grazing(app, arguments.grazing);
 }
 
 } // namespace graze

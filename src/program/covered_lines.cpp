@@ -12,8 +12,10 @@ namespace graze {
 
 namespace {
 
-constexpr double side = 0.7;    ///< of a square, in points: about half the width of a line
+constexpr double side = 0.4;    ///< of a square, in points: lines further apart than that are both seen
 constexpr double together = 30; ///< points for which lines must run along one another; such as cross do so for fewer
+constexpr double covered_share = 0.7; ///< of a line: of the others enough is seen
+constexpr std::size_t most_layers = 2;
 constexpr double longest = 1e5; ///< points: of a piece of a line that leaves the page
 
 using Squares = std::unordered_set<std::uint64_t>;
@@ -71,12 +73,12 @@ std::vector<std::size_t> covering_lines(const FigurePanel& panel, const PanelLay
             const auto is_covered = [&](std::uint64_t square) { return over.contains(square); };
             const Squares& under = squares[colours[below]];
             const auto shared = static_cast<double>(std::count_if(under.begin(), under.end(), is_covered));
-            if (shared * side > together)
+            if (shared * side > together && shared > covered_share * static_cast<double>(under.size()))
                 ++covering[colours[below]];
         }
     std::vector<std::size_t> counts;
     for (const FigureSeries& series : panel.series)
-        counts.push_back(is_line(series) ? covering[series.colour] : 0);
+        counts.push_back(is_line(series) ? std::min(covering[series.colour], most_layers) : 0);
     return counts;
 }
 

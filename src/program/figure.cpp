@@ -3,6 +3,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "program/covered_lines.hpp"
 #include "program/curve.hpp"
+#include "program/dot_strokes.hpp"
 #include "program/figure_layout.hpp"
 #include "program/gnuplot_text.hpp"
 #include "program/mingled_dots.hpp"
@@ -19,6 +20,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <utility>
 
 namespace graze {
@@ -49,6 +51,7 @@ struct Terminal {
     double letters = 1; ///< the font's size, for a point
     std::string font;   ///< its name
     bool latex = false;
+    bool pixels = false;
 
     std::string text(const RichText& rich) const { return latex ? latex_markup(rich) : gnuplot_markup(rich); }
     std::string font_text(double size) const { return fmt::format("font '{},{:.4g}'", font, size * letters); }
@@ -61,6 +64,7 @@ Terminal terminal_of(const Figure& figure, const FigureLayout& page, const std::
     const double width = page.width / points_per_inch, height = page.height / points_per_inch;
     const double stroke = page.font / usual_font; // lines become thicker as letters become larger
     if (ending == "png") {
+        terminal.pixels = true;
         const double scale = dots_per_inch / svg_per_inch;
         terminal.command = fmt::format(
             "pngcairo noenhanced size {:.0f},{:.0f} fontscale {:.4g} linewidth {:.4g} pointscale {:.4g} "
@@ -282,7 +286,7 @@ private:
             const FigureSeries& series = panel.series[s];
             if (series.style == FigureSeries::Style::dots) {
                 if (!dots)
-                    add(dots_text(panel, layout), dots_style(panel));
+                    add_dots(panel, layout, add);
                 dots = true;
                 continue;
             }
@@ -330,21 +334,35 @@ private:
 
     static constexpr std::size_t few = 1000, crowd = 20000;
 
-    std::string dots_style(const FigurePanel& panel) const {
-        std::size_t points = 0;
-        for (const FigureSeries& series : panel.series)
-            points += series.style == FigureSeries::Style::dots ? series.points.size() : 0;
-        const double size = points > few ? 0.17 : 0.22;
-        return (points > crowd ? std::string("with dots") : fmt::format("with points pt 7 ps {:.3g}", size * symbol_)) +
-               " lc rgb variable";
-    }
-
-    static std::string dots_text(const FigurePanel& panel, const PanelLayout& layout) {
+    /// @param add is given data and style
+    template <class Add>
+    void add_dots(const FigurePanel& panel, const PanelLayout& layout, const Add& add) const {
+        const std::vector<MingledDot> dots = mingled_dots(panel, layout);
+        if (dots.size() > few && !terminal_.pixels)
+            return add_strokes(panel, layout, dots, add);
         std::string text;
-        for (const MingledDot& dot : mingled_dots(panel, layout))
+        for (const MingledDot& dot : dots)
             text +=
                 fmt::format("{:.7g} {:.7g} {}\n", dot.at.x, dot.at.y, colour_number(panel.series[dot.series].colour));
-        return text;
+        const double size = dots.size() > few ? 0.17 : 0.22;
+        const std::string style =
+            dots.size() > crowd ? "with dots" : fmt::format("with points pt 7 ps {:.3g}", size * symbol_);
+        add(text, style + " lc rgb variable");
+    }
+
+    /// A file with each dot of a crowd would have tens of megabytes.
+    template <class Add>
+    void add_strokes(const FigurePanel& panel, const PanelLayout& layout, const std::vector<MingledDot>& dots,
+                     const Add& add) const {
+        constexpr double of_unit = 0.75; ///< points: what is as wide as gnuplot's unit where lines are as usual
+        const double width = dots.size() > crowd ? 1 : 0.17 * mark_size(page_.font); // as those of dots
+        std::map<std::pair<std::size_t, std::size_t>, std::string> texts;            // by layer, then by series
+        for (const DotStroke& stroke : dot_strokes(dots, layout, width))
+            texts[{stroke.layer, stroke.series}] +=
+                fmt::format("{:.7g} {:.7g}\n{:.7g} {:.7g}\n\n", stroke.from.x, stroke.from.y, stroke.to.x, stroke.to.y);
+        for (const auto& [key, text] : texts)
+            add(text, fmt::format("with lines lw {:.3g} lc rgb '{}'", width / (of_unit * page_.font / usual_font),
+                                  colour_text(panel.series[key.second].colour)));
     }
 
     const Figure* figure_;

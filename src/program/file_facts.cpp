@@ -68,8 +68,8 @@ void add_parameters(Facts& facts, const std::string& run, const Model& model) {
         facts.add("parameter", run, names[p], values[p], model.parameters[*model.find_parameter(names[p])].unit);
 }
 
-void add_settings(Facts& facts, const std::string& run, const std::string& settings) {
-    for (const Setting& setting : setting_list(settings))
+void add_settings(Facts& facts, const std::string& run, const std::string& settings, const std::string& file) {
+    for (const Setting& setting : setting_list(settings, stored_place(file, fmt::format("settings of run '{}'", run))))
         if (setting.number)
             facts.add("setting", run, setting.name, *setting.number);
         else
@@ -189,7 +189,7 @@ void add_facts(Facts& facts, const Study& study) {
     }
     for (const StudyRun& run : study.runs) {
         add_parameters(facts, run.name, run.model);
-        add_settings(facts, run.name, settings_of(run));
+        add_settings(facts, run.name, settings_of(run), "");
     }
     add_pictures(facts, study);
 }
@@ -217,7 +217,7 @@ void add_facts(Facts& facts, const ResultFile& file) {
         }
     for (const RunRecord& record : records) {
         add_parameters(facts, record.name, stored_model(record));
-        add_settings(facts, record.name, record.settings);
+        add_settings(facts, record.name, record.settings, record.file);
     }
     if (study)
         add_pictures(facts, *study);

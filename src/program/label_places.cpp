@@ -15,9 +15,9 @@ namespace {
 
 // In heights of a label.
 constexpr double letters_beyond = 0.25, gap_at_mark = 0.1;
-constexpr std::array<double, 10> distances{0, 0.2, 0.5, 1.1, 1.8, 2.8, 4, 5.5, 7.5, 10};
+constexpr std::array<double, 14> distances{0, 0.1, 0.5, 0.8, 1.1, 1.4, 1.8, 2.3, 2.8, 3.4, 4, 4.7, 5.5, 6.5};
 constexpr double led_from = 0.3; ///< distance from which on a line is needed to see what belongs together
-constexpr std::size_t directions = 16;
+constexpr std::size_t directions = 32;
 
 constexpr double cost_of_distance = 3, cost_of_curve = 8, cost_of_crossing = 0.5, cost_of_side = 0.3;
 constexpr double cost_of_any_curve = 35; ///< a longer leader is better than a label that a curve runs through

@@ -128,6 +128,10 @@ void write_decades(PanelAxis& axis, int step) {
 
 } // namespace
 
+double PanelAxis::value_at(double share) const {
+    return logarithmic ? low * std::pow(high / low, share) : low + share * (high - low);
+}
+
 double PanelAxis::share(double value) const {
     if (logarithmic)
         return value > 0 ? std::log(value / low) / std::log(high / low) : std::numeric_limits<double>::quiet_NaN();

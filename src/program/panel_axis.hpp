@@ -21,6 +21,8 @@ struct PanelAxis {
 
     /// Where a value lies: 0 at the beginning of the axis, 1 at its end; NaN for what has no place.
     double share(double value) const;
+    /// The value at a share.
+    double value_at(double share) const;
 };
 
 /// Whether both numbers have a place on the panel's axes, which may be logarithmic.

@@ -61,6 +61,8 @@ std::vector<std::pair<std::string, std::string>> ends_of(const StoredRun& run) {
     auto rows = run.rows({.columns = {"part", "detail"}});
     while (rows.next()) {
         std::erase_if(ends, [part = rows.text(0)](const auto& end) { return end.first == part; });
+        if (run.record.kind == name_of(RunKind::ladder))
+            ends.clear(); // each rung ends where the next begins
         ends.emplace_back(rows.text(0), rows.text(1));
     }
     const bool unfinished = run.record.status == RunStatus::unfinished; // of which only the last part can be

@@ -28,7 +28,7 @@ constexpr std::size_t longest_failure = 4000; ///< bytes that are shown
 void require_names(const RunRecord& run, const std::string& path) {
     const Place place{path, 0, 0};
     require_file_name(run.name, "name of a run", place);
-    const std::array<std::string_view, 6> kinds{"simulate", "sweep", "basin", "orbit", "continue", "curve"};
+    const std::array<std::string_view, 7> kinds{"simulate", "sweep", "basin", "orbit", "continue", "curve", "ladder"};
     if (std::find(kinds.begin(), kinds.end(), run.kind) == kinds.end())
         throw InputError(place, fmt::format("run '{}' is of unknown kind '{}'", run.name, run.kind),
                          "use the version of graze that wrote it");

@@ -3,45 +3,18 @@
 #include "graze/branch/curve_start.hpp"
 #include "graze/branch/switching.hpp"
 #include "graze/orbit/orbit_file.hpp"
-#include "study/point_limits.hpp"
+#include "study/branch_part.hpp"
+#include "study/ladder_run.hpp"
 #include "study/start_point.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
 
 namespace graze {
 
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN(); ///< NULL in the file
-
-/// A branch, or half of one, that a run follows.
-struct Part {
-    std::string name;
-    Orbit orbit;
-    std::optional<BranchStart> onto; ///< along this rather than along the branch through the orbit
-    int direction = 1;
-    bool again = false; ///< another part has begun at the same orbit
-    std::string twin;   ///< of which part its orbits are images under the symmetry; empty: of none
-    std::optional<SpecialPoint> kept = std::nullopt; ///< of curves
-};
-
-/// Messages of numerical functions, with the place of the run.
-template <class Work>
-auto at_place(const Place& place, const StudyRun& run, const Work& work) {
-    try {
-        return work();
-    } catch (const InputError& error) {
-        if (!error.place().file.empty())
-            throw;
-        throw InputError(place, fmt::format("run '{}': {}", run.name, error.problem()), error.remedy());
-    }
-}
 
 /// An orbit with the signature that is asked for. None when interrupted.
 std::optional<Orbit> orbit_asked_for(const StudyRun& run, const System& system, const RunnerOptions& options) {
@@ -100,14 +73,14 @@ Orbit taken_over(const StudyRun& run, Orbit orbit) {
     return orbit;
 }
 
-std::vector<Part> in_directions(const std::vector<std::string>& names, const Orbit& orbit) {
-    std::vector<Part> parts;
+std::vector<BranchPart> in_directions(const std::vector<std::string>& names, const Orbit& orbit) {
+    std::vector<BranchPart> parts;
     for (const std::string& name : names)
         parts.push_back({name, orbit, std::nullopt, name == "down" ? -1 : 1, !parts.empty(), ""});
     return parts;
 }
 
-std::vector<Part> both_directions(const StudyRun& run, const Orbit& orbit) {
+std::vector<BranchPart> both_directions(const StudyRun& run, const Orbit& orbit) {
     return in_directions(direction_names(run), orbit);
 }
 
@@ -152,27 +125,27 @@ SpecialPoint point_to_keep(const StudyRun& run, const SpecialPoint& point) {
 
 /// Both ways along the curve through a point. From a resonance a curve of torus points leads one way, which is not
 /// known before.
-std::vector<Part> parts_of_curve(const StudyRun& run, const SpecialPoint& point) {
+std::vector<BranchPart> parts_of_curve(const StudyRun& run, const SpecialPoint& point) {
     const Orbit orbit = taken_over(run, point.solution.orbit);
     if (!run.branch.keeps_point())
         return both_directions(run, orbit);
     const SpecialPoint kept = point_to_keep(run, point);
     const bool resonant = point.type == PointType::resonance_1 || point.type == PointType::resonance_2;
-    std::vector<Part> parts =
+    std::vector<BranchPart> parts =
         resonant && kept.type == PointType::torus ? in_directions({"up", "down"}, orbit) : both_directions(run, orbit);
-    for (Part& part : parts)
+    for (BranchPart& part : parts)
         part.kept = kept;
     return parts;
 }
 
-std::vector<Part> parts_from_orbit(const StudyRun& run, const System& system, const StudyRun& parent,
-                                   const OrbitRecord& record) {
+std::vector<BranchPart> parts_from_orbit(const StudyRun& run, const System& system, const StudyRun& parent,
+                                         const OrbitRecord& record) {
     const StartFrom& start = *run.start;
     const SpecialPoint& point = record.point;
     if (run.kind == RunKind::curve)
         return parts_of_curve(run, point);
-    const bool same_parameter =
-        parent.kind == RunKind::follow && parent.branch.settings.parameter == run.branch.settings.parameter;
+    const bool same_parameter = (parent.kind == RunKind::follow || parent.kind == RunKind::ladder) &&
+                                parent.branch.settings.parameter == run.branch.settings.parameter;
     std::string onto = start.onto;
     if (onto.empty())
         onto = kind_of(point.type).leads_on && same_parameter ? "other" : "same";
@@ -187,7 +160,7 @@ std::vector<Part> parts_from_orbit(const StudyRun& run, const System& system, co
     const auto starts = at_place(start.place, run, [&] { return branches_at(system, point, run.branch.settings); });
     if (!run.branch.set.empty()) // at other parameters there is no direction yet
         return both_directions(run, taken_over(run, starts.front().orbit));
-    std::vector<Part> parts;
+    std::vector<BranchPart> parts;
     for (const BranchStart& one : starts)
         parts.push_back({one.how, one.orbit, one, 1, false,
                          point.type == PointType::asymmetry && !parts.empty() ? parts.front().name : ""});
@@ -195,8 +168,8 @@ std::vector<Part> parts_from_orbit(const StudyRun& run, const System& system, co
 }
 
 /// @return none when interrupted
-std::vector<Part> parts_of(const Study& study, const StudyRun& run, const System& system, SharedFile& file,
-                           const RunnerOptions& options) {
+std::vector<BranchPart> parts_of(const Study& study, const StudyRun& run, const System& system, SharedFile& file,
+                                 const RunnerOptions& options) {
     const BranchRequest& branch = run.branch;
     if (run.start) {
         const StudyRun& parent = run_named(study, run.start->run);
@@ -208,168 +181,12 @@ std::vector<Part> parts_of(const Study& study, const StudyRun& run, const System
         const StartPoint start =
             file.with([&](const ResultFile& results) { return point_to_start_from(run, study, results); });
         const auto orbit = settled(run, system_at(run, start), options);
-        return orbit ? both_directions(run, *orbit) : std::vector<Part>();
+        return orbit ? both_directions(run, *orbit) : std::vector<BranchPart>();
     }
     if (branch.has_table())
         return both_directions(run, orbit_of_table(run, system));
     const auto orbit = branch.signature.empty() ? settled(run, system, options) : orbit_asked_for(run, system, options);
-    return orbit ? both_directions(run, *orbit) : std::vector<Part>();
-}
-
-/// Writes points one by one, the last of a part only when it is known to be the last.
-class PointWriter {
-public:
-    PointWriter(const StudyRun& run, SharedFile& file, const RunnerOptions& options, RunReport& report)
-        : run_(&run), file_(&file), options_(&options), report_(&report) {}
-
-    void add(const std::string& part, const SpecialPoint& point, bool stable) {
-        flush();
-        waiting_ = OrbitRecord{0, part, "", stable, point};
-    }
-    /// Points to come are images of those of an earlier part, if they are like them.
-    void set_twin(const std::string& part) { twin_ = part; }
-    /// What is said of the last point, which becomes an end unless it is special already.
-    void end(const std::string& why) {
-        if (!waiting_)
-            return;
-        SpecialPoint& point = waiting_->point;
-        if (point.type == PointType::regular)
-            point.type = PointType::end;
-        if (!why.empty())
-            point.detail += point.detail.empty() ? why : "; " + why;
-        flush();
-    }
-    /// The last point has been none.
-    void drop() { waiting_.reset(); }
-    void flush() {
-        if (!waiting_)
-            return;
-        OrbitRecord& record = *waiting_;
-        record.number = report_->points++;
-        if (record.point.type != PointType::regular) {
-            record.label = point_label(record.point.type, ++counts_[record.point.type]);
-            note_twin(record);
-        }
-        file_->with([&](ResultFile& results) {
-            results.add_orbit(run_->name, record);
-            ++report_->computed;
-            if (options_->orbit)
-                options_->orbit(run_->name, record);
-        });
-        waiting_.reset();
-    }
-
-private:
-    /// Says so of a point that an earlier part has as well.
-    void note_twin(OrbitRecord& record) {
-        const auto alike = [](double one, double other) {
-            return std::abs(one - other) <= same_point * std::max(std::abs(one), std::abs(other));
-        };
-        for (const OrbitRecord& other : twin_.empty() ? std::vector<OrbitRecord>() : special_)
-            if (other.part == twin_ && other.point.type == record.point.type &&
-                alike(other.point.parameter, record.point.parameter) &&
-                alike(other.point.solution.orbit.period(), record.point.solution.orbit.period())) {
-                std::string& detail = record.point.detail;
-                detail = fmt::format("twin of {}{}{}", other.label, detail.empty() ? "" : "; ", detail);
-                return;
-            }
-        if (twin_.empty())
-            special_.push_back(record);
-    }
-
-    const StudyRun* run_;
-    SharedFile* file_;
-    const RunnerOptions* options_;
-    RunReport* report_;
-    std::string twin_;
-    std::vector<OrbitRecord> special_; ///< written so far
-    std::map<PointType, std::size_t> counts_;
-    std::optional<OrbitRecord> waiting_;
-};
-
-/// @param again whether an earlier part of the run has the same first point, which is an end of neither
-SpecialPoint regular_point(const BranchPoint& point, bool again) {
-    SpecialPoint result;
-    result.type = point.step == 0 && !again ? PointType::end : PointType::regular;
-    result.detail = point.step == 0 ? "start" : "";
-    result.solution = point.solution;
-    result.solution.iterations = point.iterations;
-    result.parameter = point.parameter;
-    result.bracket = {unknown, unknown};
-    result.arclength = point.arclength;
-    result.step = point.step;
-    result.tangent = point.tangent;
-    result.monitors = point.monitors;
-    return result;
-}
-
-/// An orbit from which no branch could be begun, for the file to say so.
-SpecialPoint failed_start(const Part& part, const StudyRun& run, const std::string& why) {
-    SpecialPoint point;
-    point.type = PointType::end;
-    point.located = false;
-    point.detail = "no start: " + why;
-    point.solution.orbit = part.orbit;
-    point.solution.certificate.admissible = false;
-    point.solution.certificate.reason = "no orbit was found";
-    point.parameter = part.orbit.parameters[run.branch.settings.parameter.place()];
-    point.bracket = {unknown, unknown};
-    return point;
-}
-
-/// How a part has ended, or that it has not begun.
-struct PartEnd {
-    BranchOutcome outcome = BranchOutcome::no_start;
-    bool begun = true;
-    std::string why;
-};
-
-/// Whether a curve has not left its point, from which it leads the other way or nowhere.
-bool stays_at_start(const Part& part, const OrbitBranch& branch) {
-    return part.kept && branch.point().step == 0 &&
-           (branch.outcome() == BranchOutcome::stopped || branch.outcome() == BranchOutcome::unphysical);
-}
-
-/// @return nothing if it was interrupted
-std::optional<PartEnd> follow_part(const StudyRun& run, const System& system, const Part& part, PointWriter& writer,
-                                   const RunnerOptions& options) {
-    BranchSettings settings = run.branch.settings;
-    settings.direction = part.direction;
-    settings.kept = part.kept;
-    OrbitBranch branch = at_place(run.place, run, [&] { return OrbitBranch(system, part.orbit, settings); });
-    bool going = part.onto ? branch.start_along(part.onto->direction, part.onto->distance) : branch.start();
-    if (!going) {
-        if (!part.kept) {
-            writer.add(part.name, failed_start(part, run, branch.detail()), false);
-            writer.end("");
-        }
-        return PartEnd{branch.outcome(), false, branch.detail()};
-    }
-    bool last_is_special = false;
-    while (going) {
-        for (const SpecialPoint& special : branch.found())
-            writer.add(part.name, special, is_stable(special.solution));
-        const BranchOutcome outcome = branch.outcome();
-        const bool ended = outcome == BranchOutcome::bound || outcome == BranchOutcome::stopped ||
-                           outcome == BranchOutcome::unphysical || outcome == BranchOutcome::returned;
-        last_is_special = ended && !branch.found().empty();
-        // What lies beyond an end that has been located does not belong to the branch.
-        if (!last_is_special)
-            writer.add(part.name, regular_point(branch.point(), part.again), branch.point().stable);
-        if (options.interrupted && options.interrupted())
-            return std::nullopt;
-        going = branch.step();
-    }
-    if (stays_at_start(part, branch)) {
-        writer.drop();
-        return PartEnd{branch.outcome(), false, branch.detail()};
-    }
-    const bool told = branch.outcome() != BranchOutcome::unphysical;
-    std::string why = told && last_is_special ? "" : std::string(name_of(branch.outcome()));
-    if (!why.empty() && !branch.detail().empty())
-        why += ": " + branch.detail();
-    writer.end(why);
-    return PartEnd{branch.outcome(), true, ""};
+    return orbit ? both_directions(run, *orbit) : std::vector<BranchPart>();
 }
 
 /// A curve that leads nowhere has failed.
@@ -382,10 +199,10 @@ std::optional<PartEnd> follow_part(const StudyRun& run, const System& system, co
 
 bool compute_orbit(const Study& study, const StudyRun& run, const System& system, SharedFile& file,
                    const RunnerOptions& options, PointWriter& writer) {
-    const std::vector<Part> parts = parts_of(study, run, system, file, options);
+    const std::vector<BranchPart> parts = parts_of(study, run, system, file, options);
     if (parts.empty())
         return false;
-    const Part& part = parts.front();
+    const BranchPart& part = parts.front();
     SpecialPoint point;
     point.type = PointType::end;
     point.solution = solved(run, system, part.orbit);
@@ -405,7 +222,7 @@ bool compute_orbit(const Study& study, const StudyRun& run, const System& system
         point.solution.certificate.reason = "no orbit was found";
     }
     point.parameter = orbit.parameters.empty() ? 0 : orbit.parameters[run.branch.settings.parameter.place()];
-    point.bracket = {unknown, unknown};
+    point.bracket = {unknown_value, unknown_value};
     writer.add("", point, is_stable(point.solution));
     writer.end("");
     return true;
@@ -420,24 +237,33 @@ bool run_branch(const Study& study, const StudyRun& run, SharedFile& file, const
     report.points = 0;
     if (run.kind == RunKind::orbit)
         return compute_orbit(study, run, system, file, options, writer);
-    const std::vector<Part> parts = parts_of(study, run, system, file, options);
+    if (run.kind == RunKind::ladder) {
+        const StudyRun& parent = run_named(study, run.start->run);
+        if (!parent.is_branch())
+            throw InputError(run.start->place, fmt::format("run '{}' has no grazings", parent.name),
+                             "start from a run of kind \"continue\"");
+        const OrbitRecord first =
+            file.with([&](const ResultFile& results) { return orbit_to_start_from(*run.start, parent, results); });
+        return run_ladder(run, system, first, writer, options);
+    }
+    const std::vector<BranchPart> parts = parts_of(study, run, system, file, options);
     if (parts.empty())
         return false;
     bool any = false;
     std::string why;
-    for (Part part : parts) {
+    for (BranchPart part : parts) {
         writer.set_twin(part.twin);
         if (part.kept && !any)
             part.again = false;
-        const auto end = follow_part(run, system, part, writer, options);
-        if (!end)
+        const PartEnd end = follow_part(run, run.branch.settings, system, part, writer, options);
+        if (!end.outcome)
             return false;
-        if (part.kept && !end->begun && end->outcome == BranchOutcome::no_start)
-            refuse_curve(run, *part.kept, end->why);
-        any = any || end->begun;
-        if (!end->begun)
-            why = end->why;
-        if (end->outcome == BranchOutcome::closed)
+        if (part.kept && *end.outcome == BranchOutcome::no_start)
+            refuse_curve(run, *part.kept, end.why);
+        any = any || end.begun;
+        if (!end.begun)
+            why = end.why;
+        if (*end.outcome == BranchOutcome::closed)
             break; // the other way round is the same
     }
     if (parts.front().kept && !any)

@@ -17,6 +17,8 @@ constexpr std::size_t most_values = 10'000'000;
 constexpr std::size_t most_cycles = 100'000'000, most_kept_returns = 1'000'000, most_returns_of_orbit = 1000;
 /// Steps along a branch, each of which stores an orbit.
 constexpr std::size_t most_branch_steps = 10'000'000;
+/// Grazings of a ladder: each is many steps, and their distances fall below round-off long before.
+constexpr std::size_t most_rungs = 1000;
 /// Digits to which located points of a branch are the same, with some reserve: relative to what is compared.
 constexpr double same_point = 1e-6;
 

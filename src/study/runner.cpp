@@ -95,7 +95,7 @@ RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, 
 } // namespace
 
 std::vector<std::string> direction_names(const StudyRun& run) {
-    if (run.kind != RunKind::sweep && !run.is_followed())
+    if ((run.kind != RunKind::sweep && !run.is_followed()) || run.kind == RunKind::ladder)
         return {""};
     switch (run.direction) {
     case SweepDirection::up:

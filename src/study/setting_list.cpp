@@ -50,9 +50,9 @@ void add(const std::string& name, const Json& json, std::vector<Setting>& all) {
 
 } // namespace
 
-std::vector<Setting> setting_list(const std::string& settings) {
+std::vector<Setting> setting_list(const std::string& settings, const Place& place) {
     std::vector<Setting> all;
-    add("", parse_json(settings, {"settings", 0, 0}), all);
+    add("", parse_json(settings, place), all);
     return all;
 }
 

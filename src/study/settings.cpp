@@ -19,7 +19,7 @@ namespace {
 const std::vector<std::string>& kinds_of_runs() {
     static const std::vector<std::string> kinds = [] {
         std::vector<std::string> names;
-        for (int kind = 0; kind <= static_cast<int>(RunKind::curve); ++kind)
+        for (int kind = 0; kind <= static_cast<int>(RunKind::ladder); ++kind)
             names.emplace_back(name_of(static_cast<RunKind>(kind)));
         return names;
     }();
@@ -106,8 +106,9 @@ void describe_monitor(Fields& fields, One& monitor) {
     fields.optional("greatest", monitor.greatest);
 }
 
-template <class Fields, class Settings>
-void describe_continuation(Fields& fields, Settings& branch, const std::vector<std::string>& parameters) {
+template <class Fields, class Run>
+void describe_continuation(Fields& fields, Run& run, const std::vector<std::string>& parameters) {
+    auto& branch = run.branch.settings;
     fields.named("along", branch.parameter, parameters);
     fields.field("steps", branch.steps);
     if (fields.has("work", branch.work != BranchSettings().work))
@@ -131,6 +132,8 @@ void describe_continuation(Fields& fields, Settings& branch, const std::vector<s
     fields.field("step_accuracy", step.accuracy);
     fields.field("largest_angle", step.largest_angle);
     fields.field("step_iterations", step.iterations);
+    if (run.kind == RunKind::ladder)
+        fields.field("rungs", run.branch.rungs);
 }
 
 template <class Fields, class Run>
@@ -148,7 +151,7 @@ void describe_branch(Fields& fields, Run& run) {
     fields.field("error_estimate", branch.orbit.error_estimate);
     // Of an orbit too: when it does not settle, what is not admissible may do.
     if (run.is_followed())
-        describe_continuation(fields, branch, run.model.independent_parameters());
+        describe_continuation(fields, run, run.model.independent_parameters());
     else
         fields.field("stop_when_unphysical", branch.stop_when_unphysical);
 }

@@ -32,6 +32,8 @@ std::string_view name_of(RunKind kind) {
         return "continue";
     case RunKind::curve:
         return "curve";
+    case RunKind::ladder:
+        return "ladder";
     }
     return "simulate";
 }

@@ -204,6 +204,7 @@ void read_branch(const StudyReader& reader, StudyRun& run, const RunKeys& keys) 
     });
     with("along", [&](const TomlEntry& e) { read_along(reader, run, e); });
     with("steps", [&](const TomlEntry& e) { settings.steps = reader.count(e, 1, most_branch_steps); });
+    with("rungs", [&](const TomlEntry& e) { branch.rungs = reader.count(e, 2, most_rungs); });
     with("stop", [&](const TomlEntry& e) { read_stop(reader, run, e); });
     with("step", [&](const TomlEntry& e) { read_step(reader, run, e); });
     with("unphysical", [&](const TomlEntry& e) { settings.stop_when_unphysical = !reader.toml().boolean(e); });
@@ -231,6 +232,9 @@ void check_branch(const StudyReader& reader, const StudyRun& run, const TomlEntr
     if (run.kind == RunKind::curve && !run.start)
         throw InputError(entry.place, fmt::format("{} does not say where the curve begins", entry.path),
                          "give start = { run = \"BRANCH\", point = \"SN1\" }");
+    if (run.kind == RunKind::ladder && (!run.start || run.start->point.empty()))
+        throw InputError(entry.place, fmt::format("{} does not say where the ladder begins", entry.path),
+                         "give start = { run = \"BRANCH\", point = \"GR1\" }");
     if (run.is_followed() && !keys.contains("along"))
         throw InputError(entry.place, fmt::format("{} does not say what is followed", entry.path),
                          run.kind == RunKind::curve

@@ -18,11 +18,13 @@ enum Kinds : unsigned {
     orbit = 1u << static_cast<unsigned>(RunKind::orbit),
     follow = 1u << static_cast<unsigned>(RunKind::follow),
     curve = 1u << static_cast<unsigned>(RunKind::curve),
+    ladder = 1u << static_cast<unsigned>(RunKind::ladder),
     followed = follow | curve,
     points = simulate | sweep | basin, ///< those whose points are motions
     branches = orbit | follow,         ///< that may begin by themselves
     settling = sweep | basin | branches,
-    every = points | branches | curve,
+    at_will = points | branches | curve, ///< at other parameters than where they start
+    every = at_will | ladder,
 };
 
 struct Key {
@@ -35,7 +37,7 @@ constexpr std::array keys_of_runs{
     Key{"kind", every},
     Key{"text", every},
     Key{"model", every},
-    Key{"set", every},
+    Key{"set", at_will},
     Key{"from", points | branches},
     Key{"mode", points | branches},
     Key{"start", every},
@@ -66,12 +68,13 @@ constexpr std::array keys_of_runs{
     Key{"lyapunov_cycles", sweep | basin},
     Key{"signature", branches},
     Key{"table", branches},
-    Key{"monitors", orbit | followed},
-    Key{"accuracy", orbit | followed},
-    Key{"along", followed},
-    Key{"steps", followed},
+    Key{"monitors", orbit | followed | ladder},
+    Key{"accuracy", orbit | followed | ladder},
+    Key{"along", followed | ladder},
+    Key{"steps", followed | ladder},
     Key{"stop", followed},
-    Key{"step", followed},
+    Key{"step", followed | ladder},
+    Key{"rungs", ladder},
     Key{"free", followed},
     Key{"unphysical", orbit | followed},
 };
@@ -131,7 +134,7 @@ void check_beginning(const StudyReader& reader, RunKind kind, const RunKeys& key
     refuse_two("start", "table");
     refuse_two("table", "from");
     refuse_two("table", "mode");
-    if (kind == RunKind::orbit || kind == RunKind::follow || kind == RunKind::curve)
+    if (kind == RunKind::orbit || kind == RunKind::follow || kind == RunKind::curve || kind == RunKind::ladder)
         mistakes.attempt([&] { check_unused(reader, kind, keys); });
     mistakes.throw_noted();
 }
@@ -153,7 +156,7 @@ void check_keys_of_kind(const StudyReader& reader, RunKind kind, const RunKeys& 
         if (key->kinds & (1u << static_cast<unsigned>(kind)))
             continue;
         std::vector<std::string> kinds;
-        for (unsigned k = 0; k <= static_cast<unsigned>(RunKind::curve); ++k)
+        for (unsigned k = 0; k <= static_cast<unsigned>(RunKind::ladder); ++k)
             if (key->kinds & (1u << k))
                 kinds.push_back(fmt::format("\"{}\"", name_of(static_cast<RunKind>(k))));
         with_key(mistakes, keys, key->name, [&](const TomlEntry& wrong) {

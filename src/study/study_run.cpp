@@ -369,12 +369,13 @@ void read_keys(const StudyReader& reader, StudyRun& run, const TomlEntry& entry,
             keys.emplace(item.name, item);
         });
         if (!keys.contains("kind"))
-            throw InputError(entry.place, fmt::format("{} has no kind", entry.path),
-                             "give kind = \"simulate\", \"sweep\", \"basin\", \"orbit\", \"continue\" or \"curve\"");
+            throw InputError(
+                entry.place, fmt::format("{} has no kind", entry.path),
+                "give kind = \"simulate\", \"sweep\", \"basin\", \"orbit\", \"continue\", \"curve\" or \"ladder\"");
     });
     with_key(mistakes, keys, "kind", [&](const TomlEntry& kind) {
-        run.kind =
-            static_cast<RunKind>(reader.choice(kind, {"simulate", "sweep", "basin", "orbit", "continue", "curve"}));
+        run.kind = static_cast<RunKind>(
+            reader.choice(kind, {"simulate", "sweep", "basin", "orbit", "continue", "curve", "ladder"}));
         check_keys_of_kind(reader, run.kind, keys);
     });
     with_key(mistakes, keys, "text", [&](const TomlEntry& text) { run.text = reader.toml().string(text); });

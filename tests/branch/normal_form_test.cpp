@@ -100,6 +100,17 @@ TEST(NormalForm, cusps_have_the_coefficient_of_their_map) {
     }
 }
 
+TEST(NormalForm, coefficients_follow_the_units) {
+    // In units of length L: x -> L f(x / L), whose coefficient is divided by L^2.
+    for (const double length : {1e-9, 1e-3, 1e4, 1e9}) {
+        const Model model = map_model(fmt::format("r = 2.5\nL = {:.17g}", length), {"r*x*(1 - x/L)", "0.1*y"});
+        const Branch branch =
+            follow_branch(model, fixed_point(model, {0.6 * length, 0}), in_parameter(model, "r", 1.5, 3.4));
+        ASSERT_EQ(names(branch), "PD BD") << length;
+        EXPECT_NEAR(coefficient_of(branch.special[0]) * length * length, 9, 1e-4) << length;
+    }
+}
+
 TEST(NormalForm, generalised_flip_is_found_where_the_coefficient_vanishes) {
     const Model model = map_model("p = -0.2\nq = 1.0\ns = -2", {"-(1 + p)*x + q*x^2 + s*x^3", "0.1*y"});
     BranchSettings settings = in_parameter(model, "p", -0.5, 0.5);

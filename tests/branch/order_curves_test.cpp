@@ -246,6 +246,14 @@ TEST(OrderCurves, of_touches_go_on_where_other_events_change_their_order) {
         EXPECT_TRUE(one.solution.certificate.admissible) << one.solution.certificate.reason;
     }
     EXPECT_NEAR(value_of(model, curve.points.back().solution, "omega"), 2.2, 1e-12);
+    // The touch comes at the phase of the response, atan2(0.2 omega, 1 - omega^2): earlier the slower the force is, at
+    // last with the fixed event.
+    const Branch slower = curve_of(model, touches[0], settings, "omega", 0.1, 2.2, -1);
+    EXPECT_EQ(slower.outcome, BranchOutcome::undefined) << names(slower) << slower.detail;
+    EXPECT_TRUE(slower.detail.starts_with("the touch has come to the start of segment ")) << slower.detail;
+    const double last = value_of(model, slower.points.back().solution, "omega");
+    // A touch is found within its segment only, whose edge it reaches to within the smallest steps' share of it.
+    EXPECT_NEAR(std::atan2(0.2 * last, 1 - last * last), 0.5, 1e-4);
 }
 
 } // namespace

@@ -171,6 +171,8 @@ std::vector<std::string> raw_names(const FigureLayout& page, const Study& study,
             add(mode.name);
         for (const Event& event : model.events)
             add(event.name);
+        for (const Section& section : model.sections)
+            add(section.name);
         for (const Transition& transition : model.transitions)
             add(transition.label);
     }
@@ -213,6 +215,7 @@ TEST_P(ShippedPictures, NothingOverlapsAndNoNameIsRaw) {
     ResultFile file(folder / "results.sqlite", ResultFile::Access::write);
     run_study(study, file, {});
     std::size_t labels = 0, crossed = 0;
+    std::string places;
     for (StudyPicture picture : study.pictures)
         for (const FigureStyle& style : styles) {
             if (style.height > 0 && style.width < 100)
@@ -223,7 +226,7 @@ TEST_P(ShippedPictures, NothingOverlapsAndNoNameIsRaw) {
             const std::vector<std::string> on_lines = labels_on_lines(figure, page, labels);
             crossed += on_lines.size();
             for (const std::string& one : on_lines)
-                std::cout << GetParam() << ' ' << picture.name << " at " << style.width << " mm: " << one << '\n';
+                places += picture.name + " at " + std::to_string(style.width) + " mm: " + one + '\n';
             if (picture.name == "fig-3-3" || picture.name == "fig-3-7") { // two orbits, to be compared
                 EXPECT_EQ(page.panels.size(), 1U);
             }
@@ -239,7 +242,10 @@ TEST_P(ShippedPictures, NothingOverlapsAndNoNameIsRaw) {
             for (const PanelLayout& panel : page.panels)
                 EXPECT_LE(panel.legend.size(), 12U);
         }
-    std::cout << GetParam() << ": " << crossed << " of " << labels << " labels have a line through them\n";
+    // Where a dozen points crowd together there may be no such place.
+    EXPECT_LE(50 * crossed, labels) << crossed << " of " << labels << ":\n" << places;
+    RecordProperty("labels", static_cast<int>(labels));
+    RecordProperty("crossed", static_cast<int>(crossed));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedPictures, ::testing::ValuesIn(shipped_studies()), [](const auto& tested) {

@@ -384,6 +384,10 @@ TEST_F(PlotResults, NamesWhatIsNotThere) {
     EXPECT_THAT(said({"--x-range", "3"}), HasSubstr("A:B"));
     EXPECT_THAT(said({"--x-range", "3:2"}), HasSubstr("empty"));
     EXPECT_THAT(said({"--at", "a"}), HasSubstr("NAME=VALUE"));
+    EXPECT_THAT(said({"--name", "nothing=A"}), HasSubstr("the picture shows nothing of that name; known are: "));
+    EXPECT_THAT(said({"--name", "nothing=A"}), HasSubstr("first, second, sweep"));
+    EXPECT_THAT(said({"--name", "swepe=A"}), HasSubstr("did you mean 'sweep'?"));
+    EXPECT_THAT(said({"--name", "sweep=A", "sweep=B"}), HasSubstr("'sweep' is given twice; leave one of them out"));
     EXPECT_FALSE(std::filesystem::exists(folder / "no.png"));
 }
 

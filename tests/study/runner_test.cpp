@@ -136,10 +136,13 @@ TEST_F(RunnerTest, says_where_a_run_cannot_start) {
     EXPECT_EQ(file.point_count("sweep"), 22u); // nothing is lost
     // The file knows why, as long as it is so.
     const std::string failed = reports[1].name;
-    EXPECT_EQ(failure_of(file, failed), reports[1].problem);
-    EXPECT_EQ(failure_of(file, "sweep"), std::nullopt);
+    EXPECT_EQ(file.find_run(failed)->status, RunStatus::failed);
+    EXPECT_EQ(file.find_run(failed)->failure, reports[1].problem + "; " + reports[1].remedy);
+    EXPECT_EQ(file.find_run("sweep")->status, RunStatus::complete);
+    EXPECT_EQ(file.find_run("sweep")->failure, "");
     run_study(parse_study(text, "s.toml"), file, {});
-    EXPECT_EQ(failure_of(file, failed), std::nullopt);
+    EXPECT_EQ(file.find_run(failed)->status, RunStatus::complete);
+    EXPECT_EQ(file.find_run(failed)->failure, "");
 }
 
 } // namespace

@@ -55,7 +55,7 @@ struct RunRecord {
     /// Whether its points are orbits.
     bool is_branch() const { return kind == "orbit" || is_followed(); }
     /// Whether orbits are followed: along a branch, or a curve.
-    bool is_followed() const { return kind == "continue" || kind == "curve"; }
+    bool is_followed() const { return kind == "continue" || kind == "curve" || kind == "ladder"; }
 };
 
 /// The result file of a study's folder, or the file itself.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "graze/symbolic/input_error.hpp"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +17,8 @@ struct Setting {
 
 /// The settings of a run (RunRecord::settings, settings_of), one by one. Of long lists of numbers only how many there
 /// are, the first and the last: "vary.1.values.count", ".first", ".last".
+/// @param place of the settings, for messages
 /// @throws InputError when they are no JSON
-std::vector<Setting> setting_list(const std::string& settings);
+std::vector<Setting> setting_list(const std::string& settings, const Place& place);
 
 } // namespace graze

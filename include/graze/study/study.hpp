@@ -17,7 +17,15 @@
 
 namespace graze {
 
-enum class RunKind { simulate, sweep, basin, orbit, follow, curve }; ///< `follow` is called "continue" in studies
+enum class RunKind {
+    simulate,
+    sweep,
+    basin,
+    orbit,
+    follow,
+    curve,
+    ladder
+}; ///< `follow` is called "continue" in studies
 std::string_view name_of(RunKind kind);
 
 /// Something that varies from point to point: a parameter or an initial state.
@@ -53,6 +61,7 @@ struct BranchRequest {
     std::string table_text;       ///< its contents, where they are known already and no file is read
     std::vector<ParameterId> set; ///< parameters that the run itself sets, rather than the orbit that it starts from
     BranchSettings settings;
+    std::size_t rungs = 8; ///< of ladders: grazings, at most
 
     bool has_table() const { return !table.empty() || !table_text.empty(); }
     /// Whether a curve holds what its first point is, rather than a monitor that is fixed.
@@ -83,8 +92,8 @@ struct StudyRun {
 
     /// Whether its points are orbits.
     bool is_branch() const { return kind == RunKind::orbit || is_followed(); }
-    /// Whether orbits are followed: along a branch, or a curve.
-    bool is_followed() const { return kind == RunKind::follow || kind == RunKind::curve; }
+    /// Whether orbits are followed: along branches, or a curve.
+    bool is_followed() const { return kind == RunKind::follow || kind == RunKind::curve || kind == RunKind::ladder; }
 };
 
 /// One picture or table made from runs. What is not said is chosen by `kind` and the run.

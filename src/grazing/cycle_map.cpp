@@ -1,0 +1,225 @@
+#include "graze/grazing/cycle_map.hpp"
+
+#include "flow/cyclic.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+#include "grazing/return_map.hpp"
+#include "orbit/certify.hpp"
+#include "orbit/eigen_index.hpp"
+#include "orbit/newton.hpp"
+#include "orbit/shooting.hpp"
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+/// Share of an event function's size below which its least value is a touch.
+constexpr double touching = 1e-7;
+
+std::vector<double> rows_of(const Eigen::MatrixXd& matrix) {
+    std::vector<double> rows;
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+        for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+            rows.push_back(matrix(i, j));
+    return rows;
+}
+
+Eigen::MatrixXd matrix_of(const CycleMap& map) {
+    const Eigen::Index n = index(map.active.size());
+    Eigen::MatrixXd matrix(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < n; ++j)
+            matrix(i, j) = map.matrix[static_cast<std::size_t>(i * n + j)];
+    return matrix;
+}
+
+Eigen::VectorXd chosen(const std::vector<std::size_t>& active, const Eigen::VectorXd& all) {
+    Eigen::VectorXd result(index(active.size()));
+    for (std::size_t i = 0; i < active.size(); ++i)
+        result[index(i)] = all[index(active[i])];
+    return result;
+}
+
+std::vector<double> list_of(const Eigen::VectorXd& vector) {
+    return {vector.begin(), vector.end()};
+}
+
+/// Eigenvalues but the smallest, which is the zero of the projection.
+std::vector<std::complex<double>> multipliers_of(const CycleMap& map) {
+    const Eigen::Map<const Eigen::VectorXd> scales(map.scales.data(), index(map.scales.size()));
+    const Eigen::MatrixXd scaled = scales.cwiseInverse().asDiagonal() * matrix_of(map) * scales.asDiagonal();
+    const Eigen::VectorXcd values = scaled.eigenvalues();
+    std::vector<std::complex<double>> result(values.begin(), values.end());
+    std::sort(result.begin(), result.end(), [](const auto& one, const auto& other) {
+        return std::abs(one) != std::abs(other) ? std::abs(one) > std::abs(other) : one.imag() > other.imag();
+    });
+    if (!result.empty())
+        result.pop_back();
+    return result;
+}
+
+/// How the orbit without contact moves with the parameter, where the linear map has no multiplier 1.
+void add_parameter(CycleMap& map, const ReturnMap& back, double explicit_rate) {
+    constexpr double singular = 1e-9;
+    const Eigen::MatrixXd matrix = matrix_of(map);
+    const Eigen::Map<const Eigen::VectorXd> scales(map.scales.data(), index(map.scales.size()));
+    const Eigen::MatrixXd system = Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()) -
+                                   Eigen::MatrixXd(scales.cwiseInverse().asDiagonal() * matrix * scales.asDiagonal());
+    const Eigen::FullPivLU<Eigen::MatrixXd> factored(system);
+    if (!(factored.rcond() > singular))
+        return;
+    const Eigen::VectorXd steady =
+        factored.solve(chosen(map.active, back.parameter).cwiseQuotient(scales)).cwiseProduct(scales);
+    map.steady = list_of(steady);
+    map.clearance_rate =
+        Eigen::Map<const Eigen::VectorXd>(map.gradient.data(), steady.size()).dot(steady) + explicit_rate;
+}
+
+bool is_same_place(const std::vector<double>& one, const std::vector<double>& other, const OrbitEquations& equations,
+                   const OrbitEvaluation& at) {
+    constexpr double near = 1e-4;
+    return std::all_of(at.active.begin(), at.active.end(), [&](std::size_t i) {
+        return equations.model().states[i].drifting ||
+               std::abs(without_turns(one[i] - other[i], at.periods[i])) < near * at.scales[index(i)];
+    });
+}
+
+/// Shooting, evaluated at an orbit. @return false where it is not defined
+bool evaluate(Shooting& shooting, const Orbit& orbit, OrbitEvaluation& at) {
+    return shooting.evaluate(shooting.unknowns_of(orbit), at);
+}
+
+Simulation simulation_of(const System& system, const CycleMapOptions& options) {
+    return Simulation(system, {}, {}, integration(options.tolerance));
+}
+
+/// Where an orbit touches, each place once.
+std::vector<OrbitTouch> touches_in(Shooting& shooting, const OrbitEvaluation& at, const Orbit& orbit) {
+    const System& system = shooting.system();
+    const Certificate certificate = certify(shooting, at);
+    std::vector<OrbitTouch> found;
+    for (std::size_t s = 0; s < orbit.segments(); ++s) {
+        const Segment& segment = orbit.signature[s];
+        // A contact whose speed is a share of the usual one goes as deep as the square of that.
+        if (segment.end == SegmentEnd::event && !is_harmless(system, segment.index) &&
+            std::abs(certificate.approach_speeds[s]) < touching * shooting.usual_rate(at, s))
+            found.push_back({s, system.model().transitions[segment.index].event, orbit.durations[s], true});
+    }
+    for (const OrbitMinimum& one : certificate.minima)
+        if (std::abs(one.value) < touching * one.size)
+            found.push_back({one.segment, one.event, one.time, false});
+    for (const EndValue& one : certificate.end_values) {
+        double size = 0;
+        for (const OrbitMinimum& other : certificate.minima)
+            if (other.segment == one.segment && other.event == one.event)
+                size = std::max(size, other.size);
+        const double rate = shooting.usual_rate(at, one.segment, one.event);
+        if (std::abs(one.rate) < touching * rate &&
+            std::abs(one.value) < touching * std::max(size, rate * orbit.round()))
+            found.push_back({one.segment, one.event, orbit.durations[one.segment], false});
+    }
+    std::vector<OrbitTouch> result;
+    std::vector<std::vector<double>> places;
+    for (const OrbitTouch& one : found) {
+        const TouchFunctions functions(system, orbit.signature[one.segment].mode, one.event);
+        const ReturnMap back = return_map(shooting, at, one, functions, std::nullopt);
+        if (back.touch.state.empty() ||
+            std::any_of(places.begin(), places.end(), [&](const std::vector<double>& place) {
+                return is_same_place(place, back.touch.state, shooting, at);
+            }))
+            continue;
+        places.push_back(back.touch.state);
+        result.push_back(one);
+    }
+    return result;
+}
+
+} // namespace
+
+std::vector<OrbitTouch> touches_of(const System& system, const Orbit& orbit, const CycleMapOptions& options) {
+    validate_orbit(system.model(), orbit);
+    const Simulation simulation = simulation_of(system, options);
+    Shooting shooting(simulation, orbit, {});
+    OrbitEvaluation at = shooting.evaluation();
+    return evaluate(shooting, orbit, at) ? touches_in(shooting, at, orbit) : std::vector<OrbitTouch>{};
+}
+
+CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
+                      std::optional<std::size_t> free) {
+    const System& system = equations.system();
+    CycleMap map;
+    map.touch = touch;
+    map.half = equations.symmetry().has_value();
+    map.time = equations.orbit_of(at.unknowns).round();
+    const TouchFunctions functions(system, equations.signature()[touch.segment].mode, touch.event);
+    const ReturnMap back = return_map(equations, at, touch, functions, free);
+    map.reason = back.reason;
+    if (!map.reason.empty())
+        return map;
+    map.contact = discontinuity_map(system, back.touch);
+    map.reason = map.contact.reason;
+    const Eigen::Index n = index(system.states());
+    map.active = at.active;
+    map.scales = list_of(chosen(map.active, at.scales.head(n)));
+    Eigen::MatrixXd matrix(index(map.active.size()), index(map.active.size()));
+    for (std::size_t i = 0; i < map.active.size(); ++i)
+        for (std::size_t j = 0; j < map.active.size(); ++j)
+            matrix(index(i), index(j)) = back.matrix(index(map.active[i]), index(map.active[j]));
+    map.matrix = rows_of(matrix);
+    map.gradient = list_of(chosen(map.active, back.geometry.gradient.head(n)));
+    map.multipliers = multipliers_of(map);
+    if (free)
+        add_parameter(map, back, back.geometry.gradient[n + index(equations.free()[*free].place())]);
+    if (!map.contact.exists())
+        return map;
+    const Eigen::Map<const Eigen::VectorXd> gained(map.contact.direction.data(), n);
+    const TouchGeometry& here = back.geometry;
+    const Eigen::VectorXd shift = here.field * (here.rate_gradient.head(n).dot(gained) / here.acceleration);
+    map.impact = list_of(chosen(map.active, gained - shift));
+    return map;
+}
+
+CycleMap cycle_map(const System& system, const Orbit& orbit, const OrbitTouch& touch, const CycleMapOptions& options) {
+    validate_orbit(system.model(), orbit);
+    require_index(touch.segment, orbit.segments(), "segment");
+    require_index(touch.event, system.model().events.size(), "event");
+    if (!std::isfinite(touch.time))
+        throw InputError("the time of the touch is not finite", "give the time since the segment's start");
+    const Simulation simulation = simulation_of(system, options);
+    std::vector<ParameterId> free;
+    if (options.parameter)
+        free.push_back(*options.parameter);
+    Shooting shooting(simulation, orbit, free);
+    OrbitEvaluation at = shooting.evaluation();
+    if (!evaluate(shooting, orbit, at)) {
+        CycleMap map;
+        map.touch = touch;
+        map.reason = at.problem.empty() ? "the orbit cannot be followed" : at.problem;
+        return map;
+    }
+    CycleMap map = cycle_map_of(shooting, at, touch, options.parameter ? std::optional<std::size_t>(0) : std::nullopt);
+    map.touches = std::max<std::size_t>(1, touches_in(shooting, at, orbit).size());
+    return map;
+}
+
+std::vector<double> CycleMap::projections(std::size_t count) const {
+    std::vector<double> result;
+    if (!exists())
+        return result;
+    const Eigen::MatrixXd once = matrix_of(*this);
+    const Eigen::Map<const Eigen::VectorXd> g(gradient.data(), once.rows());
+    Eigen::VectorXd vector = Eigen::Map<const Eigen::VectorXd>(impact.data(), once.rows());
+    for (std::size_t k = 0; k < count; ++k) {
+        vector = (once * vector).eval();
+        result.push_back(g.dot(vector));
+    }
+    return result;
+}
+
+} // namespace graze

@@ -1,0 +1,128 @@
+#include "graze/grazing/discontinuity_map.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+#include "grazing/compliant_contact.hpp"
+#include "grazing/contact_chain.hpp"
+#include "grazing/touch_geometry.hpp"
+#include "orbit/eigen_index.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+void require_fitting(const System& system, const TouchState& touch) {
+    require_index(touch.mode, system.model().modes.size(), "mode");
+    require_index(touch.event, system.model().events.size(), "event");
+    const auto is_finite = [](double value) { return std::isfinite(value); };
+    if (touch.state.size() != system.states() || touch.scales.size() != system.states() ||
+        touch.parameters.size() != system.parameters() ||
+        !std::all_of(touch.state.begin(), touch.state.end(), is_finite) ||
+        !std::all_of(touch.parameters.begin(), touch.parameters.end(), is_finite) ||
+        !std::all_of(touch.scales.begin(), touch.scales.end(), [](double size) { return size > 0 && size < 1e300; }))
+        throw InputError(fmt::format("a touch has {} states, {} sizes and {} parameters that do not fit the model",
+                                     touch.state.size(), touch.scales.size(), touch.parameters.size()),
+                         fmt::format("give {} finite states, as many positive sizes, and {} parameters",
+                                     system.states(), system.parameters()));
+}
+
+std::vector<double> list_of(const Eigen::VectorXd& vector, std::size_t count) {
+    return {vector.data(), vector.data() + count};
+}
+
+/// A gain of the states, in which what round-off has left is zero.
+std::vector<double> without_remnants(const Eigen::VectorXd& gain, const Eigen::VectorXd& scales) {
+    constexpr double remnant = 1e-13;
+    const Eigen::VectorXd sizes = gain.cwiseQuotient(scales).cwiseAbs();
+    std::vector<double> result;
+    for (Eigen::Index i = 0; i < gain.size(); ++i)
+        result.push_back(sizes[i] > remnant * sizes.maxCoeff() ? gain[i] : 0);
+    return result;
+}
+
+/// Why a state is no proper touch. Empty if it is.
+std::string problem_of(const System& system, const TouchState& touch, const TouchGeometry& geometry,
+                       const TouchSizes& sizes) {
+    constexpr double degenerate = 1e-9;
+    const std::string& name = system.model().events[touch.event].name;
+    const Eigen::Index n = index(touch.state.size());
+    const double terms = geometry.rate_gradient.head(n).cwiseAbs().dot(geometry.field.cwiseAbs());
+    if (!geometry.gradient.allFinite() || !geometry.rate_gradient.allFinite() || !geometry.field.allFinite() ||
+        !std::isfinite(geometry.acceleration))
+        return fmt::format("event '{}' has no rates at the touch", name);
+    if (!(std::abs(geometry.acceleration) > degenerate * terms))
+        return fmt::format("event '{}' is touched without acceleration: the tangency is degenerate", name);
+    if (geometry.acceleration < 0)
+        return fmt::format("the function of event '{}' is greatest, not least, at the touch", name);
+    if (!sizes.is_zero(geometry.value, geometry.gradient))
+        return fmt::format("the state is not on the surface of event '{}'", name);
+    if (!sizes.is_zero_rate(geometry.rate, geometry.gradient, geometry.field))
+        return fmt::format("the surface of event '{}' is met with speed", name);
+    return {};
+}
+
+} // namespace
+
+std::string_view name_of(MapOrder order) {
+    switch (order) {
+    case MapOrder::square_root:
+        return "square-root";
+    case MapOrder::three_halves:
+        return "three-halves";
+    case MapOrder::none:
+        break;
+    }
+    return "none";
+}
+
+DiscontinuityMap discontinuity_map(const System& system, const TouchState& touch) {
+    require_fitting(system, touch);
+    DiscontinuityMap map;
+    map.touch = touch;
+    const std::size_t n = system.states();
+    const TouchFunctions functions(system, touch.mode, touch.event);
+    const TouchGeometry geometry = functions.at(touch.state, touch.parameters);
+    const TouchSizes sizes(touch, geometry);
+    map.reason = problem_of(system, touch, geometry, sizes);
+    if (!map.reason.empty())
+        return map;
+    map.acceleration = geometry.acceleration;
+    map.gradient = list_of(geometry.gradient, n);
+    map.rate_gradient = list_of(geometry.rate_gradient, n);
+    map.field = list_of(geometry.field, n);
+    const ContactChain chain = follow_contact(functions, touch, geometry, sizes);
+    map.contacts = chain.contacts;
+    map.restitution = chain.restitution;
+    map.time = chain.time;
+    map.reason = chain.reason;
+    if (!map.reason.empty())
+        return map;
+    if (!sizes.is_zero_gain(chain.gain)) {
+        map.order = MapOrder::square_root;
+        map.direction = without_remnants(chain.gain, sizes.scales());
+        return map;
+    }
+    if (chain.modes.size() != 2 || !chain.only_changes_modes) {
+        map.reason = "to first order the contact changes nothing";
+        return map;
+    }
+    if (!chain.leaves_by_surface) {
+        map.reason = fmt::format("mode '{}' is not left at the surface at which it is entered",
+                                 system.model().modes[chain.modes.front()].name);
+        return map;
+    }
+    const CompliantContact contact = compliant_contact(functions, touch, geometry, sizes, chain.modes.front());
+    map.reason = contact.reason;
+    if (!map.reason.empty())
+        return map;
+    map.order = MapOrder::three_halves;
+    map.direction = without_remnants(contact.gain, sizes.scales());
+    return map;
+}
+
+} // namespace graze

@@ -1,0 +1,99 @@
+#include "graze/grazing/map_motion.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "orbit/eigen_index.hpp"
+
+#include <Eigen/Core>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace graze {
+
+void MapMotionOptions::validate() const {
+    if (cycles == 0 || cycles > 10'000'000 || transient > 10'000'000)
+        throw InputError(fmt::format("{} cycles after {} are not possible", cycles, transient),
+                         "give 1 to 10000000, after at most as many");
+    if (!(recurrence > 0 && recurrence < 1))
+        throw InputError(fmt::format("the recurrence {} is not between 0 and 1", recurrence), "give 1e-9, say");
+}
+
+namespace {
+
+/// The map with states measured in their sizes.
+class ScaledMap {
+public:
+    ScaledMap(const CycleMap& map, double clearance)
+        : rigid_(map.contact.order == MapOrder::square_root), clearance_(clearance),
+          acceleration_(map.contact.acceleration) {
+        const Eigen::Index n = index(map.active.size());
+        const Eigen::Map<const Eigen::VectorXd> scales(map.scales.data(), n), impact(map.impact.data(), n),
+            gradient(map.gradient.data(), n);
+        matrix_.resize(n, n);
+        for (Eigen::Index i = 0; i < n; ++i)
+            for (Eigen::Index j = 0; j < n; ++j)
+                matrix_(i, j) = map.matrix[static_cast<std::size_t>(i * n + j)] * scales[j] / scales[i];
+        impact_ = impact.cwiseQuotient(scales);
+        gradient_ = gradient.cwiseProduct(scales);
+        state_ = Eigen::VectorXd::Zero(n);
+    }
+
+    const Eigen::VectorXd& state() const { return state_; }
+    /// One cycle. @return speed or depth of its contact, 0 without one
+    double step() {
+        const double depth = std::max(0.0, -(clearance_ + gradient_.dot(state_)));
+        const double speed = rigid_ ? std::sqrt(2 * acceleration_ * depth) : depth;
+        state_ += impact_ * (rigid_ ? speed : depth * std::sqrt(depth));
+        state_ = (matrix_ * state_).eval();
+        return speed;
+    }
+
+private:
+    bool rigid_;
+    double clearance_, acceleration_;
+    Eigen::MatrixXd matrix_;
+    Eigen::VectorXd impact_, gradient_, state_;
+};
+
+} // namespace
+
+MapMotion map_motion(const CycleMap& map, double clearance, const MapMotionOptions& options) {
+    options.validate();
+    if (!map.exists())
+        throw InputError("there is no map to iterate: " + map.reason, "ask whether it exists");
+    if (!std::isfinite(clearance))
+        throw InputError("the clearance is not finite", "give a number, negative where contacts happen");
+    ScaledMap scaled(map, clearance);
+    MapMotion motion;
+    for (std::size_t k = 0; k < options.transient; ++k)
+        scaled.step();
+    std::vector<Eigen::VectorXd> states{scaled.state()};
+    std::vector<double> speeds;
+    for (std::size_t k = 0; k < options.cycles; ++k) {
+        speeds.push_back(scaled.step());
+        states.push_back(scaled.state());
+    }
+    motion.bounded = states.back().allFinite();
+    if (!motion.bounded)
+        return motion;
+    double size = 0;
+    for (const Eigen::VectorXd& state : states)
+        size = std::max(size, state.cwiseAbs().maxCoeff());
+    for (std::size_t period = 1; motion.period == 0 && 2 * period <= options.cycles; ++period) {
+        bool again = true;
+        for (std::size_t k = 0; again && k < period; ++k)
+            again = (states[k] - states[k + period]).cwiseAbs().maxCoeff() <= options.recurrence * size;
+        if (again)
+            motion.period = period;
+    }
+    const std::size_t counted = motion.period > 0 ? motion.period : options.cycles;
+    for (std::size_t k = 0; k < counted; ++k) {
+        motion.contacts += speeds[k] > 0 ? 1 : 0;
+        motion.largest = std::max(motion.largest, speeds[k]);
+    }
+    return motion;
+}
+
+} // namespace graze

@@ -1,0 +1,243 @@
+#include "grazing/return_map.hpp"
+
+#include "orbit/certify.hpp"
+#include "orbit/eigen_index.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+/// Share of a round below which an arc takes no time: it belongs to a contact that has lost its speed.
+constexpr double no_time = 1e-6;
+
+/// Carries derivatives with respect to the state at the touch, and to a parameter, along an orbit.
+class Carrier {
+public:
+    Carrier(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
+            const TouchFunctions& functions, std::optional<std::size_t> free)
+        : equations_(equations), at_(at), touch_(touch), functions_(functions), free_(free),
+          n_(index(equations.layout().states())), flow_(flow_of(equations.simulation(), equations.free())) {
+        flow_.set_parameters(at.parameters);
+    }
+
+    ReturnMap carry() {
+        if (!find_touch() || !(touch_.at_end ? pass_from_end() : pass_from_inside()))
+            return std::move(result_);
+        // Onto the surface again, which may move with the parameter.
+        const TouchGeometry& here = result_.geometry;
+        Eigen::RowVectorXd row = here.rate_gradient.head(n_).transpose() * rows_;
+        if (free_)
+            row[n_] += here.rate_gradient[n_ + place_of_parameter()];
+        rows_ -= here.field * (row / here.acceleration);
+        if (!rows_.allFinite())
+            return fail("derivatives along the orbit are not finite");
+        result_.matrix = rows_.leftCols(n_);
+        if (free_)
+            result_.parameter = rows_.col(n_);
+        return std::move(result_);
+    }
+
+private:
+    ReturnMap fail(std::string reason) {
+        result_.reason = std::move(reason);
+        return std::move(result_);
+    }
+    bool refuse(std::string reason) {
+        result_.reason = std::move(reason);
+        return false;
+    }
+    Eigen::Index place_of_parameter() const { return index(equations_.free()[*free_].place()); }
+    double duration(std::size_t piece) const { return at_.unknowns[index(equations_.layout().duration_of(piece))]; }
+    std::vector<double> start(std::size_t piece) const {
+        const double* first = at_.unknowns.data() + equations_.layout().start_of(piece);
+        return {first, first + n_};
+    }
+
+    /// The piece and time of the touch, its state, and derivatives of that with respect to the piece's start.
+    bool find_touch() {
+        const OrbitLayout& layout = equations_.layout();
+        piece_ = layout.last_piece(touch_.segment);
+        time_ = duration(piece_);
+        if (!touch_.at_end) {
+            piece_ = layout.first_piece(touch_.segment);
+            time_ = touch_.time;
+            while (piece_ < layout.last_piece(touch_.segment) && time_ > duration(piece_))
+                time_ -= duration(piece_++);
+            if (!polish())
+                return refuse("the orbit does not turn back from the surface near the given time");
+        }
+        result_.touch = {functions_.mode(), functions_.event(), start(piece_), at_.parameters, {}};
+        for (Eigen::Index i = 0; i < n_; ++i)
+            result_.touch.scales.push_back(at_.scales[i]);
+        if (run(flow_, functions_.mode(), result_.touch.state, time_, before_) != ModeFlow::Ending::done)
+            return refuse("the motion to the touch is not defined");
+        result_.geometry = functions_.at(result_.touch.state, at_.parameters);
+        return true;
+    }
+
+    /// Newton's method for the time at which the touched function has no rate.
+    bool polish() {
+        constexpr int iterations = 30;
+        constexpr double farthest = 0.05, enough = 1e-14; // of a round
+        const double round = equations_.orbit_of(at_.unknowns).round(), first = time_;
+        for (int iteration = 0; iteration < iterations; ++iteration) {
+            std::vector<double> state = start(piece_);
+            if (flow_.run(functions_.mode(), state, time_) != ModeFlow::Ending::done)
+                return false;
+            const TouchGeometry here = functions_.at(state, at_.parameters);
+            const double step = -here.rate / here.acceleration;
+            if (!(std::abs(time_ + step - first) < farthest * round))
+                return false;
+            time_ += step;
+            if (std::abs(step) < enough * round)
+                return true;
+        }
+        // Round-off where the acceleration is small decides the last digits.
+        return true;
+    }
+
+    void begin() { rows_ = Eigen::MatrixXd::Identity(n_, n_ + (free_ ? 1 : 0)); }
+    void apply(const Eigen::MatrixXd& derivatives) {
+        rows_ = (derivatives.leftCols(n_) * rows_).eval();
+        if (free_)
+            rows_.col(n_) += derivatives.col(n_ + index(*free_));
+    }
+
+    bool pass_from_inside() {
+        std::vector<double> state = result_.touch.state;
+        Eigen::MatrixXd after;
+        if (run(flow_, functions_.mode(), state, duration(piece_) - time_, after) != ModeFlow::Ending::done)
+            return refuse("the motion after the touch is not defined");
+        begin();
+        apply(after);
+        const std::size_t pieces = equations_.layout().pieces();
+        if (!pass_end(piece_))
+            return false;
+        for (std::size_t k = 1; k < pieces; ++k) {
+            const std::size_t piece = (piece_ + k) % pieces;
+            apply(at_.pieces[piece].flow);
+            if (!pass_end(piece))
+                return false;
+        }
+        apply(before_);
+        return true;
+    }
+
+    /// The contact at the touch, and what takes no time after it, are not passed.
+    bool pass_from_end() {
+        const OrbitLayout& layout = equations_.layout();
+        const std::size_t pieces = layout.pieces();
+        const double round = equations_.orbit_of(at_.unknowns).round();
+        begin();
+        std::size_t mode = functions_.mode(), k = 1;
+        pass_symmetry(piece_, mode);
+        for (; k < pieces && std::abs(duration((piece_ + k) % pieces)) < no_time * round; ++k)
+            pass_symmetry((piece_ + k) % pieces, mode);
+        if (equations_.mode_of((piece_ + k) % pieces) != mode)
+            return refuse("after the contact that has lost its speed the orbit goes on in another mode");
+        for (; k < pieces; ++k) {
+            const std::size_t piece = (piece_ + k) % pieces;
+            apply(at_.pieces[piece].flow);
+            if (!pass_end(piece))
+                return false;
+        }
+        apply(before_);
+        return true;
+    }
+
+    /// The symmetry's image alone, behind the last piece of a half orbit.
+    void pass_symmetry(std::size_t piece, std::size_t& mode) {
+        if (!equations_.symmetry() || piece + 1 != equations_.layout().pieces())
+            return;
+        const System::CompiledJump& map = equations_.system().symmetry(*equations_.symmetry());
+        mode = equations_.model().symmetries[*equations_.symmetry()].modes[mode];
+        if (map.identity)
+            return;
+        std::vector<double> inputs = at_.pieces[piece].end;
+        inputs.insert(inputs.end(), at_.parameters.begin(), at_.parameters.end());
+        const std::vector<double> entries = map.jacobian(inputs);
+        Eigen::MatrixXd derivatives = Eigen::MatrixXd::Identity(n_, n_ + index(equations_.free().size()));
+        for (const std::size_t i : map.changed)
+            derivatives.row(index(i)).setZero();
+        for (std::size_t e = 0; e < map.entries.size(); ++e) {
+            const auto [row, column] = map.entries[e];
+            if (index(column) < n_)
+                derivatives(index(row), index(column)) = entries[e];
+            else if (free_ && index(column) - n_ == place_of_parameter())
+                derivatives(index(row), n_ + index(*free_)) = entries[e];
+        }
+        apply(derivatives);
+    }
+
+    bool changes_something(std::size_t piece) const {
+        const Segment& segment = equations_.signature()[equations_.layout().segment_of(piece)];
+        return equations_.layout().is_last(piece) && segment.end == SegmentEnd::event &&
+               !is_harmless(equations_.system(), segment.index);
+    }
+
+    /// What ends a piece: the event and not the time says when (saltation), then jump and image.
+    bool pass_end(std::size_t piece) {
+        const OrbitEvaluation::Piece& one = at_.pieces[piece];
+        if (changes_something(piece)) {
+            const double rate = one.condition.head(n_).dot(one.field);
+            const std::size_t segment = equations_.layout().segment_of(piece);
+            if (!(std::abs(rate) > least_rate * equations_.usual_rate(at_, segment)))
+                return refuse(fmt::format("the contact that ends segment {} has no speed", segment + 1));
+            Eigen::RowVectorXd row = one.condition.head(n_).transpose() * rows_;
+            if (free_)
+                row[n_] += one.condition[n_ + index(*free_)];
+            rows_ -= one.field * (row / rate);
+        }
+        apply(one.jump);
+        take_out_turns(piece);
+        return true;
+    }
+
+    /// Cyclic states come back less whole periods, which may depend on the parameter.
+    void take_out_turns(std::size_t piece) {
+        if (!free_)
+            return;
+        const System& system = equations_.system();
+        const std::vector<double> next = start((piece + 1) % equations_.layout().pieces());
+        std::vector<double> rates;
+        for (Eigen::Index i = 0; i < n_; ++i) {
+            const double period = at_.periods[static_cast<std::size_t>(i)];
+            if (!(period > 0))
+                continue;
+            const auto state = static_cast<std::size_t>(i);
+            const double turns = std::round((at_.pieces[piece].after[state] - next[state]) / period);
+            if (turns == 0)
+                continue;
+            if (rates.empty())
+                rates = system.period_gradients()(at_.parameters);
+            rows_(i, n_) -= turns * rates[state * system.parameters() + equations_.free()[*free_].place()];
+        }
+    }
+
+    const OrbitEquations& equations_;
+    const OrbitEvaluation& at_;
+    const OrbitTouch& touch_;
+    const TouchFunctions& functions_;
+    std::optional<std::size_t> free_;
+    Eigen::Index n_;
+    ModeFlow flow_;
+    std::size_t piece_ = 0;
+    double time_ = 0;        ///< of the touch, since the piece's start
+    Eigen::MatrixXd before_; ///< from there to the touch
+    Eigen::MatrixXd rows_;   ///< states x (states + parameter)
+    ReturnMap result_;
+};
+
+} // namespace
+
+ReturnMap return_map(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
+                     const TouchFunctions& functions, std::optional<std::size_t> free) {
+    return Carrier(equations, at, touch, functions, free).carry();
+}
+
+} // namespace graze

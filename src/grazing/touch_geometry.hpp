@@ -1,0 +1,56 @@
+#pragma once
+
+#include "graze/flow/system.hpp"
+#include "graze/grazing/discontinuity_map.hpp"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace graze {
+
+/// The function of an event and its rates along the flow of a mode at a state, with gradients: states, then parameters.
+struct TouchGeometry {
+    double value = 0, rate = 0, acceleration = 0, jerk = 0;
+    Eigen::VectorXd gradient, rate_gradient;
+    Eigen::VectorXd field;
+};
+
+/// Compiled once for a mode and an event.
+class TouchFunctions {
+public:
+    TouchFunctions(const System& system, std::size_t mode, std::size_t event);
+
+    std::size_t mode() const { return mode_; }
+    std::size_t event() const { return event_; }
+    const System& system() const { return system_; }
+    TouchGeometry at(std::span<const double> state, std::span<const double> parameters) const;
+
+private:
+    System system_;
+    std::size_t mode_, event_;
+    Function rate_, further_;
+};
+
+/// What counts as zero beside a touch. Values and rates of functions are compared with what the sizes of the states and
+/// the time in which the touched function would come back from its own size make of them.
+class TouchSizes {
+public:
+    TouchSizes(const TouchState& touch, const TouchGeometry& geometry);
+
+    bool is_zero(double value, const Eigen::VectorXd& gradient) const;
+    bool is_zero_rate(double rate, const Eigen::VectorXd& gradient, const Eigen::VectorXd& field) const;
+    /// What a function gains for each unit of approach speed.
+    bool is_zero_gain(double gain, const Eigen::VectorXd& gradient) const;
+    /// What the states gain.
+    bool is_zero_gain(const Eigen::VectorXd& gain) const;
+    const Eigen::VectorXd& scales() const { return scales_; }
+    double time() const { return time_; }
+
+private:
+    Eigen::VectorXd scales_;
+    double time_ = 1, speed_ = 1;
+};
+
+} // namespace graze

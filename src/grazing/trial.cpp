@@ -1,0 +1,232 @@
+#include "graze/grazing/trial.hpp"
+
+#include "graze/grazing/map_motion.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/trajectory/trajectory.hpp"
+#include "orbit/newton.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+/// Factors of speeds that count as growth, and as agreement with the map.
+constexpr double growth = 30, alike = 3;
+
+/// Notes the greatest approach speed at one event, or the greatest depth beyond it.
+class Greatest : public Observer {
+public:
+    Greatest(const System& system, std::size_t event, std::span<const double> parameters,
+             const std::function<bool()>& interrupted)
+        : system_(system), event_(event), parameters_(parameters.begin(), parameters.end()), interrupted_(interrupted) {
+    }
+
+    void contact(const Contact& contact) override {
+        if (contact.event != event_ || contact.kind == ContactKind::touch)
+            return;
+        ++contacts_;
+        speed_ = std::max(speed_, -contact.rate_before);
+    }
+    void step(const Step& step) override {
+        constexpr int parts = 8;
+        for (int part = 1; part <= parts; ++part) {
+            const double s = step.length * part / parts;
+            std::vector<double> inputs;
+            for (std::size_t i = 0; i < system_.states(); ++i)
+                inputs.push_back(step.state(i, s));
+            inputs.insert(inputs.end(), parameters_.begin(), parameters_.end());
+            depth_ = std::max(depth_, -system_.event(event_)(inputs)[0]);
+        }
+    }
+    bool stop() override { return interrupted_ && interrupted_(); }
+
+    std::size_t contacts() const { return contacts_; }
+    double speed() const { return speed_; }
+    double depth() const { return depth_; }
+
+private:
+    const System& system_;
+    std::size_t event_;
+    std::vector<double> parameters_;
+    const std::function<bool()>& interrupted_;
+    std::size_t contacts_ = 0;
+    double speed_ = 0, depth_ = 0;
+};
+
+/// One touch, beside which motions are simulated.
+class Experiment {
+public:
+    Experiment(const System& system, const CycleMap& map, ParameterId parameter, const TrialOptions& options)
+        : simulation_(system, {}, {}, integration(options.tolerance)), map_(map), parameter_(parameter),
+          options_(options), rigid_(map.contact.order == MapOrder::square_root) {
+        for (std::size_t i = 0; i < map.contact.touch.state.size(); ++i)
+            size_ += std::abs(map.contact.gradient[i]) * map.contact.touch.scales[i];
+    }
+
+    /// Of the event's function.
+    double size() const { return size_; }
+    bool is_rigid() const { return rigid_; }
+    double speed_at(double clearance) const { return std::sqrt(-2 * map_.contact.acceleration * clearance); }
+    /// The parameter is a number with so many digits: clearances must be far larger than what they leave open.
+    double least_clearance() const {
+        constexpr double digits = 1e-15, enough = 1e3, of_states = 1e-10;
+        const double parameter = map_.contact.touch.parameters[parameter_.place()];
+        return std::max(of_states * size_, enough * digits * std::abs(parameter * *map_.clearance_rate));
+    }
+
+    /// Simulates the motion that begins at the touch, where the orbit without contact would be.
+    TrialMotion run(double clearance) const {
+        const TouchState& touch = map_.contact.touch;
+        TrialMotion motion;
+        motion.clearance = clearance;
+        std::vector<double> parameters = touch.parameters, state = touch.state;
+        const double change = clearance / *map_.clearance_rate;
+        motion.parameter = parameters[parameter_.place()] += change;
+        for (std::size_t i = 0; i < map_.active.size(); ++i)
+            state[map_.active[i]] += map_.steady[i] * change;
+        // It begins before the contact, which is before the touch by speed over acceleration.
+        constexpr double earlier = 3;
+        const double early = std::min(earlier * speed_at(clearance) / map_.contact.acceleration, 0.01 * map_.time);
+        ModeFlow flow(simulation_.system(), simulation_.options().tolerance);
+        flow.set_parameters(parameters);
+        if (flow.run(touch.mode, state, -early) != ModeFlow::Ending::done)
+            return motion;
+        Greatest greatest(simulation_.system(), touch.event, parameters, options_.interrupted);
+        Trajectory trajectory(simulation_, parameters, greatest);
+        trajectory.start(state, touch.mode, 0, static_cast<double>(options_.cycles) * map_.time + early);
+        JetSet jets(simulation_, LaneKind::single);
+        graze::run(trajectory, jets);
+        const Ending ending = trajectory.outcome().ending;
+        motion.ended = ending == Ending::singular || ending == Ending::terminal;
+        motion.followed = motion.ended || ending == Ending::end_time;
+        motion.contacts = greatest.contacts();
+        motion.largest = rigid_ ? greatest.speed() : greatest.depth();
+        MapMotionOptions map_options;
+        map_options.transient = 0;
+        map_options.cycles = options_.cycles;
+        motion.predicted = map_motion(map_, clearance, map_options).largest;
+        return motion;
+    }
+
+private:
+    Simulation simulation_;
+    const CycleMap& map_;
+    ParameterId parameter_;
+    const TrialOptions& options_;
+    bool rigid_;
+    double size_ = 0;
+};
+
+Trial with_reason(Trial trial, TrialOutcome outcome, std::string reason) {
+    trial.outcome = outcome;
+    trial.reason = std::move(reason);
+    return trial;
+}
+
+bool is_near(double one, double other, double factor) {
+    return one <= factor * other && other <= factor * one;
+}
+
+/// Growth must be there at every distance, and the nearer the touch the more of it.
+Trial try_loss(const Experiment& experiment, const Verdict& verdict, const TrialOptions& options) {
+    Trial trial;
+    const double least = experiment.least_clearance();
+    // Contacts go on growing only as long as they are slower than the reach of the growth.
+    const double room = *verdict.reach / experiment.speed_at(-least);
+    if (!(room > growth))
+        return with_reason(trial, TrialOutcome::undecided,
+                           fmt::format("speeds would grow by a factor of {:.3g} only from the softest contacts that "
+                                       "numbers allow",
+                                       room));
+    // From one to the next there are so many cycles, and seven of them make a thousand of nearly nothing.
+    constexpr std::size_t needed = 12;
+    if (verdict.next_contact * needed > options.cycles)
+        return with_reason(
+            trial, TrialOutcome::undecided,
+            fmt::format("contacts come {} cycles after one another: too many to be simulated", verdict.next_contact));
+    bool all_grow = true, none_grows = true, followed = true;
+    for (const double factor : {1.0, 30.0}) {
+        trial.motions.push_back(experiment.run(-least * factor));
+        const TrialMotion& motion = trial.motions.back();
+        const double grown = motion.largest / experiment.speed_at(motion.clearance);
+        const double expected = std::min(growth, 0.3 * motion.predicted / experiment.speed_at(motion.clearance));
+        const bool grows = motion.ended || grown > expected;
+        followed = followed && (grows || motion.followed);
+        all_grow = all_grow && grows;
+        none_grows = none_grows && !grows;
+    }
+    if (all_grow)
+        return with_reason(trial, TrialOutcome::agreed, "contacts grow however near the touch is");
+    if (none_grows && followed)
+        return with_reason(trial, TrialOutcome::contradicted, "contacts do not grow");
+    return with_reason(trial, TrialOutcome::undecided,
+                       followed ? "contacts grow from one distance only"
+                                : "motions could not be followed to their end");
+}
+
+/// Speeds and depths are those of the map, and shrink with the distance.
+Trial try_persistence(const Experiment& experiment) {
+    Trial trial;
+    constexpr double nearer = 100;
+    const double first = experiment.least_clearance();
+    for (const double factor : {nearer, 1.0})
+        trial.motions.push_back(experiment.run(-first * factor));
+    const TrialMotion& far = trial.motions[0];
+    const TrialMotion& near = trial.motions[1];
+    if (!near.ended && !near.followed)
+        return with_reason(trial, TrialOutcome::undecided, "the motion could not be followed to its end");
+    // Speeds by the root of the distance, depths of compliant contacts by the distance itself.
+    const double shrunk = experiment.is_rigid() ? std::sqrt(nearer) : nearer;
+    const bool shrinks = is_near(far.largest, shrunk * near.largest, alike);
+    if (!far.ended && !near.ended && near.contacts > 0 && shrinks && is_near(near.largest, near.predicted, alike))
+        return with_reason(trial, TrialOutcome::agreed, "contacts are as soft as the map has them");
+    if (near.contacts > 0 && near.largest * alike > far.largest)
+        return with_reason(trial, TrialOutcome::contradicted, "contacts do not grow softer towards the touch");
+    if (!far.ended && !near.ended && near.contacts == 0)
+        return with_reason(trial, TrialOutcome::undecided, "no contacts are seen so near the touch");
+    if (near.ended || near.largest > growth * near.predicted)
+        return with_reason(trial, TrialOutcome::contradicted, "contacts are far harder than the map has them");
+    return with_reason(trial, TrialOutcome::undecided, "contacts are neither as the map has them nor far harder");
+}
+
+} // namespace
+
+void TrialOptions::validate() const {
+    if (cycles == 0 || cycles > 1'000'000)
+        throw InputError(fmt::format("{} cycles are not possible", cycles), "give 1 to 1000000");
+    if (!(tolerance >= 1e-16 && tolerance <= 1e-2))
+        throw InputError(fmt::format("the tolerance {} is out of range", tolerance), "give 1e-16 to 1e-2");
+}
+
+std::string_view name_of(TrialOutcome outcome) {
+    switch (outcome) {
+    case TrialOutcome::agreed:
+        return "agreed";
+    case TrialOutcome::contradicted:
+        return "contradicted";
+    case TrialOutcome::undecided:
+        break;
+    }
+    return "undecided";
+}
+
+Trial try_verdict(const System& system, const CycleMap& map, const Verdict& verdict, ParameterId parameter,
+                  const TrialOptions& options) {
+    options.validate();
+    Trial trial;
+    if (verdict.outcome == GrazingOutcome::undecided)
+        return with_reason(trial, TrialOutcome::undecided, "there is no verdict to be checked: " + verdict.reason);
+    if (!map.clearance_rate || !(std::abs(*map.clearance_rate) > 0))
+        return with_reason(trial, TrialOutcome::undecided, "no parameter is known that moves the orbit from its touch");
+    if (map.contact.touch.state.size() != system.states() || map.contact.touch.parameters.size() != system.parameters())
+        throw InputError("the map belongs to another model", "give the system that it was made from");
+    const Experiment experiment(system, map, parameter, options);
+    return verdict.outcome == GrazingOutcome::lost ? try_loss(experiment, verdict, options)
+                                                   : try_persistence(experiment);
+}
+
+} // namespace graze

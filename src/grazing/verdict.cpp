@@ -1,0 +1,294 @@
+#include "graze/grazing/verdict.hpp"
+
+#include "orbit/eigen_index.hpp"
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+namespace graze {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Shares of what adds up to a projection below which it counts as zero, and multipliers as equal.
+constexpr double vanishing = 1e-9;
+constexpr double stable = 1 - 1e-9;
+constexpr std::size_t most_cycles = 1'000'000;
+
+/// The map in units of the states' sizes.
+struct Scaled {
+    explicit Scaled(const CycleMap& map) {
+        const Eigen::Index n = index(map.active.size());
+        const Eigen::Map<const Eigen::VectorXd> scales(map.scales.data(), n);
+        matrix.resize(n, n);
+        for (Eigen::Index i = 0; i < n; ++i)
+            for (Eigen::Index j = 0; j < n; ++j)
+                matrix(i, j) = map.matrix[static_cast<std::size_t>(i * n + j)] * scales[j] / scales[i];
+        impact = Eigen::Map<const Eigen::VectorXd>(map.impact.data(), n).cwiseQuotient(scales);
+        gradient = Eigen::Map<const Eigen::VectorXd>(map.gradient.data(), n).cwiseProduct(scales);
+    }
+    Eigen::MatrixXd matrix;
+    Eigen::VectorXd impact, gradient;
+};
+
+/// Projections as sums over multipliers: weight_i multiplier_i^k.
+struct Modes {
+    std::vector<Complex> multipliers, weights; ///< by falling size of the multipliers
+    bool known = false;                        ///< false: they do not add up to the projections, as at double ones
+};
+
+Modes modes_of(const Scaled& map, const std::vector<double>& projections) {
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(map.matrix);
+    Modes modes;
+    if (solver.info() != Eigen::Success)
+        return modes;
+    const Eigen::MatrixXcd vectors = solver.eigenvectors();
+    const Eigen::VectorXcd amounts = vectors.fullPivLu().solve(map.impact.cast<Complex>());
+    const Eigen::RowVectorXcd seen = map.gradient.cast<Complex>().transpose() * vectors;
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(amounts.size()));
+    for (std::size_t i = 0; i < order.size(); ++i)
+        order[i] = index(i);
+    std::sort(order.begin(), order.end(), [&](Eigen::Index one, Eigen::Index other) {
+        return std::abs(solver.eigenvalues()[one]) > std::abs(solver.eigenvalues()[other]);
+    });
+    for (const Eigen::Index i : order) {
+        modes.multipliers.push_back(solver.eigenvalues()[i]);
+        modes.weights.push_back(seen[i] * amounts[i]);
+    }
+    modes.known = true;
+    for (std::size_t k = 1; k <= projections.size(); ++k) {
+        Complex sum = 0;
+        double size = 0;
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            const Complex term = modes.weights[i] * std::pow(modes.multipliers[i], static_cast<double>(k));
+            sum += term;
+            size += std::abs(term);
+        }
+        constexpr double alike = 1e-6;
+        modes.known = modes.known && std::abs(sum - projections[k - 1]) <= alike * size;
+    }
+    return modes;
+}
+
+/// The signs of all projections.
+struct Signs {
+    std::size_t first_negative = 0; ///< 0: none is
+    std::size_t vanishing = 0;      ///< the first that cannot be told from zero, before that
+    bool decided = false;
+    bool none = false; ///< a contact acts on nothing later
+    double leading = 0;
+};
+
+Signs signs_of(const Modes& modes) {
+    Signs signs;
+    const double size = [&] {
+        double sum = 0;
+        for (std::size_t i = 0; i < modes.weights.size(); ++i)
+            sum += std::abs(modes.weights[i]) * std::abs(modes.multipliers[i]);
+        return sum;
+    }();
+    // Those that take part. What has no weight is round-off.
+    std::vector<Complex> multipliers, terms;
+    double largest = 0;
+    for (std::size_t i = 0; i < modes.weights.size(); ++i)
+        largest = std::max(largest, std::abs(modes.weights[i]));
+    for (std::size_t i = 0; i < modes.weights.size(); ++i)
+        if (std::abs(modes.weights[i]) > vanishing * largest && std::abs(modes.multipliers[i]) > vanishing) {
+            multipliers.push_back(modes.multipliers[i]);
+            terms.push_back(modes.weights[i]);
+        }
+    if (multipliers.empty() || !(size > 0)) {
+        signs.none = true;
+        return signs;
+    }
+    const double unit = std::abs(multipliers.front());
+    signs.leading = multipliers.front().real();
+    const bool tail_known = multipliers.front().imag() == 0 && multipliers.front().real() > 0 &&
+                            terms.front().real() > 0 &&
+                            (multipliers.size() == 1 || std::abs(multipliers[1]) < unit * stable);
+    for (std::size_t k = 1; k <= most_cycles; ++k) {
+        double sum = 0, all = 0, others = 0;
+        for (std::size_t i = 0; i < terms.size(); ++i) {
+            terms[i] *= multipliers[i] / unit;
+            sum += terms[i].real();
+            all += std::abs(terms[i]);
+            others += i > 0 ? std::abs(terms[i]) : 0;
+        }
+        if (std::abs(sum) <= vanishing * all) {
+            signs.vanishing = k;
+            return signs;
+        }
+        if (sum < 0) {
+            signs.first_negative = k;
+            signs.decided = true;
+            return signs;
+        }
+        constexpr double surely = 0.5;
+        if (tail_known && others < surely * terms.front().real()) {
+            signs.decided = true;
+            return signs;
+        }
+    }
+    return signs;
+}
+
+AttractorKind kind_of_multiplier(double leading) {
+    return leading < 0.25 ? AttractorKind::period_adding
+                          : (3 * leading < 2 ? AttractorKind::periodic_windows : AttractorKind::chaotic);
+}
+
+void judge_rigid(const CycleMap& map, Verdict& verdict) {
+    const Scaled scaled(map);
+    const Modes modes = modes_of(scaled, map.projections(std::max<std::size_t>(8, 2 * map.active.size())));
+    if (map.clearance_rate)
+        verdict.first_speed = std::sqrt(2 * map.contact.acceleration * std::abs(*map.clearance_rate));
+    if (!modes.known) {
+        verdict.reason = "multipliers are too close to one another to tell how contacts act on late passes";
+        return;
+    }
+    const Signs signs = signs_of(modes);
+    if (signs.none) {
+        verdict.reason = "to leading order a contact acts on no later pass";
+        return;
+    }
+    if (signs.vanishing > 0) {
+        verdict.reason = fmt::format("to leading order a contact does not act on pass {} after it", signs.vanishing);
+        return;
+    }
+    if (!signs.decided) {
+        verdict.reason = fmt::format("passes up to {} do not decide", most_cycles);
+        return;
+    }
+    if (signs.first_negative == 0) {
+        verdict.outcome = GrazingOutcome::persists;
+        verdict.leading = signs.leading;
+        verdict.attractor = kind_of_multiplier(signs.leading);
+        return;
+    }
+    verdict.outcome = GrazingOutcome::lost;
+    verdict.next_contact = signs.first_negative;
+    const double projection = map.projections(signs.first_negative).back();
+    verdict.growth = std::sqrt(-2 * map.contact.acceleration * projection);
+    verdict.reach = -2 * map.contact.acceleration * projection;
+    if (map.contact.restitution > -1)
+        verdict.jump_growth = *verdict.growth * std::sqrt(1 + map.contact.restitution);
+}
+
+/// Largest multiplier at a depth, by its root.
+Complex largest_multiplier(const Scaled& map, double root) {
+    constexpr double three_halves = 1.5;
+    const Eigen::MatrixXd here = map.matrix * (Eigen::MatrixXd::Identity(map.matrix.rows(), map.matrix.cols()) -
+                                               three_halves * root * map.impact * map.gradient.transpose());
+    const Eigen::VectorXcd values = here.eigenvalues();
+    return *std::max_element(values.begin(), values.end(),
+                             [](Complex one, Complex other) { return std::abs(one) < std::abs(other); });
+}
+
+/// The least root of a depth, up to one, at which the orbit loses its stability. @return none if it does not
+std::optional<double> loss_of_stability(const Scaled& map, double greatest) {
+    constexpr int parts = 200;
+    double before = 0;
+    for (int part = 1; part <= parts; ++part) {
+        const double root = greatest * part / parts;
+        if (std::abs(largest_multiplier(map, root)) < 1) {
+            before = root;
+            continue;
+        }
+        double low = before, high = root;
+        constexpr int halvings = 60;
+        for (int i = 0; i < halvings; ++i) {
+            const double middle = 0.5 * (low + high);
+            (std::abs(largest_multiplier(map, middle)) < 1 ? low : high) = middle;
+        }
+        return high;
+    }
+    return std::nullopt;
+}
+
+void judge_compliant(const CycleMap& map, Verdict& verdict) {
+    const Scaled scaled(map);
+    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(scaled.matrix.rows(), scaled.matrix.cols());
+    const Eigen::VectorXd passed = scaled.matrix * scaled.impact;
+    const Eigen::VectorXd settled = (identity - scaled.matrix).fullPivLu().solve(passed);
+    const double chi = scaled.gradient.dot(settled);
+    const double size = scaled.gradient.cwiseAbs().dot(settled.cwiseAbs());
+    verdict.alpha = -chi;
+    if (!(std::abs(chi) > vanishing * size)) {
+        verdict.reason = "to leading order contacts do not act on the orbit";
+        return;
+    }
+    const double root = 2 / (3 * std::abs(chi));
+    if (chi < 0) {
+        verdict.fold_depth = root * root;
+        verdict.fold_clearance = -4 / (27 * chi * chi);
+        if (map.clearance_rate && *map.clearance_rate != 0)
+            verdict.fold_distance = *verdict.fold_clearance / *map.clearance_rate;
+    }
+    // Where there is no fold, up to depths at which leading order says nothing any more.
+    constexpr double beyond = 10;
+    const auto lost = loss_of_stability(scaled, chi < 0 ? (1 - 1e-6) * root : beyond * root);
+    if (lost)
+        verdict.unstable_depth = *lost * *lost;
+    verdict.outcome = chi < 0 && !lost ? GrazingOutcome::folds : GrazingOutcome::persists;
+}
+
+} // namespace
+
+std::string_view name_of(GrazingOutcome outcome) {
+    switch (outcome) {
+    case GrazingOutcome::persists:
+        return "persists";
+    case GrazingOutcome::lost:
+        return "lost";
+    case GrazingOutcome::folds:
+        return "folds";
+    case GrazingOutcome::undecided:
+        break;
+    }
+    return "undecided";
+}
+
+std::string_view name_of(AttractorKind kind) {
+    switch (kind) {
+    case AttractorKind::period_adding:
+        return "period-adding";
+    case AttractorKind::periodic_windows:
+        return "periodic-windows";
+    case AttractorKind::chaotic:
+        return "chaotic";
+    case AttractorKind::none:
+        break;
+    }
+    return "none";
+}
+
+Verdict verdict_of(const CycleMap& map, std::size_t shown) {
+    Verdict verdict;
+    if (!map.exists()) {
+        verdict.reason = map.reason.empty() ? map.contact.reason : map.reason;
+        return verdict;
+    }
+    verdict.projections = map.projections(shown);
+    if (map.clearance_rate)
+        verdict.side = *map.clearance_rate < 0 ? 1 : (*map.clearance_rate > 0 ? -1 : 0);
+    if (!map.multipliers.empty() && !(std::abs(map.multipliers.front()) < stable)) {
+        verdict.reason = "the orbit that touches is not stable itself";
+        return verdict;
+    }
+    if (map.touches > 1) {
+        verdict.reason = fmt::format("the orbit touches in {} places at once", map.touches);
+        return verdict;
+    }
+    if (map.contact.order == MapOrder::square_root)
+        judge_rigid(map, verdict);
+    else
+        judge_compliant(map, verdict);
+    return verdict;
+}
+
+} // namespace graze

@@ -1,0 +1,145 @@
+#include "study/branch_part.hpp"
+
+#include "study/point_limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+void PointWriter::add(const std::string& part, const SpecialPoint& point, bool stable) {
+    flush();
+    waiting_ = OrbitRecord{0, part, "", stable, point};
+}
+
+void PointWriter::end(const std::string& why) {
+    if (!waiting_)
+        return;
+    SpecialPoint& point = waiting_->point;
+    if (point.type == PointType::regular)
+        point.type = PointType::end;
+    if (!why.empty())
+        point.detail += point.detail.empty() ? why : "; " + why;
+    flush();
+}
+
+/// Says so of a point that an earlier part has as well.
+void PointWriter::flush() {
+    if (!waiting_)
+        return;
+    OrbitRecord& record = *waiting_;
+    record.number = report_->points++;
+    if (record.point.type != PointType::regular) {
+        record.label = point_label(record.point.type, ++counts_[record.point.type]);
+        note_twin(record);
+    }
+    file_->with([&](ResultFile& results) {
+        results.add_orbit(run_->name, record);
+        ++report_->computed;
+        if (options_->orbit)
+            options_->orbit(run_->name, record);
+    });
+    waiting_.reset();
+}
+
+/// Says so of a point that an earlier part has as well.
+void PointWriter::note_twin(OrbitRecord& record) {
+    const auto alike = [](double one, double other) {
+        return std::abs(one - other) <= same_point * std::max(std::abs(one), std::abs(other));
+    };
+    for (const OrbitRecord& other : twin_.empty() ? std::vector<OrbitRecord>() : special_)
+        if (other.part == twin_ && other.point.type == record.point.type &&
+            alike(other.point.parameter, record.point.parameter) &&
+            alike(other.point.solution.orbit.period(), record.point.solution.orbit.period())) {
+            std::string& detail = record.point.detail;
+            detail = fmt::format("twin of {}{}{}", other.label, detail.empty() ? "" : "; ", detail);
+            return;
+        }
+    if (twin_.empty())
+        special_.push_back(record);
+}
+
+namespace {
+
+/// @param again whether an earlier part of the run has the same first point, which is an end of neither
+SpecialPoint regular_point(const BranchPoint& point, bool again) {
+    SpecialPoint result;
+    result.type = point.step == 0 && !again ? PointType::end : PointType::regular;
+    result.detail = point.step == 0 ? "start" : "";
+    result.solution = point.solution;
+    result.solution.iterations = point.iterations;
+    result.parameter = point.parameter;
+    result.bracket = {unknown_value, unknown_value};
+    result.arclength = point.arclength;
+    result.step = point.step;
+    result.tangent = point.tangent;
+    result.monitors = point.monitors;
+    return result;
+}
+
+/// An orbit from which no branch could be begun, for the file to say so.
+SpecialPoint failed_start(const BranchPart& part, const StudyRun& run, const std::string& why) {
+    SpecialPoint point;
+    point.type = PointType::end;
+    point.located = false;
+    point.detail = "no start: " + why;
+    point.solution.orbit = part.orbit;
+    point.solution.certificate.admissible = false;
+    point.solution.certificate.reason = "no orbit was found";
+    point.parameter = part.orbit.parameters[run.branch.settings.parameter.place()];
+    point.bracket = {unknown_value, unknown_value};
+    return point;
+}
+
+/// Whether a curve has not left its point, from which it leads the other way or nowhere.
+bool stays_at_start(const BranchPart& part, const OrbitBranch& branch) {
+    return part.kept && branch.point().step == 0 &&
+           (branch.outcome() == BranchOutcome::stopped || branch.outcome() == BranchOutcome::unphysical);
+}
+
+} // namespace
+
+PartEnd follow_part(const StudyRun& run, const BranchSettings& of_run, const System& system, const BranchPart& part,
+                    PointWriter& writer, const RunnerOptions& options) {
+    BranchSettings settings = of_run;
+    settings.direction = part.direction;
+    settings.kept = part.kept;
+    OrbitBranch branch = at_place(run.place, run, [&] { return OrbitBranch(system, part.orbit, settings); });
+    bool going = part.onto ? branch.start_along(part.onto->direction, part.onto->distance) : branch.start();
+    if (!going) {
+        if (!part.kept) { // of curves the run says why there is none
+            writer.add(part.name, failed_start(part, run, branch.detail()), false);
+            writer.end("");
+        }
+        return {branch.outcome(), branch.detail(), std::nullopt, false};
+    }
+    bool last_is_special = false;
+    std::optional<SpecialPoint> last;
+    while (going) {
+        for (const SpecialPoint& special : branch.found())
+            writer.add(part.name, special, is_stable(special.solution));
+        const BranchOutcome outcome = branch.outcome();
+        const bool ended = outcome == BranchOutcome::bound || outcome == BranchOutcome::stopped ||
+                           outcome == BranchOutcome::unphysical || outcome == BranchOutcome::returned;
+        last_is_special = ended && !branch.found().empty();
+        last = last_is_special ? std::optional(branch.found().back()) : std::nullopt;
+        // What lies beyond an end that has been located does not belong to the branch.
+        if (!last_is_special)
+            writer.add(part.name, regular_point(branch.point(), part.again), branch.point().stable);
+        if (options.interrupted && options.interrupted())
+            return {};
+        going = branch.step();
+    }
+    if (stays_at_start(part, branch)) {
+        writer.drop();
+        return {branch.outcome(), branch.detail(), std::nullopt, false};
+    }
+    const bool told = branch.outcome() != BranchOutcome::unphysical;
+    std::string why = told && last_is_special ? "" : std::string(name_of(branch.outcome()));
+    if (!why.empty() && !branch.detail().empty())
+        why += ": " + branch.detail();
+    writer.end(why);
+    return {branch.outcome(), why, last};
+}
+
+} // namespace graze

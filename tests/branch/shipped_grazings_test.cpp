@@ -1,0 +1,219 @@
+// What becomes of the shipped models beyond their grazings: maps of the cycles, verdicts, and what simulation says.
+
+#include "follow.hpp"
+
+#include "graze/flow/mode_flow.hpp"
+#include "graze/grazing/trial.hpp"
+#include "graze/trajectory/recorder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+struct Judged {
+    CycleMap map;
+    Verdict verdict;
+    Trial trial;
+};
+
+Judged judged(const Model& model, const SpecialPoint& point, const char* parameter) {
+    const System system(model);
+    CycleMapOptions options;
+    options.parameter = model.independent_parameter(parameter);
+    Judged result;
+    result.map =
+        cycle_map(system, point.solution.orbit, {point.segment, point.event, point.time, point.at_end}, options);
+    EXPECT_TRUE(result.map.exists()) << result.map.reason;
+    result.verdict = verdict_of(result.map);
+    result.trial = try_verdict(system, result.map, result.verdict, *options.parameter);
+    // The map is that of the orbit: its multipliers are.
+    const auto& known = point.solution.orbit.symmetry ? point.solution.half_multipliers : point.solution.multipliers;
+    EXPECT_EQ(known.size(), result.map.multipliers.size());
+    if (!known.empty() && !result.map.multipliers.empty()) {
+        EXPECT_NEAR(std::abs(known[0]), std::abs(result.map.multipliers[0]), 1e-9 * std::abs(known[0]));
+    }
+    return result;
+}
+
+/// Speeds of the first contacts of the motion that begins where the orbit without contact would be.
+std::vector<double> speeds_beyond(const Model& model, const CycleMap& map, ParameterId parameter, double distance,
+                                  double cycles) {
+    std::vector<double> parameters = map.contact.touch.parameters, state = map.contact.touch.state;
+    parameters[parameter.place()] += distance;
+    for (std::size_t i = 0; i < map.active.size(); ++i)
+        state[map.active[i]] += map.steady[i] * distance;
+    const Simulation simulation(model, {}, {}, SimulationOptions{.tolerance = 1e-15});
+    ModeFlow flow(simulation.system(), 1e-15);
+    flow.set_parameters(parameters);
+    EXPECT_EQ(flow.run(map.contact.touch.mode, state, -0.01 * map.time), ModeFlow::Ending::done);
+    Recorder recorder;
+    Trajectory trajectory(simulation, parameters, recorder);
+    trajectory.start(state, map.contact.touch.mode, 0, cycles * map.time);
+    JetSet jets(simulation, LaneKind::single);
+    run(trajectory, jets);
+    std::vector<double> speeds;
+    for (const auto& one : recorder.contacts())
+        if (one.contact.event == map.contact.touch.event)
+            speeds.push_back(-one.contact.rate_before);
+    return speeds;
+}
+
+Branch mems_branch(Model& model, const BranchSettings& settings) {
+    model.set_parameter("V", 0.15);
+    model.set_initial("q", 0);
+    return follow_branch(model, settled(model, "phase0").orbit, settings);
+}
+
+TEST(ShippedGrazings, mems_switch_trips) {
+    Model model = load_model("mems-switch");
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("V");
+    settings.greatest = 0.4;
+    const Branch branch = mems_branch(model, settings);
+    const auto grazings = of_type(branch, PointType::grazing);
+    ASSERT_EQ(grazings.size(), 1U);
+    EXPECT_NEAR(grazings[0].parameter, 0.2013662121541341, 1e-12);
+    const Judged one = judged(model, grazings[0], "V");
+    EXPECT_EQ(one.verdict.outcome, GrazingOutcome::lost);
+    EXPECT_EQ(one.verdict.next_contact, 1U);
+    EXPECT_EQ(one.verdict.side, 1);
+    EXPECT_EQ(one.trial.outcome, TrialOutcome::agreed) << one.trial.reason;
+    // Snap-through ends both motions.
+    for (const TrialMotion& motion : one.trial.motions)
+        EXPECT_TRUE(motion.ended);
+    // |v| = c (V - V*)^(1/2) of the first contact, and growth of the next: what is left out goes with that root.
+    double before_first = 0, before_next = 0;
+    for (const double distance : {1e-4, 1e-6, 1e-8}) {
+        const auto speeds = speeds_beyond(model, one.map, settings.parameter, distance, 1.5);
+        ASSERT_GE(speeds.size(), 2U);
+        const double first = std::abs(speeds[0] / (*one.verdict.first_speed * std::sqrt(distance)) - 1),
+                     next = std::abs(speeds[1] / (*one.verdict.growth * std::sqrt(speeds[0])) - 1);
+        if (before_first > 0) {
+            EXPECT_LT(first, 0.15 * before_first);
+            EXPECT_LT(next, 0.4 * before_next); // by the root of the first speed
+        }
+        before_first = first;
+        before_next = next;
+    }
+    EXPECT_LT(before_first, 1e-3);
+    EXPECT_LT(before_next, 0.05);
+}
+
+TEST(ShippedGrazings, testbed_loses_its_orbit) {
+    for (const auto& [frequency, voltage] :
+         {std::pair(6.25, 4.833263260865), std::pair(7.0, 3.675357252066), std::pair(8.0, 3.998955699893)}) {
+        Model model = load_model("electromagnetic-testbed");
+        model.set_parameter("f", frequency);
+        model.set_parameter("V0", 3);
+        BranchSettings settings;
+        settings.parameter = model.independent_parameter("V0");
+        settings.greatest = 5.5;
+        const Branch branch = follow_branch(model, settled(model, "phase0", 600).orbit, settings);
+        const auto grazings = of_type(branch, PointType::grazing);
+        ASSERT_EQ(grazings.size(), 1U);
+        EXPECT_NEAR(grazings[0].parameter, voltage, 1e-11);
+        const Judged one = judged(model, grazings[0], "V0");
+        EXPECT_TRUE(one.map.half);
+        EXPECT_EQ(one.verdict.outcome, GrazingOutcome::lost) << one.verdict.reason;
+        EXPECT_EQ(one.trial.outcome, TrialOutcome::agreed) << one.trial.reason;
+    }
+}
+
+TEST(ShippedGrazings, microactuators_orbits_are_not_stable_where_they_touch) {
+    Model model = load_model("impact-microactuator");
+    model.set_parameter("V", 0.1);
+    model.set_parameter("omega", 0.9189);
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("V");
+    settings.least = 0;
+    settings.greatest = 3;
+    Branch branch = follow_branch(model, settled(model, "longest", 4000).orbit, settings);
+    for (const double voltage : {0.5876212422746997, 0.7304755333366196}) { // G-1, G-2
+        const auto grazings = of_type(branch, PointType::grazing);
+        ASSERT_EQ(grazings.size(), 1U);
+        EXPECT_NEAR(grazings[0].parameter, voltage, 1e-11);
+        const Judged one = judged(model, grazings[0], "V");
+        // The impact, the slip that it sets off, and the end of that.
+        EXPECT_EQ(one.map.contact.contacts.size(), 2U);
+        EXPECT_EQ(one.verdict.outcome, GrazingOutcome::undecided);
+        EXPECT_EQ(one.verdict.reason, "the orbit that touches is not stable itself");
+        EXPECT_GT(std::abs(one.map.multipliers[0]), 1);
+        branch = follow(model, branches_at(model, grazings[0], settings).at(0), settings);
+        ASSERT_FALSE(branch.points.empty());
+    }
+}
+
+TEST(ShippedGrazings, maps_are_the_same_from_either_side) {
+    Model model = load_model("impact-oscillator");
+    model.set_parameter("sigma", 0.5);
+    model.set_parameter("omega", 1.2);
+    model.set_parameter("amplitude", 0.1);
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("amplitude");
+    settings.greatest = 1;
+    const Branch free = follow_branch(model, settled(model, "phase0").orbit, settings);
+    const SpecialPoint touch = free.special.back();
+    const Judged one = judged(model, touch, "amplitude");
+    BranchStart start = branches_at(model, touch, settings).at(0);
+    for (auto& component : start.direction.starts)
+        for (double& value : component)
+            value = -value;
+    for (double& value : start.direction.durations)
+        value = -value;
+    for (double& value : start.direction.parameters)
+        value = -value;
+    const Branch back = follow(model, start, settings);
+    const auto ends = of_type(back, PointType::grazing);
+    ASSERT_FALSE(ends.empty());
+    EXPECT_TRUE(ends[0].at_end);
+    const System system(model);
+    CycleMapOptions options;
+    options.parameter = settings.parameter;
+    const CycleMap other =
+        cycle_map(system, ends[0].solution.orbit, {ends[0].segment, ends[0].event, ends[0].time, true}, options);
+    ASSERT_TRUE(other.exists()) << other.reason;
+    const auto here = one.map.projections(6), there = other.projections(6);
+    for (std::size_t k = 0; k < here.size(); ++k)
+        EXPECT_NEAR(here[k], there[k], 1e-8);
+    EXPECT_NEAR(*one.map.clearance_rate, *other.clearance_rate, 1e-7);
+}
+
+/// The predicted distance of the fold becomes right as the stop becomes stiffer, and the fold comes nearer.
+TEST(ShippedGrazings, microbeam_folds_where_the_cubic_does) {
+    double before = 1;
+    for (const double stiffness : {100.0, 1000.0, 10000.0}) {
+        Model model = load_model("microbeam");
+        model.set_parameter("V", 0.01);
+        model.set_parameter("k", stiffness);
+        BranchSettings settings;
+        settings.parameter = model.independent_parameter("V");
+        settings.least = 0.005;
+        settings.greatest = 0.06;
+        const Branch branch = follow_branch(model, settled(model, "phase0").orbit, settings);
+        const auto grazings = of_type(branch, PointType::grazing);
+        ASSERT_EQ(grazings.size(), 1U);
+        const Judged one = judged(model, grazings[0], "V");
+        ASSERT_EQ(one.verdict.outcome, GrazingOutcome::folds);
+        EXPECT_GT(*one.verdict.alpha, 0);
+        EXPECT_NEAR(*one.verdict.fold_clearance, -4 / (27 * *one.verdict.alpha * *one.verdict.alpha), 1e-12);
+        settings.steps = 200;
+        settings.stop_at = {PointType::fold};
+        const Branch deeper = follow(model, branches_at(model, grazings[0], settings).at(0), settings);
+        const auto folds = of_type(deeper, PointType::fold);
+        ASSERT_GE(folds.size(), 1U) << stiffness;
+        const double distance = folds[0].parameter - grazings[0].parameter;
+        const double error = std::abs(distance / *one.verdict.fold_distance - 1);
+        EXPECT_LT(error, before);
+        before = error;
+        EXPECT_EQ(one.trial.outcome, TrialOutcome::agreed) << one.trial.reason;
+    }
+    EXPECT_LT(before, 0.05);
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,330 @@
+// Discontinuity maps against exact simulation: their errors fall with the next power of the depth.
+
+#include "graze/grazing/discontinuity_map.hpp"
+
+#include "graze/flow/mode_flow.hpp"
+#include "graze/model/catalogue.hpp"
+#include "graze/model/model_file.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/trajectory/trajectory.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace graze {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// The greatest difference, in the states' sizes, of what the model does from a neighbour of the touch that would go to
+/// a depth, and what the map says.
+double error_at(const System& system, const DiscontinuityMap& map, double depth, double time) {
+    const TouchState& touch = map.touch;
+    const double speed = std::sqrt(2 * map.acceleration * depth);
+    // On the surface where the rate is zero, to this depth: Newton's method along gradient and rate's gradient.
+    std::vector<double> state = touch.state;
+    const std::size_t n = state.size();
+    const auto inputs = [&](std::vector<double> values) {
+        values.insert(values.end(), touch.parameters.begin(), touch.parameters.end());
+        return values;
+    };
+    for (int iteration = 0; iteration < 30; ++iteration) {
+        const std::vector<double> h = system.event(touch.event)(inputs(state)),
+                                  f = system.mode(touch.mode).rates(inputs(state));
+        double gg = 0, gr = 0, rr = 0, rate = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            const double unit = touch.scales[i];
+            gg += map.gradient[i] * map.gradient[i] * unit * unit;
+            gr += map.gradient[i] * map.rate_gradient[i] * unit * unit;
+            rr += map.rate_gradient[i] * map.rate_gradient[i] * unit * unit;
+            rate += h[1 + i] * f[i];
+        }
+        const double value = -depth - h[0], determinant = gg * rr - gr * gr;
+        const double by_value = (value * rr + rate * gr) / determinant,
+                     by_rate = (-rate * gg - value * gr) / determinant;
+        for (std::size_t i = 0; i < n; ++i)
+            state[i] +=
+                (by_value * map.gradient[i] + by_rate * map.rate_gradient[i]) * touch.scales[i] * touch.scales[i];
+    }
+    const Simulation simulation(system, {}, {}, SimulationOptions{.tolerance = 1e-15, .order = 0, .largest_step = 0});
+    ModeFlow flow(system, 1e-15);
+    flow.set_parameters(touch.parameters);
+    std::vector<double> before = state, predicted = state;
+    const double gained = map.order == MapOrder::square_root ? speed : depth * std::sqrt(depth);
+    for (std::size_t i = 0; i < n; ++i)
+        predicted[i] += map.direction[i] * gained;
+    EXPECT_EQ(flow.run(touch.mode, before, -time), ModeFlow::Ending::done);
+    EXPECT_EQ(flow.run(touch.mode, predicted, time), ModeFlow::Ending::done);
+    Observer nobody;
+    Trajectory trajectory(simulation, touch.parameters, nobody);
+    trajectory.start(before, touch.mode, 0, 2 * time);
+    JetSet jets(simulation, LaneKind::single);
+    run(trajectory, jets);
+    EXPECT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
+    EXPECT_EQ(trajectory.mode(), touch.mode);
+    double error = 0;
+    for (std::size_t i = 0; i < n; ++i)
+        error = std::max(error, std::abs(trajectory.state()[i] - predicted[i]) / touch.scales[i]);
+    return error;
+}
+
+/// The power of the depth with which the error falls over a hundredth.
+void expect_rate(const System& system, const DiscontinuityMap& map, double depth, double time, double rate) {
+    ASSERT_TRUE(map.exists()) << map.reason;
+    const double far = error_at(system, map, depth, time), near = error_at(system, map, depth / 100, time);
+    // What comes next may happen to be zero.
+    EXPECT_GT(std::log(far / near) / std::log(100), rate - 0.05) << far << ' ' << near;
+}
+
+TouchState touch_of(const Model& model, const std::string& mode, const std::string& event, std::vector<double> state,
+                    std::vector<double> scales = {}) {
+    TouchState touch;
+    touch.mode = *model.find_mode(mode);
+    touch.event = *model.find_event(event);
+    touch.parameters = model.parameter_values();
+    touch.scales = scales.empty() ? std::vector<double>(state.size(), 1.0) : std::move(scales);
+    touch.state = std::move(state);
+    return touch;
+}
+
+/// x'' = 2 + x z - v at the wall x = 0, with z' = 1 - z + v x; what happens there is to be filled in.
+Model wall(const std::string& parameters, const std::string& rest) {
+    return parse_model(fmt::format(R"toml(
+[parameters]
+e = 0.7
+k = 3
+c = 0.6
+{}
+[states]
+x = 1
+v = 0
+z = 0.3
+w = 0
+[definitions]
+free = "2 + x*z - v + 0.3*sin(w)"
+[initial]
+mode = "free"
+[events.touch]
+function = "x"
+[events.leave]
+function = "-x"
+[modes.free]
+watch = ["touch"]
+rates = {{ x = "v", v = "free", z = "1 - z + v*x + 0.2*w", w = "z - 0.4*w" }}
+{}
+)toml",
+                                   parameters, rest),
+                       "wall.toml");
+}
+
+Model compliant(const std::string& force) {
+    return wall("", fmt::format(R"toml(
+[modes.on]
+watch = ["leave"]
+rates = {{ x = "v", v = "free + {}", z = "1 - z + v*x + 0.2*w", w = "z - 0.4*w" }}
+[[transitions]]
+mode = "free"
+event = "touch"
+next = "on"
+[[transitions]]
+mode = "on"
+event = "leave"
+next = "free"
+)toml",
+                                force));
+}
+
+const std::vector<double> at_wall{0, 0, 0.3, 0.2};
+
+TEST(DiscontinuityMap, of_an_impact_has_its_closed_form) {
+    const Model model = wall("", R"toml(
+[jumps.impact]
+v = "-e*v"
+[[transitions]]
+mode = "free"
+event = "touch"
+jump = "impact"
+next = "free"
+)toml");
+    const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "free", "touch", at_wall));
+    ASSERT_EQ(map.order, MapOrder::square_root) << map.reason;
+    EXPECT_NEAR(map.acceleration, 2 + 0.3 * std::sin(0.2), 1e-15);
+    EXPECT_NEAR(map.direction[1], 1.7, 1e-15);
+    for (const std::size_t i : {0, 2, 3})
+        EXPECT_EQ(map.direction[i], 0);
+    EXPECT_EQ(map.time, 0);
+    expect_rate(model, map, 1e-6, 0.1, 1);
+}
+
+TEST(DiscontinuityMap, of_an_impact_that_changes_several_states) {
+    const Model model = wall("", R"toml(
+[jumps.impact]
+v = "-e*v*(1 + 0.2*z)"
+z = "z - 0.4*v + v^2"
+w = "w + 0.3*v*z"
+[[transitions]]
+mode = "free"
+event = "touch"
+jump = "impact"
+next = "free"
+)toml");
+    const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "free", "touch", at_wall));
+    ASSERT_EQ(map.order, MapOrder::square_root) << map.reason;
+    EXPECT_NEAR(map.restitution, 0.7 * 1.06, 1e-15);
+    EXPECT_NEAR(map.direction[2], 0.4, 1e-15);
+    EXPECT_NEAR(map.direction[3], -0.09, 1e-15);
+    expect_rate(model, map, 1e-6, 0.1, 1);
+}
+
+TEST(DiscontinuityMap, of_a_moving_wall_and_of_friction_that_an_impact_overcomes) {
+    Model shaker = load_model("ball-and-shaker");
+    shaker.set_parameter("a", 0.65);
+    const DiscontinuityMap moving =
+        discontinuity_map(shaker, touch_of(shaker, "free", "contact", {0, 0, std::acos(0.0)}, {0.65, 20, 1}));
+    ASSERT_EQ(moving.order, MapOrder::square_root) << moving.reason;
+    expect_rate(shaker, moving, 1e-6, 0.005, 1);
+
+    // The frame slips for a time in proportion to the speed, and sticks again.
+    const Model actuator = load_model("impact-microactuator");
+    const DiscontinuityMap slipping =
+        discontinuity_map(actuator, touch_of(actuator, "stick", "front", {0, 0, 0.5, 0, 2.9}));
+    ASSERT_EQ(slipping.order, MapOrder::square_root) << slipping.reason;
+    EXPECT_EQ(slipping.contacts.size(), 2U);
+    EXPECT_GT(slipping.time, 0);
+    expect_rate(actuator, slipping, 1e-6, 0.1, 1);
+}
+
+/// A state of a shipped model that touches, with sizes of its states and times that are short for it.
+struct Shipped {
+    const char* model;
+    std::vector<std::pair<const char*, double>> parameters;
+    const char* mode;
+    const char* event;
+    std::vector<double> state, scales;
+    double depth, time;
+    MapOrder order;
+};
+
+TEST(DiscontinuityMap, of_shipped_models_errs_by_the_next_power) {
+    const double deflection = -0.004 / 1.5881462620646052;
+    const Shipped all[] = {
+        {"impact-oscillator", {}, "free", "stop", {0.1, 0, 3}, {1, 1, 1}, 1e-5, 0.1, MapOrder::square_root},
+        {"impact-oscillator-two-stops", {}, "free", "left", {-1, 0, 0.2}, {1, 1, 1}, 1e-5, 0.1, MapOrder::square_root},
+        {"impact-oscillator-two-stops", {}, "free", "right", {1, 0, 3}, {1, 1, 1}, 1e-5, 0.1, MapOrder::square_root},
+        {"mems-switch", {}, "on", "stop", {-0.6, 0, 1}, {1, 1, 1}, 1e-5, 0.1, MapOrder::square_root},
+        {"mems-switch", {}, "off", "stop", {-0.6, 0, 4}, {1, 1, 1}, 1e-5, 0.1, MapOrder::square_root},
+        {"bouncing-ball",
+         {{"a", 0.003}},
+         "flight",
+         "contact",
+         {0.003 * std::sin(1.4), 0.003 * 20 * std::acos(-1.0) * std::cos(1.4), 1.4},
+         {1e-3, 0.1, 1},
+         1e-9,
+         0.001,
+         MapOrder::square_root},
+        {"microbeam", {}, "free_on", "touch", {deflection, 0, 1}, {1e-3, 0.02, 1}, 1e-5, 0.005, MapOrder::three_halves},
+        {"microbeam",
+         {},
+         "free_off",
+         "touch",
+         {deflection, 0, 5},
+         {1e-3, 0.02, 1},
+         1e-5,
+         0.005,
+         MapOrder::three_halves},
+    };
+    for (const Shipped& one : all) {
+        SCOPED_TRACE(fmt::format("{} {}", one.model, one.event));
+        Model model = load_model(one.model);
+        for (const auto& [name, value] : one.parameters)
+            model.set_parameter(name, value);
+        const DiscontinuityMap map =
+            discontinuity_map(model, touch_of(model, one.mode, one.event, one.state, one.scales));
+        EXPECT_EQ(map.order, one.order) << map.reason;
+        expect_rate(model, map, one.depth, one.time, one.order == MapOrder::square_root ? 1 : 2);
+    }
+    // The mass of the testbed: with a current that pulls it off the stop again.
+    const Model testbed = load_model("electromagnetic-testbed");
+    const double delta = testbed.values_of(std::array{testbed.symbol("delta")})[0];
+    const DiscontinuityMap map =
+        discontinuity_map(testbed, touch_of(testbed, "free", "stop", {delta, 0, 0.1, 1}, {1e-3, 0.1, 1, 1}));
+    EXPECT_EQ(map.order, MapOrder::square_root) << map.reason;
+    expect_rate(testbed, map, 1e-8, 0.001, 1);
+}
+
+TEST(DiscontinuityMap, of_a_preloaded_stop_goes_with_the_root) {
+    const Model model = compliant("c - k*x");
+    const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "free", "touch", at_wall));
+    ASSERT_EQ(map.order, MapOrder::square_root) << map.reason;
+    // The preload c acts for the time 2 s/(a + c).
+    const double a = 2 + 0.3 * std::sin(0.2);
+    EXPECT_NEAR(map.time, 2 / (a + 0.6), 1e-15);
+    EXPECT_NEAR(map.direction[1], 0.6 * 2 / (a + 0.6), 1e-15);
+    expect_rate(model, map, 1e-6, 0.1, 1);
+}
+
+TEST(DiscontinuityMap, of_compliant_stops_goes_with_the_power_three_halves) {
+    for (const char* force : {"(-k*x)", "(-k*x*(1 + z))", "(-k*x - c*v)", "(-k*x - c*v*(1 + z + v))", "(-c*v)"}) {
+        SCOPED_TRACE(force);
+        const Model model = compliant(force);
+        const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "free", "touch", at_wall));
+        ASSERT_EQ(map.order, MapOrder::three_halves) << map.reason;
+        expect_rate(model, map, 1e-3, 0.2, 2);
+    }
+    const Model spring = compliant("(-k*x)");
+    const DiscontinuityMap map = discontinuity_map(spring, touch_of(spring, "free", "touch", at_wall));
+    EXPECT_NEAR(map.direction[1], 4 * std::sqrt(2 / map.acceleration), 1e-14); // 4/3 k (2/a)^(1/2)
+}
+
+TEST(DiscontinuityMap, is_refused_with_the_reason) {
+    const auto reason = [](const Model& model, std::vector<double> state = at_wall) {
+        const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "free", "touch", std::move(state)));
+        EXPECT_FALSE(map.exists());
+        return map.reason;
+    };
+    const auto jumping = [](const std::string& jump, const std::string& next = "\"free\"") {
+        return wall("", fmt::format(R"toml(
+[jumps.impact]
+{}
+[[transitions]]
+mode = "free"
+event = "touch"
+jump = "impact"
+next = {}
+)toml",
+                                    jump, next));
+    };
+    EXPECT_THAT(reason(jumping("v = \"1\"")), HasSubstr("is not the identity at zero speed: it changes 'v'"));
+    EXPECT_THAT(reason(jumping("v = \"-e*v\"\nw = \"0.2 + 2*(w - 0.2)\"")),
+                HasSubstr("is not the identity at zero speed"));
+    EXPECT_THAT(reason(jumping("x = \"x + 0.1*v\"\nv = \"-e*v\"")), HasSubstr("moves states off the surface"));
+    EXPECT_THAT(reason(jumping("v = \"0.5*v\"")), HasSubstr("happens again at once"));
+    EXPECT_THAT(reason(jumping("v = \"-e*v\"", "\"end\"")), HasSubstr("the motion ends at event 'touch'"));
+    EXPECT_THAT(reason(jumping("v = \"-e*v\"", "[{ when = \"z > 5\", mode = \"free\" }]")),
+                HasSubstr("no alternative of the guard"));
+    EXPECT_THAT(reason(jumping("v = \"-e*v\""), {0, 1, 0.3, 0.2}), HasSubstr("is met with speed"));
+    EXPECT_THAT(reason(jumping("v = \"-e*v\""), {0.5, 0, 0.3, 0.2}), HasSubstr("not on the surface"));
+    EXPECT_THAT(reason(wall("", "[jumps.impact]\nv = \"-e*v\"\n[[transitions]]\nmode = \"free\"\nevent = \"touch\"\n"
+                                "next = \"held\"\n[modes.held]\nwatch = []\nrates = { x = 0, v = 0, z = 0, w = 0 }")),
+                HasSubstr("from which the motion does not come back at once"));
+    EXPECT_THAT(reason(wall("", "[[transitions]]\nmode = \"free\"\nevent = \"touch\"\nnext = \"free\"")),
+                HasSubstr("changes nothing"));
+}
+
+TEST(DiscontinuityMap, needs_numbers_that_fit) {
+    const Model model = load_model("impact-oscillator");
+    EXPECT_THROW(discontinuity_map(model, touch_of(model, "free", "stop", {0, 0})), InputError);
+    EXPECT_THROW(discontinuity_map(model, touch_of(model, "free", "stop", {0, 0, NAN})), InputError);
+    TouchState touch = touch_of(model, "free", "stop", {0.1, 0, 0});
+    touch.event = 7;
+    EXPECT_THROW(discontinuity_map(model, touch), InputError);
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,159 @@
+// Linear oscillators of one and two degrees of freedom that touch a stop, in closed form.
+
+#pragma once
+
+#include "graze/model/model_file.hpp"
+#include "graze/orbit/orbit.hpp"
+#include "graze/symbolic/parser.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <random>
+#include <string>
+
+namespace graze::testing {
+
+/// q'' + C q' + K q = f cos(omega t), with a stop at q_1 = sigma that the steady motion just reaches for force = 1.
+struct LinearOscillator {
+    Eigen::MatrixXd damping, stiffness;
+    Eigen::VectorXd force;
+    double omega = 1, restitution = 0.8;
+    double length = 1, clock = 1; ///< units: one of length, one of time
+
+    std::size_t degrees() const { return static_cast<std::size_t>(force.size()); }
+    Eigen::VectorXcd amplitude() const {
+        const std::complex<double> i(0, 1);
+        const Eigen::MatrixXcd dynamic =
+            (stiffness - omega * omega * Eigen::MatrixXd::Identity(force.size(), force.size()))
+                .cast<std::complex<double>>() +
+            i * omega * damping.cast<std::complex<double>>();
+        return dynamic.fullPivLu().solve(force.cast<std::complex<double>>());
+    }
+    double stop() const { return std::abs(amplitude()[0]); }
+    double period() const { return 2 * std::numbers::pi / omega; }
+    /// The matrix of q, q' over one period: exp(A T).
+    Eigen::MatrixXd return_map() const {
+        const Eigen::Index n = force.size();
+        Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+        a.topRightCorner(n, n).setIdentity();
+        a.bottomLeftCorner(n, n) = -stiffness;
+        a.bottomRightCorner(n, n) = -damping;
+        // By scaling and squaring of a Taylor series.
+        constexpr int squarings = 16, terms = 20;
+        const Eigen::MatrixXd small = a * period() / std::pow(2.0, squarings);
+        Eigen::MatrixXd term = Eigen::MatrixXd::Identity(2 * n, 2 * n), sum = term;
+        for (int k = 1; k <= terms; ++k) {
+            term = (term * small / static_cast<double>(k)).eval();
+            sum += term;
+        }
+        for (int k = 0; k < squarings; ++k)
+            sum = (sum * sum).eval();
+        return sum;
+    }
+    /// What an impact of unit speed at the stop does to the clearance k periods later: it takes (1 + e) from q_1'.
+    double projection(int k) const {
+        Eigen::VectorXd state = Eigen::VectorXd::Zero(2 * force.size());
+        state[force.size()] = -(1 + restitution);
+        const Eigen::MatrixXd once = return_map();
+        for (int i = 0; i < k; ++i)
+            state = (once * state).eval();
+        return -state[0];
+    }
+    double acceleration() const { return omega * omega * stop(); }
+
+    /// In the chosen units. @param jump of the velocity q_1'; @param extra lines of the model file
+    Model model(const std::string& contact = "") const {
+        const std::size_t n = degrees();
+        std::string states, rates;
+        for (std::size_t i = 0; i < n; ++i) {
+            states += fmt::format("q{} = 0\nv{} = 0\n", i, i);
+            std::string rate = fmt::format("force*({:.17g})*cos(theta)", force[idx(i)] * length / (clock * clock));
+            for (std::size_t j = 0; j < n; ++j)
+                rate += fmt::format(" - ({:.17g})*v{} - ({:.17g})*q{}", damping(idx(i), idx(j)) / clock, j,
+                                    stiffness(idx(i), idx(j)) / (clock * clock), j);
+            rates += fmt::format("q{} = \"v{}\"\nv{} = \"{}\"\n", i, i, i, rate);
+        }
+        const std::string rest = contact.empty() ? R"toml(
+[modes.free]
+watch = ["stop"]
+[modes.free.rates]
+RATES
+[jumps.impact]
+v0 = "-e*v0"
+[[transitions]]
+mode = "free"
+event = "stop"
+label = "impact"
+jump = "impact"
+next = "free"
+)toml"
+                                                 : contact;
+        std::string text = fmt::format(R"toml(
+[parameters]
+force = 1
+sigma = {:.17g}
+omega = {:.17g}
+e = {:.17g}
+[states]
+{}theta = {{ initial = 0, period = "2*pi" }}
+[events.stop]
+function = "sigma - q0"
+[sections.start]
+state = "theta"
+value = 0
+)toml",
+                                       stop() * length, omega / clock, restitution, states) +
+                           rest;
+        for (std::size_t at; (at = text.find("RATES")) != std::string::npos;)
+            text.replace(at, 5, rates + "theta = \"omega\"");
+        return parse_model(text, "oscillator.toml");
+    }
+    /// The steady motion, which touches.
+    Orbit orbit(const Model& made) const {
+        Orbit result;
+        result.signature = parse_signature(made, "free:start");
+        result.parameters = made.parameter_values();
+        std::vector<double> start;
+        const Eigen::VectorXcd motion = amplitude();
+        const std::complex<double> i(0, 1);
+        for (Eigen::Index k = 0; k < motion.size(); ++k) {
+            start.push_back(motion[k].real() * length);
+            start.push_back((i * omega * motion[k]).real() * length / clock);
+        }
+        start.push_back(0);
+        result.starts = {start};
+        result.durations = {period() * clock};
+        return result;
+    }
+    static Eigen::Index idx(std::size_t i) { return static_cast<Eigen::Index>(i); }
+};
+
+inline LinearOscillator one_degree(double zeta, double omega, double restitution) {
+    LinearOscillator result;
+    result.damping = Eigen::MatrixXd::Constant(1, 1, 2 * zeta);
+    result.stiffness = Eigen::MatrixXd::Constant(1, 1, 1);
+    result.force = Eigen::VectorXd::Constant(1, 1);
+    result.omega = omega;
+    result.restitution = restitution;
+    return result;
+}
+
+/// Two masses in a chain, damped in proportion to stiffness and mass.
+inline LinearOscillator two_degrees(double coupling, double zeta, double omega, double restitution, double other) {
+    LinearOscillator result;
+    result.stiffness.resize(2, 2);
+    result.stiffness << 1 + coupling, -coupling, -coupling, 1.7 + coupling;
+    result.damping = 2 * zeta * (0.6 * Eigen::MatrixXd::Identity(2, 2) + 0.4 * result.stiffness);
+    result.force.resize(2);
+    result.force << 1, other;
+    result.omega = omega;
+    result.restitution = restitution;
+    return result;
+}
+
+} // namespace graze::testing

@@ -1,0 +1,190 @@
+// Verdicts on linear oscillators, whose maps and classes have closed forms.
+
+#include "graze/grazing/verdict.hpp"
+
+#include "graze/grazing/map_motion.hpp"
+#include "graze/grazing/trial.hpp"
+#include "linear_oscillator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <map>
+
+namespace graze {
+namespace {
+
+using testing::LinearOscillator;
+
+CycleMap map_of(const LinearOscillator& oscillator, const Model& model) {
+    const System system(model);
+    const Orbit orbit = oscillator.orbit(model);
+    const std::vector<OrbitTouch> touches = touches_of(system, orbit);
+    EXPECT_EQ(touches.size(), 1U);
+    if (touches.empty())
+        return {};
+    CycleMapOptions options;
+    options.parameter = model.independent_parameter("force");
+    return cycle_map(system, orbit, touches.front(), options);
+}
+
+void expect_closed_form(const LinearOscillator& oscillator) {
+    const Model model = oscillator.model();
+    const CycleMap map = map_of(oscillator, model);
+    ASSERT_TRUE(map.exists()) << map.reason;
+    EXPECT_EQ(map.contact.order, MapOrder::square_root);
+    const double a = oscillator.acceleration() * oscillator.length / (oscillator.clock * oscillator.clock);
+    EXPECT_NEAR(map.contact.acceleration, a, 1e-11 * a);
+    EXPECT_NEAR(map.contact.restitution, oscillator.restitution, 1e-9);
+    const std::vector<double> projections = map.projections(12);
+    // The flow is integrated to 1e-13 of each state, and carried over so many cycles.
+    double size = oscillator.clock;
+    for (int k = 1; k <= 12; ++k)
+        EXPECT_NEAR(projections[static_cast<std::size_t>(k - 1)], oscillator.projection(k) * oscillator.clock,
+                    1e-11 * size)
+            << k;
+    ASSERT_TRUE(map.clearance_rate);
+    EXPECT_NEAR(*map.clearance_rate, -oscillator.stop() * oscillator.length,
+                1e-10 * oscillator.stop() * oscillator.length);
+}
+
+TEST(Verdict, maps_of_linear_oscillators_have_their_closed_form_in_all_units) {
+    for (const double length : {1.0, 1e-9, 1e6})
+        for (const double clock : {1.0, 1e-9, 1e6})
+            for (LinearOscillator one :
+                 {testing::one_degree(0.05, 1.3, 0.8), testing::one_degree(0.4, 3.1, 0.3),
+                  testing::one_degree(1.5, 0.7, 0.6), testing::two_degrees(0.3, 0.04, 1.1, 0.8, 0.4),
+                  testing::two_degrees(2.1, 0.3, 2.7, 0, -0.7)}) {
+                one.length = length;
+                one.clock = clock;
+                SCOPED_TRACE(fmt::format("length {} clock {} omega {}", length, clock, one.omega));
+                expect_closed_form(one);
+            }
+}
+
+/// Verdicts on random oscillators, and what trials say of them.
+std::map<std::string, int> try_random(int count, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    std::map<std::string, int> counts;
+    for (int trial = 0; trial < count; ++trial) {
+        // From weak damping to more than critical, where multipliers are real.
+        const double zeta = std::pow(10, -2.5 + 3.1 * uniform(random)), omega = 0.4 + 5 * uniform(random),
+                     e = 0.95 * uniform(random);
+        const LinearOscillator one =
+            trial % 2 == 0 ? testing::one_degree(zeta, omega, e)
+                           : testing::two_degrees(3 * uniform(random), zeta, omega, e, 2 * uniform(random) - 1);
+        const Model model = one.model();
+        const CycleMap map = map_of(one, model);
+        const Verdict verdict = verdict_of(map);
+        const Trial tried = try_verdict(System(model), map, verdict, model.independent_parameter("force"));
+        ++counts[std::string(name_of(verdict.outcome))];
+        ++counts[std::string(name_of(tried.outcome))];
+        ++counts[fmt::format("{}, {}", name_of(verdict.outcome), name_of(tried.outcome))];
+        EXPECT_NE(tried.outcome, TrialOutcome::contradicted)
+            << "zeta " << zeta << " omega " << omega << " e " << e << ": " << name_of(verdict.outcome) << ", "
+            << tried.reason;
+    }
+    for (const auto& [what, number] : counts)
+        std::cout << what << ": " << number << '\n';
+    return counts;
+}
+
+TEST(Verdict, agrees_with_simulation_on_random_oscillators) {
+    const auto counts = try_random(100, 7);
+    EXPECT_GE(counts.at("persists, agreed"), 10);
+    EXPECT_GE(counts.at("lost, agreed"), 50);
+}
+
+TEST(VerdictSlow, agrees_with_simulation_on_a_thousand_random_oscillators) {
+    const auto counts = try_random(1200, 20);
+    EXPECT_GE(counts.at("agreed"), 1000);
+    EXPECT_GE(counts.at("persists, agreed"), 100);
+}
+
+/// A trial is worth something only if it would have objected.
+TEST(Verdict, that_is_turned_round_is_contradicted) {
+    for (const bool weak : {true, false}) {
+        const LinearOscillator one = weak ? testing::one_degree(0.05, 1.3, 0.8) : testing::one_degree(1.3, 3, 0.8);
+        const Model model = one.model();
+        const CycleMap map = map_of(one, model);
+        const Verdict right = verdict_of(map);
+        EXPECT_EQ(right.outcome, weak ? GrazingOutcome::lost : GrazingOutcome::persists);
+        if (!weak) {
+            CycleMap turned = map;
+            for (double& component : turned.impact)
+                component = -component;
+            const Verdict wrong = verdict_of(turned);
+            EXPECT_EQ(wrong.outcome, GrazingOutcome::lost);
+            const Trial tried = try_verdict(System(model), turned, wrong, model.independent_parameter("force"));
+            EXPECT_EQ(tried.outcome, TrialOutcome::contradicted) << tried.reason;
+        }
+        Verdict claimed = right;
+        claimed.outcome = GrazingOutcome::persists;
+        const Trial claim = try_verdict(System(model), map, claimed, model.independent_parameter("force"));
+        EXPECT_EQ(claim.outcome, weak ? TrialOutcome::contradicted : TrialOutcome::agreed) << claim.reason;
+    }
+}
+
+TEST(Verdict, trial_is_undecided_where_numbers_leave_no_room_for_growth) {
+    const LinearOscillator one = testing::one_degree(0.95, 5, 0.8);
+    const Model model = one.model();
+    const CycleMap map = map_of(one, model);
+    const Verdict verdict = verdict_of(map);
+    EXPECT_EQ(verdict.outcome, GrazingOutcome::lost);
+    // The first pass on which sin(k d T) is negative, d the damped frequency.
+    const double angle = std::sqrt(1 - 0.95 * 0.95) * one.period();
+    EXPECT_EQ(static_cast<double>(verdict.next_contact), std::floor(std::numbers::pi / angle) + 1);
+    const Trial tried = try_verdict(System(model), map, verdict, model.independent_parameter("force"));
+    EXPECT_EQ(tried.outcome, TrialOutcome::undecided) << tried.reason;
+}
+
+/// Where a linear oscillator changes its class: at sin(d T) = 0 the first projection vanishes.
+TEST(Verdict, classes_of_one_degree_have_their_boundaries) {
+    for (const double zeta : {0.02, 0.2, 0.6}) {
+        const double d = std::sqrt(1 - zeta * zeta);
+        for (const int k : {1, 2, 3}) {
+            const double omega = 2 * d / k;
+            for (const int way : {-1, 1}) {
+                const LinearOscillator one = testing::one_degree(zeta, omega * (1 + way * 1e-6), 0.7);
+                const Verdict verdict = verdict_of(map_of(one, one.model()));
+                ASSERT_EQ(verdict.outcome, GrazingOutcome::lost);
+                // Above the boundary k half oscillations are not over yet when the force has made one.
+                const bool at_once = std::sin(d * one.period()) < 0;
+                EXPECT_EQ(verdict.next_contact == 1, at_once) << zeta << ' ' << k << ' ' << way;
+                EXPECT_EQ(at_once, (way > 0) == (k % 2 == 0)) << zeta << ' ' << k << ' ' << way;
+            }
+            const LinearOscillator one = testing::one_degree(zeta, omega, 0.7);
+            const Verdict verdict = verdict_of(map_of(one, one.model()));
+            EXPECT_EQ(verdict.outcome, GrazingOutcome::undecided);
+            EXPECT_NE(verdict.reason.find("pass 1"), std::string::npos) << verdict.reason;
+        }
+    }
+}
+
+/// More than critically damped, the leading multiplier is exp(-(zeta - sqrt(zeta^2 - 1)) T).
+TEST(Verdict, leading_multiplier_says_which_attractors_remain) {
+    for (const auto& [omega, kind] :
+         {std::pair(1.0, AttractorKind::period_adding), std::pair(4.0, AttractorKind::periodic_windows),
+          std::pair(12.0, AttractorKind::chaotic)}) {
+        const LinearOscillator one = testing::one_degree(1.2, omega, 0.7);
+        const CycleMap map = map_of(one, one.model());
+        const Verdict verdict = verdict_of(map);
+        ASSERT_EQ(verdict.outcome, GrazingOutcome::persists);
+        const double leading = std::exp(-(1.2 - std::sqrt(0.44)) * one.period());
+        EXPECT_NEAR(*verdict.leading, leading, 1e-10);
+        EXPECT_EQ(verdict.attractor, kind) << leading;
+        const MapMotion near = map_motion(map, -1e-10), far = map_motion(map, -1e-5);
+        EXPECT_TRUE(near.bounded);
+        if (kind == AttractorKind::period_adding) {
+            EXPECT_EQ(near.contacts, 1U);
+            EXPECT_GT(near.period, far.period);
+        }
+        if (kind == AttractorKind::chaotic) {
+            EXPECT_EQ(near.period, 0U);
+        }
+    }
+}
+
+} // namespace
+} // namespace graze
