@@ -214,7 +214,10 @@ void test_sensitivity(const TestedPoint& point, std::vector<BranchTest>& tests) 
     const CycleMap map =
         cycle_map_of(point.equations, point.at, {kept->segment, kept->event, kept->time, false}, std::nullopt);
     const bool known = map.exists() && map.contact.order == MapOrder::square_root;
-    tests.push_back({.type = PointType::sensitivity, .value = known ? map.projections(1).front() : nothing});
+    constexpr double least = 1e-9; // of a round: less is round-off, as where impacts change nothing of the next pass
+    tests.push_back({.type = PointType::sensitivity,
+                     .value = known ? map.projections(1).front() : nothing,
+                     .noise = least * point.solution.orbit.round()});
 }
 
 bool confirm_sensitivity(BranchState& state, SpecialPoint& special, const BranchTest&) {

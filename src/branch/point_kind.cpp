@@ -173,20 +173,20 @@ constexpr std::array table{
               .confirm = confirm_double_grazing,
               .rank = rank_of_grazing},
     PointRule{
-        .kind = {.type = PointType::fold_flip, .short_name = "FP", .name = "fold-flip", .may_stop = true, .mark = 6},
+        .kind = {.type = PointType::fold_flip, .short_name = "FP", .name = "fold-flip", .may_stop = true, .mark = 15},
         .confirm = confirm_fold_flip},
     PointRule{
-        .kind = {.type = PointType::fold_torus, .short_name = "FT", .name = "fold-torus", .may_stop = true, .mark = 6},
+        .kind = {.type = PointType::fold_torus, .short_name = "FT", .name = "fold-torus", .may_stop = true, .mark = 15},
         .confirm = confirm_with_torus},
     PointRule{
-        .kind = {.type = PointType::flip_torus, .short_name = "PT", .name = "flip-torus", .may_stop = true, .mark = 6},
+        .kind = {.type = PointType::flip_torus, .short_name = "PT", .name = "flip-torus", .may_stop = true, .mark = 15},
         .confirm = confirm_with_torus},
     PointRule{.kind = {.type = PointType::chatter,
                        .short_name = "CH",
                        .name = "onset of chatter",
                        .changes = true,
                        .limits = true,
-                       .mark = 15}},
+                       .mark = 11}},
     PointRule{
         .kind = {.type = PointType::extremum, .short_name = "EX", .name = "extremum", .may_stop = true, .mark = 1},
         .test = test_extremum,

@@ -107,11 +107,11 @@ PartEnd follow_part(const StudyRun& run, const BranchSettings& of_run, const Sys
     OrbitBranch branch = at_place(run.place, run, [&] { return OrbitBranch(system, part.orbit, settings); });
     bool going = part.onto ? branch.start_along(part.onto->direction, part.onto->distance) : branch.start();
     if (!going) {
-        if (!part.kept) { // of curves the run says why there is none
+        if (!part.kept) {
             writer.add(part.name, failed_start(part, run, branch.detail()), false);
             writer.end("");
         }
-        return {branch.outcome(), branch.detail(), std::nullopt, false};
+        return {false, branch.outcome(), false, branch.detail(), std::nullopt};
     }
     bool last_is_special = false;
     std::optional<SpecialPoint> last;
@@ -127,19 +127,19 @@ PartEnd follow_part(const StudyRun& run, const BranchSettings& of_run, const Sys
         if (!last_is_special)
             writer.add(part.name, regular_point(branch.point(), part.again), branch.point().stable);
         if (options.interrupted && options.interrupted())
-            return {};
+            return {true, BranchOutcome::no_start, true, "", std::nullopt};
         going = branch.step();
     }
     if (stays_at_start(part, branch)) {
         writer.drop();
-        return {branch.outcome(), branch.detail(), std::nullopt, false};
+        return {false, branch.outcome(), false, branch.detail(), std::nullopt};
     }
     const bool told = branch.outcome() != BranchOutcome::unphysical;
     std::string why = told && last_is_special ? "" : std::string(name_of(branch.outcome()));
     if (!why.empty() && !branch.detail().empty())
         why += ": " + branch.detail();
     writer.end(why);
-    return {branch.outcome(), why, last};
+    return {false, branch.outcome(), true, why, last};
 }
 
 } // namespace graze

@@ -71,10 +71,11 @@ private:
 
 /// How a part has ended.
 struct PartEnd {
-    std::optional<BranchOutcome> outcome; ///< none when it was interrupted
+    bool interrupted = false;
+    BranchOutcome outcome = BranchOutcome::no_start;
+    bool begun = true;
     std::string why;
     std::optional<SpecialPoint> last; ///< if it has ended at a special point
-    bool begun = true;                ///< false: of a curve that leads the other way from its point, or nowhere
 };
 
 /// Follows a part and writes its points. @param settings of the run, or more special ones

@@ -255,15 +255,15 @@ bool run_branch(const Study& study, const StudyRun& run, SharedFile& file, const
         writer.set_twin(part.twin);
         if (part.kept && !any)
             part.again = false;
-        const PartEnd end = follow_part(run, run.branch.settings, system, part, writer, options);
-        if (!end.outcome)
+        const auto end = follow_part(run, run.branch.settings, system, part, writer, options);
+        if (end.interrupted)
             return false;
-        if (part.kept && *end.outcome == BranchOutcome::no_start)
+        if (part.kept && !end.begun && end.outcome == BranchOutcome::no_start)
             refuse_curve(run, *part.kept, end.why);
         any = any || end.begun;
         if (!end.begun)
             why = end.why;
-        if (*end.outcome == BranchOutcome::closed)
+        if (end.outcome == BranchOutcome::closed)
             break; // the other way round is the same
     }
     if (parts.front().kept && !any)

@@ -98,7 +98,7 @@ bool run_ladder(const StudyRun& run, const System& system, const OrbitRecord& fi
         }
         part.orbit = part.onto->orbit;
         const PartEnd end = follow_part(run, settings, system, part, writer, options);
-        if (!end.outcome)
+        if (end.interrupted)
             return false;
         const bool next = end.last && end.last->type == PointType::grazing && !end.last->at_end &&
                           end.last->event == grazings.back().event;

@@ -45,6 +45,17 @@ TEST(NormalForm, cubic_terms_make_flips_subcritical) {
     }
 }
 
+TEST(NormalForm, coefficients_follow_the_units) {
+    // In units of length L: x -> L f(x / L), whose coefficient is divided by L^2.
+    for (const double length : {1e-9, 1e-3, 1e4, 1e9}) {
+        const Model model = map_model(fmt::format("r = 2.5\nL = {:.17g}", length), {"r*x*(1 - x/L)", "0.1*y"});
+        const Branch branch =
+            follow_branch(model, fixed_point(model, {0.6 * length, 0}), in_parameter(model, "r", 1.5, 3.4));
+        ASSERT_EQ(names(branch), "PD BD") << length;
+        EXPECT_NEAR(coefficient_of(branch.special[0]) * length * length, 9, 1e-4) << length;
+    }
+}
+
 TEST(NormalForm, folds_say_on_which_side_two_orbits_are) {
     // u -> u + b p + a u^2 with u = x - 1, which drives y: (1, r) with r = 0.3/0.9 is the critical vector, and w has
     // its length.
@@ -97,17 +108,6 @@ TEST(NormalForm, cusps_have_the_coefficient_of_their_map) {
             }
         }
         EXPECT_FALSE(fold.located) << "no cusp";
-    }
-}
-
-TEST(NormalForm, coefficients_follow_the_units) {
-    // In units of length L: x -> L f(x / L), whose coefficient is divided by L^2.
-    for (const double length : {1e-9, 1e-3, 1e4, 1e9}) {
-        const Model model = map_model(fmt::format("r = 2.5\nL = {:.17g}", length), {"r*x*(1 - x/L)", "0.1*y"});
-        const Branch branch =
-            follow_branch(model, fixed_point(model, {0.6 * length, 0}), in_parameter(model, "r", 1.5, 3.4));
-        ASSERT_EQ(names(branch), "PD BD") << length;
-        EXPECT_NEAR(coefficient_of(branch.special[0]) * length * length, 9, 1e-4) << length;
     }
 }
 
