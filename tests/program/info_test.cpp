@@ -115,10 +115,10 @@ TEST_F(Info, TellsHowAndWhenResultsWereMade) {
 }
 
 TEST_F(Info, ListsRunsInAHundredColumns) {
-    for (const char* study : {"microactuator", "microbeam", "electromagnetic-testbed", "mems-switch"}) {
-        std::istringstream text(run_graze(std::vector<std::string>{"info", study}).out);
+    for (const char* name : {"microactuator", "microbeam", "electromagnetic-testbed", "mems-switch"}) {
+        std::istringstream text(run_graze(std::vector<std::string>{"info", name}).out);
         for (std::string line; std::getline(text, line);)
-            EXPECT_LE(line.size(), 110U) << study << ": " << line; // some letters have two bytes
+            EXPECT_LE(line.size(), 110U) << name << ": " << line; // some letters have two bytes
     }
 }
 
