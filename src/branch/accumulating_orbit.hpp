@@ -30,6 +30,7 @@ public:
     /// From now on, with one contact more.
     void add_contact();
 
+    ParameterId along() const { return along_; }
     double parameter() const { return unknowns_[parameter_place()]; }
     /// Of the parameter, by round-off of heights.
     double uncertainty() const { return uncertainty_; }

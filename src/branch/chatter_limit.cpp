@@ -112,6 +112,7 @@ public:
             return false;
         }
         limit.orbit = orbit_.shown(limit.gap);
+        limit.orbit.parameters[orbit_.along().place()] = limit.direct->first;
         return true;
     }
 
