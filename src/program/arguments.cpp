@@ -8,6 +8,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -68,19 +69,6 @@ constexpr const char* simulate_examples = R"(Examples:
 
 const std::map<std::string, TableFormat> formats{
     {"table", TableFormat::table}, {"csv", TableFormat::csv}, {"json", TableFormat::json}};
-
-CLI::Validator whole_number(long least, long most) {
-    return CLI::Validator(
-        [=](std::string& text) {
-            long value = 0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-            const bool whole = error == std::errc() && end == text.data() + text.size();
-            return whole && value >= least && value <= most
-                       ? std::string()
-                       : fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
-        },
-        "");
-}
 
 void declare_output(CLI::App& command, OutputArguments& output, const std::string& file_option) {
     command.add_option("--format", output.format, "table (default), csv or json")
@@ -298,6 +286,32 @@ std::string explain_required(const std::string& message, const CLI::App& command
 
 } // namespace
 
+CLI::Validator whole_number(long least, long most) {
+    return CLI::Validator(
+        [=](std::string& text) {
+            long value = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            const bool whole = error == std::errc() && end == text.data() + text.size();
+            return whole && value >= least && value <= most
+                       ? std::string()
+                       : fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
+        },
+        "");
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+    return CLI::Validator(
+        [words](std::string& text) {
+            if (std::find(words.begin(), words.end(), text) != words.end())
+                return std::string();
+            const std::string nearest = nearest_name(text, words);
+            return fmt::format("'{}' is no value for it; {}", text,
+                               nearest.empty() ? fmt::format("choose {}", fmt::join(words, ", "))
+                                               : fmt::format("did you mean '{}'?", nearest));
+        },
+        "");
+}
+
 CLI::Validator not_empty() {
     return CLI::Validator([](std::string& text) { return text.empty() ? "its value is empty" : std::string(); }, "");
 }
@@ -348,7 +362,8 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app) {
         return explain_conversion(error.what(), help);
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
         return explain_missing(error.what(), help);
-    return fmt::format("{}; {}", error.what(), help);
+    const std::string message = error.what();
+    return message.find("; ") == std::string::npos ? fmt::format("{}; {}", message, help) : message;
 }
 
 } // namespace graze
