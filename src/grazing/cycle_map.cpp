@@ -243,7 +243,7 @@ CycleMap cycle_map(const System& system, const Orbit& orbit, const OrbitTouch& t
     }
     CycleMap map = cycle_map_of(shooting, at, touch, options.parameter ? std::optional<std::size_t>(0) : std::nullopt);
     map.touches = std::max<std::size_t>(1, touches_in(shooting, at, orbit).size());
-    if (map.exists())
+    if (map.exists() || map.contact.ends)
         add_times(map, system, orbit);
     return map;
 }

@@ -124,6 +124,8 @@ public:
         motion.followed = motion.ended || ending == Ending::end_time;
         motion.contacts = greatest.contacts();
         motion.largest = rigid_ ? greatest.speed() : greatest.depth();
+        if (!map_.exists())
+            return motion;
         MapMotionOptions map_options;
         map_options.transient = 0;
         map_options.cycles = options_.cycles;
@@ -148,6 +150,17 @@ Trial with_reason(Trial trial, TrialOutcome outcome, std::string reason) {
 
 bool is_near(double one, double other, double factor) {
     return one <= factor * other && other <= factor * one;
+}
+
+/// The first contact must end every motion.
+Trial try_ending(const Experiment& experiment) {
+    Trial trial;
+    for (const double factor : {1.0, 30.0})
+        trial.motions.push_back(experiment.run(-experiment.least_clearance() * factor));
+    const bool all_end =
+        std::all_of(trial.motions.begin(), trial.motions.end(), [](const TrialMotion& motion) { return motion.ended; });
+    return with_reason(trial, all_end ? TrialOutcome::agreed : TrialOutcome::contradicted,
+                       all_end ? "contact ends the motion" : "contact does not end the motion");
 }
 
 /// Growth must be there at every distance, and the nearer the touch the more of it.
@@ -244,6 +257,8 @@ Trial try_verdict(const System& system, const CycleMap& map, const Verdict& verd
     if (map.contact.touch.state.size() != system.states() || map.contact.touch.parameters.size() != system.parameters())
         throw InputError("the map belongs to another model", "give the system that it was made from");
     const Experiment experiment(system, map, parameter, options);
+    if (map.contact.ends)
+        return try_ending(experiment);
     return verdict.outcome == GrazingOutcome::lost ? try_loss(experiment, verdict, options)
                                                    : try_persistence(experiment);
 }

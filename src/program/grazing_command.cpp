@@ -121,7 +121,7 @@ void add_contact(Facts& facts, const Model& model, const CycleMap& map) {
 
 void add_cycle(Facts& facts, const Findings& found) {
     const CycleMap& map = found.map;
-    if (!map.exists())
+    if (!map.exists() && !map.contact.ends)
         return;
     facts.add("cycle", map.time, map.half ? "its time (of half the orbit)" : "its time");
     if (!map.multipliers.empty())

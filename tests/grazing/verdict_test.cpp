@@ -208,6 +208,32 @@ TEST(Verdict, trial_is_undecided_where_numbers_leave_no_room_for_growth) {
     EXPECT_EQ(tried.outcome, TrialOutcome::undecided) << tried.reason;
 }
 
+TEST(Verdict, motion_is_lost_where_contact_ends_it) {
+    const LinearOscillator one = testing::one_degree(1.2, 1, 0.5);
+    const Model model = one.model(R"toml(
+[modes.free]
+watch = ["stop"]
+[modes.free.rates]
+RATES
+[[transitions]]
+mode = "free"
+event = "stop"
+next = "end"
+)toml");
+    const System system(model);
+    const Orbit orbit = one.orbit(model);
+    CycleMapOptions options;
+    options.parameter = model.independent_parameter("force");
+    const CycleMap map = cycle_map(system, orbit, touches_of(system, orbit).at(0), options);
+    EXPECT_FALSE(map.exists());
+    EXPECT_TRUE(map.contact.ends);
+    const Verdict verdict = verdict_of(map);
+    EXPECT_EQ(verdict.outcome, GrazingOutcome::lost);
+    EXPECT_EQ(verdict.side, 1);
+    const Trial trial = try_verdict(system, map, verdict, *options.parameter);
+    EXPECT_EQ(trial.outcome, TrialOutcome::agreed) << trial.reason;
+}
+
 /// Where a linear oscillator changes its class: at sin(d T) = 0 the first projection vanishes.
 TEST(Verdict, classes_of_one_degree_have_their_boundaries) {
     for (const double zeta : {0.02, 0.2, 0.6}) {
