@@ -28,6 +28,16 @@ std::size_t own_event(const TestedPoint& point, std::size_t segment) {
     return one.end == SegmentEnd::event ? point.equations.model().transitions[one.index].event : 0;
 }
 
+/// Where a contact without speed is kept, the next segment leaves its surface without speed, too: a least value at its
+/// very start is that contact.
+bool leaves_kept_contact(const TestedPoint& point, const OrbitMinimum& minimum) {
+    constexpr double at_start = 1e-3; // share of the segment
+    const std::size_t segments = point.equations.signature().size();
+    return is_kept(point, PointType::grazing) && point.settings.kept->at_end &&
+           minimum.segment == (point.settings.kept->segment + 1) % segments &&
+           minimum.time < at_start * std::abs(point.solution.orbit.durations[minimum.segment]);
+}
+
 } // namespace
 
 // Grazing: an event is met without speed at the end of its arc, or another touched inside of one.
@@ -53,7 +63,8 @@ void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests) {
             const bool kept = is_kept(point, PointType::grazing, s, event);
             for (const OrbitMinimum& minimum : certificate.minima)
                 if (minimum.segment == s && minimum.event == event && !(minimum.value >= test.value) &&
-                    !(kept && (point.settings.kept->at_end || minimum.time == point.settings.kept->time))) {
+                    !(kept && (point.settings.kept->at_end || minimum.time == point.settings.kept->time)) &&
+                    !leaves_kept_contact(point, minimum)) {
                     test.value = minimum.value;
                     test.noise = smallest_clearance * minimum.size;
                     test.time = minimum.time;

@@ -170,10 +170,13 @@ public:
         const std::vector<BranchTest> tests_before = tests_;
         Continuation& continuation = state_.continuation();
         const std::size_t work_before = state_.problem().equations().work();
-        if (!step_on_branch())
+        if (!step_on_branch()) {
+            if (const std::string edge = touch_at_edge(); !edge.empty())
+                return end(BranchOutcome::undefined, edge);
             return end(continuation.outcome() == ContinuationOutcome::undefined ? BranchOutcome::undefined
                                                                                 : BranchOutcome::no_convergence,
                        state_.problem().evaluation().problem);
+        }
         describe_here();
         const std::size_t work = state_.problem().equations().work() - work_before;
         ++point.step;
@@ -345,6 +348,19 @@ private:
                         return true;
                 }
         return false;
+    }
+    /// Whether the touch that is kept has come to an edge of its segment, beyond which it is one of another: in words.
+    std::string touch_at_edge() const {
+        constexpr double at_edge = 1e-3; // share of the segment: steps have become tiny before
+        if (!keeps_touch())
+            return "";
+        const SpecialPoint& kept = *state_.settings().kept;
+        const double duration = point.solution.orbit.durations[kept.segment];
+        const bool at_start = kept.time < at_edge * duration;
+        return at_start || kept.time > (1 - at_edge) * duration
+                   ? fmt::format("the touch has come to the {} of segment {}", at_start ? "start" : "end",
+                                 kept.segment + 1)
+                   : "";
     }
     bool keeps_touch() const {
         const auto& kept = state_.settings().kept;

@@ -227,6 +227,14 @@ bool OrbitQuantity::duration(const OrbitEquations& equations, const OrbitEvaluat
     return true;
 }
 
+/// A touch is the one that is nearest in time: also across the section at which a motion without contacts is closed.
+double OrbitQuantity::off_touch(const OrbitEquations& equations, double share) const {
+    const double off = std::abs(share - share_);
+    const bool goes_round = equations.signature().size() == 1 && equations.signature()[0].end == SegmentEnd::section &&
+                            !equations.symmetry();
+    return goes_round ? std::min(off, std::abs(1 - off)) : off;
+}
+
 std::optional<OrbitQuantity::Place> OrbitQuantity::find_extremum(const OrbitEquations& equations,
                                                                  const OrbitEvaluation& at) {
     const bool touch = quantity_ == Quantity::touch;
@@ -240,9 +248,8 @@ std::optional<OrbitQuantity::Place> OrbitQuantity::find_extremum(const OrbitEqua
     std::vector<Root> found;
     for (const std::size_t k : pieces(equations.layout())) {
         const auto note = [&](std::size_t watched, double time, bool at_end, double value) {
-            // A touch is the one that is nearest in time.
             const double share = (before + time) / whole;
-            const double preference = touch ? -std::abs(share - share_) : sign * value;
+            const double preference = touch ? -off_touch(equations, share) : sign * value;
             if (std::isfinite(preference) && (!best || preference > best->preference))
                 best = Place{watched, k, time, at_end, value, preference, share};
         };

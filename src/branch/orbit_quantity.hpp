@@ -74,6 +74,7 @@ private:
     bool duration(const OrbitEquations& equations, const OrbitEvaluation& at);
     bool extremum(const OrbitEquations& equations, const OrbitEvaluation& at);
     std::optional<Place> find_extremum(const OrbitEquations& equations, const OrbitEvaluation& at);
+    double off_touch(const OrbitEquations& equations, double share) const;
     bool mean(const OrbitEquations& equations, const OrbitEvaluation& at);
     Eigen::VectorXd gradient_at(const OrbitEquations& equations, const OrbitEvaluation& at, const Watched& watched,
                                 std::vector<double> state, double& value) const;

@@ -16,32 +16,36 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Multipliers of a relation first * x_0 + last * x_m = 0 with x_m = mu x_0, but for infinite ones, with their places.
+/// Multipliers of a relation first * x_0 + last * x_m = 0 with x_m = mu x_0, but for infinite ones.
 struct Spectrum {
-    explicit Spectrum(const CyclicSystem& system) : relation(system.relation()), solver(relation.first.rows()) {
-        if (relation.first.rows() > 0)
-            solver.compute(relation.first, -relation.second);
-        for (Eigen::Index i = 0; relation.first.rows() > 0 && i < solver.betas().size(); ++i) {
+    explicit Spectrum(const CyclicSystem& system) : relation(system.relation()) {
+        if (relation.first.rows() == 0)
+            return;
+        const Eigen::GeneralizedEigenSolver<Eigen::MatrixXd> solver(relation.first, -relation.second, false);
+        for (Eigen::Index i = 0; i < solver.betas().size(); ++i) {
             const Complex one = solver.alphas()[i] / solver.betas()[i];
             if (solver.info() == Eigen::Success && solver.betas()[i] != 0 && std::isfinite(std::abs(one)))
-                all.emplace_back(one, i);
+                all.push_back(one);
         }
     }
     /// Takes out the one nearest to a number. @return none where there is none
-    std::optional<Eigen::Index> take(Complex wanted) {
-        const auto nearest = std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
-            return std::abs(a.first - wanted) < std::abs(b.first - wanted);
-        });
+    std::optional<Complex> take(Complex wanted) {
+        const auto nearest = std::min_element(
+            all.begin(), all.end(), [&](Complex a, Complex b) { return std::abs(a - wanted) < std::abs(b - wanted); });
         if (nearest == all.end())
             return std::nullopt;
-        const Eigen::Index place = nearest->second;
+        const Complex result = *nearest;
         all.erase(nearest);
-        return place;
+        return result;
+    }
+    /// The start that belongs to one of them: what the relation with it takes to nothing.
+    Eigen::VectorXcd vector_of(Complex multiplier) const {
+        const Eigen::MatrixXcd singular = relation.first + multiplier * relation.second;
+        return Eigen::JacobiSVD<Eigen::MatrixXcd>(singular, Eigen::ComputeFullV).matrixV().rightCols<1>();
     }
 
     std::pair<Eigen::MatrixXd, Eigen::MatrixXd> relation;
-    Eigen::GeneralizedEigenSolver<Eigen::MatrixXd> solver;
-    std::vector<std::pair<Complex, Eigen::Index>> all;
+    std::vector<Complex> all;
 };
 
 /// The plane of two multipliers next to one another, by subspace iteration with the relation inverted beside them.
@@ -50,8 +54,8 @@ Eigen::MatrixXd plane_of_close(const Spectrum& others, double middle) {
     constexpr int repetitions = 20; // each makes of what does not belong to it a tenth or less
     const auto& [first, last] = others.relation;
     double nearest = std::abs(middle);
-    for (const auto& one : others.all)
-        nearest = std::min(nearest, std::abs(one.first - middle));
+    for (const Complex one : others.all)
+        nearest = std::min(nearest, std::abs(one - middle));
     const Eigen::PartialPivLU<Eigen::MatrixXd> shifted(first +
                                                        middle * (1 + share * nearest / std::abs(middle)) * last);
     Eigen::MatrixXd starts = Eigen::MatrixXd::NullaryExpr(first.rows(), 2, [](Eigen::Index i, Eigen::Index j) {
@@ -74,11 +78,11 @@ bool plane_of(const CyclicSystem& system, Complex one, Complex other, Eigen::Mat
     if (std::abs(one - other) < close * std::abs(one)) {
         starts = plane_of_close(spectrum, 0.5 * (one + other).real());
     } else {
-        const Eigen::VectorXcd vector = spectrum.solver.eigenvectors().col(*at),
-                               second = spectrum.solver.eigenvectors().col(*beside);
+        const Eigen::VectorXcd vector = spectrum.vector_of(*at);
         starts.resize(first.rows(), 2);
         starts.col(0) = vector.real();
-        starts.col(1) = one.imag() != 0 ? Eigen::VectorXd(vector.imag()) : Eigen::VectorXd(second.real());
+        starts.col(1) =
+            at->imag() != 0 ? Eigen::VectorXd(vector.imag()) : Eigen::VectorXd(spectrum.vector_of(*beside).real());
     }
     if (!starts.allFinite())
         return false;
@@ -194,11 +198,7 @@ double CyclicMatrix::closing_product(const Eigen::VectorXd& left, const Eigen::V
 
 std::vector<std::complex<double>> CyclicMatrix::multipliers() const {
     CyclicSystem system = direct({});
-    std::vector<std::complex<double>> result;
-    if (system.factor())
-        for (const auto& one : Spectrum(system).all)
-            result.push_back(one.first);
-    return result;
+    return system.factor() ? Spectrum(system).all : std::vector<std::complex<double>>();
 }
 
 bool CyclicMatrix::plane_near(std::complex<double> one, std::complex<double> other, Plane& result) const {

@@ -246,6 +246,58 @@ TEST(OrderCurves, of_touches_go_on_where_other_events_change_their_order) {
         EXPECT_TRUE(one.solution.certificate.admissible) << one.solution.certificate.reason;
     }
     EXPECT_NEAR(value_of(model, curve.points.back().solution, "omega"), 2.2, 1e-12);
+    // The touch comes at the phase of the response, atan2(0.2 omega, 1 - omega^2): earlier the slower the force is, at
+    // last with the fixed event.
+    const Branch slower = curve_of(model, touches[0], settings, "omega", 0.1, 2.2, -1);
+    EXPECT_EQ(slower.outcome, BranchOutcome::undefined) << names(slower) << slower.detail;
+    EXPECT_TRUE(slower.detail.starts_with("the touch has come to the start of segment ")) << slower.detail;
+    const double last = value_of(model, slower.points.back().solution, "omega");
+    // A touch is found within its segment only, whose edge it reaches to within the smallest steps' share of it.
+    EXPECT_NEAR(std::atan2(0.2 * last, 1 - last * last), 0.5, 1e-4);
+}
+
+TEST(OrderCurves, of_touches_pass_the_section_at_which_the_orbit_is_closed) {
+    // The touch of the linear response comes at the phase of the section where omega is 1.5, and before it above.
+    const double at = std::atan2(0.3, 1 - 1.5 * 1.5);
+    const Model model = model_from(fmt::format(R"toml(
+[parameters]
+F = 0.3
+omega = 1.3
+[states]
+x = 0
+v = 0
+theta = {{ initial = 0, period = "2*pi" }}
+[modes.free]
+rates = {{ x = "v", v = "F*cos(theta) - 0.2*v - x", theta = "omega" }}
+watch = ["stop"]
+[events.stop]
+function = "1 - x"
+[jumps.impact]
+v = "-0.8*v"
+[[transitions]]
+mode = "free"
+event = "stop"
+jump = "impact"
+next = "free"
+[sections.phase]
+state = "theta"
+value = {:.17g}
+[initial]
+mode = "free"
+)toml",
+                                               at));
+    BranchSettings settings = in_parameter(model, "F", 0.1, 5);
+    const Branch branch = follow_branch(model, settled(model, "phase").orbit, settings);
+    ASSERT_EQ(names(branch), "GR");
+    const Branch curve = curve_of(model, branch.special[0], settings, "omega", 0.9, 2.2, 1);
+    ASSERT_EQ(names(curve), "VS BD") << curve.detail; // where half a free oscillation takes a period of the force
+    EXPECT_NEAR(value_of(model, curve.special[0].solution, "omega"), 2 * std::sqrt(0.99), 1e-9);
+    EXPECT_NEAR(value_of(model, curve.points.back().solution, "omega"), 2.2, 1e-12);
+    for (const BranchPoint& one : curve.points) {
+        const double omega = value_of(model, one.solution, "omega");
+        EXPECT_NEAR(one.parameter, std::hypot(1 - omega * omega, 0.2 * omega), 1e-10);
+        EXPECT_TRUE(one.solution.certificate.admissible) << one.solution.certificate.reason;
+    }
 }
 
 } // namespace

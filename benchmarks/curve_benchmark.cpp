@@ -1,0 +1,144 @@
+// Curves of special points in two parameters: points in a second, with multipliers, all test functions and
+// certificates. Folds, flips and touches are those of the microactuator's orbits without impact and with one; torus
+// points those of a map in the plane, since no shipped model has any. Then curves of orbits of more and more segments.
+
+#include "microactuator.hpp"
+
+#include "graze/branch/switching.hpp"
+#include "graze/model/model_file.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace {
+
+using namespace graze;
+
+/// The orbit without impact, which flips, folds and grazes as the voltage grows.
+Branch branch_without_impact(const Model& model) {
+    AttractorOptions settle;
+    settle.section = "longest";
+    settle.cycles = 4000;
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("V");
+    settings.least = 0;
+    settings.greatest = 3;
+    return follow_branch(model, find_orbit(model, settle).orbit, settings);
+}
+
+SpecialPoint first_of(const Branch& branch, PointType type) {
+    const auto found = std::find_if(branch.special.begin(), branch.special.end(),
+                                    [type](const SpecialPoint& point) { return point.type == type; });
+    if (found == branch.special.end())
+        throw std::logic_error("the branch is not what is to be measured");
+    return *found;
+}
+
+/// Henon's map x -> y, y -> a - b x - y^2 + x y / 10 once in each unit of time: fixed points y have the determinant b -
+/// y/10.
+Model spiralling_map() {
+    return parse_model(R"toml(
+[parameters]
+a = 0.336
+b = 0.5
+[states]
+x = 0.2
+y = 0.2
+clock = 0
+[modes.rest]
+rates = { x = 0, y = 0, clock = 1 }
+watch = ["tick"]
+[events.tick]
+function = "1 - clock"
+[jumps.map]
+x = "y"
+y = "a - b*x - y^2 - x*y/10"
+clock = 0
+[[transitions]]
+mode = "rest"
+event = "tick"
+jump = "map"
+next = "rest"
+label = "map"
+[initial]
+mode = "rest"
+)toml",
+                       "map.toml");
+}
+
+/// Points of the curve through a point, both ways.
+std::size_t follow_curve(const Model& model, const SpecialPoint& point, const std::string& first,
+                         const std::string& second, std::size_t steps) {
+    std::size_t points = 0;
+    for (const int direction : {1, -1}) {
+        BranchSettings settings;
+        settings.parameter = model.independent_parameter(first);
+        settings.direction = direction;
+        settings.steps = steps;
+        settings.continuation.largest_step = 0.01;
+        settings.kept = point;
+        settings.free = {model.independent_parameter(second)};
+        points += follow_branch(model, point.solution.orbit, settings).points.size();
+    }
+    return points;
+}
+
+void measure(benchmark::State& state, const Model& model, const SpecialPoint& point, const std::string& first,
+             const std::string& second, std::size_t steps = 20) {
+    std::size_t points = 0;
+    for (auto _ : state)
+        points += follow_curve(model, point, first, second, steps);
+    if (points <= static_cast<std::size_t>(state.iterations()) * 2)
+        throw std::logic_error("the curve is not what is to be measured");
+    state.counters["points"] = benchmark::Counter(static_cast<double>(points), benchmark::Counter::kIsRate);
+    state.counters["segments"] = static_cast<double>(point.solution.orbit.segments());
+}
+
+void CurveOfTheMicroactuator(benchmark::State& state, PointType type) {
+    Model model = microactuator(0.1);
+    measure(state, model, first_of(branch_without_impact(model), type), "omega", "V");
+}
+BENCHMARK_CAPTURE(CurveOfTheMicroactuator, folds, PointType::fold)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(CurveOfTheMicroactuator, flips, PointType::flip)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(CurveOfTheMicroactuator, touches, PointType::grazing)->Unit(benchmark::kMillisecond);
+
+void CurveOfTorusPoints(benchmark::State& state) {
+    const Model model = spiralling_map();
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("b");
+    settings.greatest = 2;
+    const Orbit orbit{parse_signature(model, "map"), model.parameter_values(), {{0.2, 0.2, 0}}, {1}, {}};
+    const SpecialPoint torus = first_of(follow_branch(model, orbit, settings), PointType::torus);
+    measure(state, model, torus, "a", "b");
+}
+BENCHMARK(CurveOfTorusPoints)->Unit(benchmark::kMillisecond);
+
+/// A point of the orbit {J1, J8}, gone round several times: of folds, and of flips, whose coefficient takes more.
+void CurveOfManySegments(benchmark::State& state, PointType type) {
+    const Model model = microactuator(microactuator_start);
+    const SpecialPoint found = first_of(follow_branch(model, microactuator_orbit(), microactuator_settings()), type);
+    SpecialPoint repeated = found;
+    Orbit& orbit = repeated.solution.orbit;
+    const Orbit& one = found.solution.orbit;
+    // An odd number of rounds keeps the multiplier -1.
+    for (int i = 1; i < state.range(0); ++i) {
+        orbit.signature.insert(orbit.signature.end(), one.signature.begin(), one.signature.end());
+        orbit.starts.insert(orbit.starts.end(), one.starts.begin(), one.starts.end());
+        orbit.durations.insert(orbit.durations.end(), one.durations.begin(), one.durations.end());
+    }
+    orbit = solve_orbit(model, orbit).orbit; // the frame has moved on after each round
+    measure(state, model, repeated, "omega", "V", 3);
+    state.SetComplexityN(state.range(0));
+}
+BENCHMARK_CAPTURE(CurveOfManySegments, folds, PointType::fold)
+    ->Arg(1)
+    ->Arg(5)
+    ->Arg(25)
+    ->Arg(75)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity();
+BENCHMARK_CAPTURE(CurveOfManySegments, flips, PointType::flip)->Arg(1)->Arg(5)->Arg(25)->Unit(benchmark::kMillisecond);
+
+} // namespace
