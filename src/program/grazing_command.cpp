@@ -1,3 +1,4 @@
+#include "graze/grazing/map_motion.hpp"
 #include "graze/grazing/trial.hpp"
 #include "graze/results/stored_orbit.hpp"
 #include "graze/symbolic/input_error.hpp"
@@ -120,7 +121,7 @@ void add_contact(Facts& facts, const Model& model, const CycleMap& map) {
 
 void add_cycle(Facts& facts, const Findings& found) {
     const CycleMap& map = found.map;
-    if (!map.exists())
+    if (!map.exists() && !map.contact.ends)
         return;
     facts.add("cycle", map.time, map.half ? "its time (of half the orbit)" : "its time");
     if (!map.multipliers.empty())
@@ -138,6 +139,25 @@ void add_cycle(Facts& facts, const Findings& found) {
     facts.add("first_speed", found.verdict.first_speed, "of the first contact by distance^(1/2)");
     if (found.verdict.side != 0)
         facts.add("contacts_when", found.verdict.side > 0 ? "above" : "below", "the side of it with contacts");
+}
+
+/// What the map settles on at some distances beyond the touch, where something remains.
+void add_attractors(Facts& facts, const Findings& found) {
+    const CycleMap& map = found.map;
+    if (found.verdict.outcome != GrazingOutcome::persists || map.contact.order != MapOrder::square_root ||
+        !map.clearance_rate || *map.clearance_rate == 0 || !found.parameter)
+        return;
+    double size = 0;
+    for (std::size_t i = 0; i < map.gradient.size(); ++i)
+        size += std::abs(map.gradient[i]) * map.scales[i];
+    const double value = map.contact.touch.parameters[found.parameter->place()];
+    for (const int digits : {3, 5, 7}) {
+        const double clearance = -size * std::pow(10.0, -digits);
+        const MapMotion motion = map_motion(map, clearance);
+        facts.add(fmt::format("beyond_1e-{}", digits),
+                  motion.period > 0 ? fmt::format("{} in {}", motion.contacts, motion.period) : "aperiodic",
+                  fmt::format("contacts in cycles at {:.9g}", value + clearance / *map.clearance_rate));
+    }
 }
 
 void add_verdict(Facts& facts, const Findings& found) {
@@ -162,6 +182,7 @@ void add_verdict(Facts& facts, const Findings& found) {
     if (verdict.attractor != AttractorKind::none)
         facts.add("attractors", name_of(verdict.attractor), "that remain");
     facts.add("leading", verdict.leading, "multiplier that decides which");
+    add_attractors(facts, found);
     if (verdict.next_contact > 0)
         facts.add("next_contact", static_cast<double>(verdict.next_contact), "n: cycles from one contact to the next");
     facts.add("growth", verdict.growth, "next approach speed by speed^(1/2)");
