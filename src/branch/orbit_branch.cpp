@@ -180,7 +180,7 @@ public:
             point = before;
             return end(BranchOutcome::unphysical, before.solution.certificate.reason);
         }
-        if (point.step == 1 && is_beyond_torus()) {
+        if (point.step == 1 && is_beyond_torus(tests_before)) {
             point = before;
             return end(BranchOutcome::stopped, "this way the two multipliers are real");
         }
@@ -402,14 +402,20 @@ private:
                !before.solution.certificate.admissible && !point.solution.certificate.admissible;
     }
 
-    /// From a resonance a curve of torus points leads one way only.
-    bool is_beyond_torus() const {
+    /// From a resonance a curve of torus points leads one way only: the other way the pair is real at once.
+    bool is_beyond_torus(const std::vector<BranchTest>& at_start) const {
         const auto& kept = state_.settings().kept;
-        return kept && kept->type == PointType::torus &&
-               std::any_of(tests_.begin(), tests_.end(), [](const BranchTest& test) {
-                   return (test.type == PointType::resonance_1 && test.value > 0) ||
-                          (test.type == PointType::resonance_2 && test.value < 0);
-               });
+        if (!kept || kept->type != PointType::torus)
+            return false;
+        const auto value = [](const std::vector<BranchTest>& tests, PointType type) {
+            const auto test =
+                std::find_if(tests.begin(), tests.end(), [&](const auto& one) { return one.type == type; });
+            return test == tests.end() ? 0 : test->value;
+        };
+        // The sum of the pair, less 2 and -2: it may pass the other resonance within one step.
+        const bool from_one =
+            std::abs(value(at_start, PointType::resonance_1)) < std::abs(value(at_start, PointType::resonance_2));
+        return from_one ? value(tests_, PointType::resonance_1) > 0 : value(tests_, PointType::resonance_2) < 0;
     }
 
     /// A torus leaves the orbit as long as the pair is complex.
