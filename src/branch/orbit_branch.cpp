@@ -90,6 +90,11 @@ void BranchSettings::validate(const Model& model) const {
     }
 }
 
+bool ends_at_point(BranchOutcome outcome) {
+    return outcome == BranchOutcome::bound || outcome == BranchOutcome::stopped ||
+           outcome == BranchOutcome::unphysical || outcome == BranchOutcome::returned;
+}
+
 std::string_view name_of(BranchOutcome outcome) {
     switch (outcome) {
     case BranchOutcome::steps:

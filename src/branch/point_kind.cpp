@@ -186,7 +186,7 @@ constexpr std::array table{
                        .name = "onset of chatter",
                        .changes = true,
                        .limits = true,
-                       .mark = 11}},
+                       .mark = 15}},
     PointRule{
         .kind = {.type = PointType::extremum, .short_name = "EX", .name = "extremum", .may_stop = true, .mark = 1},
         .test = test_extremum,

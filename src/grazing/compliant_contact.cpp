@@ -15,6 +15,7 @@ namespace {
 /// The difference of two fields at a state, with derivatives.
 struct FieldDifference {
     Eigen::VectorXd value, second; ///< and its second derivative along the field
+    double jerk = 0;               ///< third rate of the touched function
     Eigen::MatrixXd derivatives;   ///< states x states
     Eigen::MatrixXd of_field;      ///< of the touching mode's field
 };
@@ -34,9 +35,13 @@ FieldDifference difference_of(const System& system, const TouchState& touch, std
     for (const auto* entries : {&of_difference, &of_field})
         for (const JacobianEntry& entry : *entries)
             outputs.push_back(entry.value);
+    std::vector<Expression> rate{model.expand(model.events[touch.event].function)};
+    for (int order = 0; order < 3; ++order)
+        rate = lie_derivatives(model, rate, own);
+    outputs.push_back(rate.front());
     std::vector<double> inputs = touch.state;
     inputs.insert(inputs.end(), touch.parameters.begin(), touch.parameters.end());
-    const std::vector<double> values = system.function_of(outputs)(inputs);
+    const std::vector<double> values = Function(model.inputs(), outputs)(inputs);
     FieldDifference result;
     result.value = Eigen::Map<const Eigen::VectorXd>(values.data(), index(n));
     result.second = Eigen::Map<const Eigen::VectorXd>(values.data() + n, index(n));
@@ -46,6 +51,7 @@ FieldDifference difference_of(const System& system, const TouchState& touch, std
         result.derivatives(index(entry.row), index(entry.column)) = values[place++];
     for (const JacobianEntry& entry : of_field)
         result.of_field(index(entry.row), index(entry.column)) = values[place++];
+    result.jerk = values[place];
     return result;
 }
 
@@ -91,7 +97,7 @@ CompliantContact compliant_contact(const TouchFunctions& functions, const TouchS
     // By the third power of half the time T beyond the surface. Damping also acts while the motion is not back yet at
     // its first depth: a (t^2 - T^2)/2 at the end, as the function's third rate and what it has gained make it.
     const Eigen::VectorXd by_force = -a * stiffness + bracket / 3;
-    const double late = geometry.jerk / 3 + gradient.dot(by_force) + 2 * a / 3 * rate_gradient.dot(damping);
+    const double late = difference.jerk / 3 + gradient.dot(by_force) + 2 * a / 3 * rate_gradient.dot(damping);
     const Eigen::VectorXd by_time = by_force - late * damping;
     result.gain = by_time * std::pow(2 / a, 1.5);
     return result;

@@ -114,16 +114,19 @@ std::vector<OrbitTouch> touches_in(Shooting& shooting, const OrbitEvaluation& at
     for (const OrbitMinimum& one : certificate.minima)
         if (std::abs(one.value) < touching * one.size)
             found.push_back({one.segment, one.event, one.time, false});
+    // The least value may lie a little beyond the end, by the square of the rate.
+    constexpr double slow = 1e-4;
     for (const EndValue& one : certificate.end_values) {
         double size = 0;
         for (const OrbitMinimum& other : certificate.minima)
             if (other.segment == one.segment && other.event == one.event)
                 size = std::max(size, other.size);
         const double rate = shooting.usual_rate(at, one.segment, one.event);
-        if (std::abs(one.rate) < touching * rate &&
-            std::abs(one.value) < touching * std::max(size, rate * orbit.round()))
+        if (std::abs(one.rate) < slow * rate && std::abs(one.value) < touching * std::max(size, rate * orbit.round()))
             found.push_back({one.segment, one.event, orbit.durations[one.segment], false});
     }
+    if (found.size() < 2)
+        return found;
     std::vector<OrbitTouch> result;
     std::vector<std::vector<double>> places;
     for (const OrbitTouch& one : found) {
@@ -151,7 +154,7 @@ std::vector<OrbitTouch> touches_of(const System& system, const Orbit& orbit, con
 }
 
 CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
-                      std::optional<std::size_t> free) {
+                      std::optional<std::size_t> free, AskedContacts asked) {
     const System& system = equations.system();
     CycleMap map;
     map.touch = touch;
@@ -162,7 +165,7 @@ CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at
     map.reason = back.reason;
     if (!map.reason.empty())
         return map;
-    map.contact = discontinuity_map(system, back.touch);
+    map.contact = local_map(functions, back.touch, asked);
     map.reason = map.contact.reason;
     const Eigen::Index n = index(system.states());
     map.active = at.active;

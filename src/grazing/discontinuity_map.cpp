@@ -4,9 +4,11 @@
 #include "graze/symbolic/require.hpp"
 #include "grazing/compliant_contact.hpp"
 #include "grazing/contact_chain.hpp"
+#include "grazing/local_map.hpp"
 #include "grazing/touch_geometry.hpp"
 #include "orbit/eigen_index.hpp"
 
+#include <Eigen/Dense>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -66,6 +68,32 @@ std::string problem_of(const System& system, const TouchState& touch, const Touc
     return {};
 }
 
+/// Moves a touch that is known to the accuracy of an orbit exactly onto the surface, and to where it has no rate: a
+/// stiff contact would take what is missing for a force. The least step, in the sizes of the states, by Newton's
+/// method.
+void settle(const TouchFunctions& functions, TouchState& touch, TouchGeometry& geometry) {
+    constexpr int iterations = 3;
+    const Eigen::Index n = index(touch.state.size());
+    const Eigen::Map<const Eigen::VectorXd> scales(touch.scales.data(), n);
+    for (int iteration = 0; iteration < iterations; ++iteration) {
+        Eigen::MatrixXd rows(2, n);
+        rows.row(0) = geometry.gradient.head(n).cwiseProduct(scales).transpose();
+        rows.row(1) = geometry.rate_gradient.head(n).cwiseProduct(scales).transpose();
+        Eigen::Vector2d lack(-geometry.value, -geometry.rate);
+        for (Eigen::Index i = 0; i < 2; ++i) {
+            const double size = rows.row(i).norm();
+            rows.row(i) /= size;
+            lack[i] /= size;
+        }
+        const Eigen::VectorXd step = rows.completeOrthogonalDecomposition().solve(lack);
+        if (!step.allFinite())
+            return;
+        for (Eigen::Index i = 0; i < n; ++i)
+            touch.state[static_cast<std::size_t>(i)] += step[i] * scales[i];
+        geometry = functions.at(touch.state, touch.parameters);
+    }
+}
+
 } // namespace
 
 std::string_view name_of(MapOrder order) {
@@ -82,20 +110,25 @@ std::string_view name_of(MapOrder order) {
 
 DiscontinuityMap discontinuity_map(const System& system, const TouchState& touch) {
     require_fitting(system, touch);
+    return local_map(TouchFunctions(system, touch.mode, touch.event), touch, AskedContacts::all);
+}
+
+DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& touch, AskedContacts asked) {
+    const System& system = functions.system();
     DiscontinuityMap map;
     map.touch = touch;
     const std::size_t n = system.states();
-    const TouchFunctions functions(system, touch.mode, touch.event);
-    const TouchGeometry geometry = functions.at(touch.state, touch.parameters);
+    TouchGeometry geometry = functions.at(touch.state, touch.parameters);
     const TouchSizes sizes(touch, geometry);
     map.reason = problem_of(system, touch, geometry, sizes);
     if (!map.reason.empty())
         return map;
+    settle(functions, map.touch, geometry);
     map.acceleration = geometry.acceleration;
     map.gradient = list_of(geometry.gradient, n);
     map.rate_gradient = list_of(geometry.rate_gradient, n);
     map.field = list_of(geometry.field, n);
-    const ContactChain chain = follow_contact(functions, touch, geometry, sizes);
+    const ContactChain chain = follow_contact(functions, map.touch, geometry, sizes);
     map.contacts = chain.contacts;
     map.restitution = chain.restitution;
     map.time = chain.time;
@@ -116,7 +149,11 @@ DiscontinuityMap discontinuity_map(const System& system, const TouchState& touch
                                  system.model().modes[chain.modes.front()].name);
         return map;
     }
-    const CompliantContact contact = compliant_contact(functions, touch, geometry, sizes, chain.modes.front());
+    if (asked == AskedContacts::rigid) {
+        map.reason = "the contact is not rigid";
+        return map;
+    }
+    const CompliantContact contact = compliant_contact(functions, map.touch, geometry, sizes, chain.modes.front());
     map.reason = contact.reason;
     if (!map.reason.empty())
         return map;

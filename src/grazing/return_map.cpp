@@ -70,6 +70,9 @@ private:
                 time_ -= duration(piece_++);
             if (!polish())
                 return refuse("the orbit does not turn back from the surface near the given time");
+            if (is_beyond_its_arc())
+                return refuse(fmt::format("the touch comes together with what ends segment {} or the one before",
+                                          touch_.segment + 1));
         }
         result_.touch = {functions_.mode(), functions_.event(), start(piece_), at_.parameters, {}};
         for (Eigen::Index i = 0; i < n_; ++i)
@@ -99,6 +102,15 @@ private:
         }
         // Round-off where the acceleration is small decides the last digits.
         return true;
+    }
+
+    /// Where the mode is another one already, or not yet this one.
+    bool is_beyond_its_arc() const {
+        constexpr double late = 1e-9; // of a round
+        const std::size_t pieces = equations_.layout().pieces();
+        const double away = late * equations_.orbit_of(at_.unknowns).round();
+        return (time_ > duration(piece_) + away && changes_something(piece_)) ||
+               (time_ < -away && changes_something((piece_ + pieces - 1) % pieces));
     }
 
     void begin() { rows_ = Eigen::MatrixXd::Identity(n_, n_ + (free_ ? 1 : 0)); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/grazing/cycle_map.hpp"
+#include "grazing/local_map.hpp"
 #include "grazing/touch_geometry.hpp"
 #include "orbit/orbit_equations.hpp"
 
@@ -29,6 +30,6 @@ ReturnMap return_map(const OrbitEquations& equations, const OrbitEvaluation& at,
 
 /// The map of the cycle from it. @param free as above
 CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
-                      std::optional<std::size_t> free);
+                      std::optional<std::size_t> free, AskedContacts asked = AskedContacts::all);
 
 } // namespace graze

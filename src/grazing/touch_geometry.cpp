@@ -1,10 +1,10 @@
 #include "grazing/touch_geometry.hpp"
 
 #include "flow/lie_derivative.hpp"
+#include "graze/symbolic/transform.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace graze {
@@ -21,26 +21,30 @@ constexpr double small_gain = 1e-10;
 
 TouchFunctions::TouchFunctions(const System& system, std::size_t mode, std::size_t event)
     : system_(system), mode_(mode), event_(event) {
-    const std::vector<Expression> rates = rates_of(system, mode, event, 3);
-    rate_ = system.with_gradient(rates[0]);
-    further_ = system.function_of(std::array{rates[1], rates[2]});
+    Model model = system.model(); // whose graph may grow
+    const Expression function = model.expand(model.events[event].function);
+    const std::vector<Expression> field = model.expand(model.modes[mode].rates);
+    const Expression rate = lie_derivatives(model, std::span(&function, 1), field).front();
+    const SymbolIndex inputs(model.inputs());
+    std::vector<Function::Output> outputs{{0, rate}};
+    for (JacobianEntry& entry : sparse_jacobian({&rate, 1}, inputs))
+        outputs.push_back({1 + entry.column, std::move(entry.value)});
+    outputs.push_back({1 + inputs.size(), lie_derivatives(model, std::span(&rate, 1), field).front()});
+    rate_ = Function(inputs, 2 + inputs.size(), outputs, Function::Others::zero);
 }
 
 TouchGeometry TouchFunctions::at(std::span<const double> state, std::span<const double> parameters) const {
     std::vector<double> inputs(state.begin(), state.end());
     inputs.insert(inputs.end(), parameters.begin(), parameters.end());
-    const std::vector<double> value = system_.event(event_)(inputs), rate = rate_(inputs), further = further_(inputs),
+    const std::vector<double> value = system_.event(event_)(inputs), rate = rate_(inputs),
                               field = system_.mode(mode_).rates(inputs);
+    const Eigen::Index count = index(inputs.size());
     TouchGeometry result;
-    const auto gradient_of = [](const std::vector<double>& values) -> Eigen::VectorXd {
-        return Eigen::Map<const Eigen::VectorXd>(values.data() + 1, index(values.size() - 1));
-    };
     result.value = value[0];
-    result.gradient = gradient_of(value);
+    result.gradient = Eigen::Map<const Eigen::VectorXd>(value.data() + 1, count);
     result.rate = rate[0];
-    result.rate_gradient = gradient_of(rate);
-    result.acceleration = further[0];
-    result.jerk = further[1];
+    result.rate_gradient = Eigen::Map<const Eigen::VectorXd>(rate.data() + 1, count);
+    result.acceleration = rate.back();
     result.field = Eigen::Map<const Eigen::VectorXd>(field.data(), index(field.size()));
     return result;
 }

@@ -12,7 +12,7 @@ namespace graze {
 
 /// The function of an event and its rates along the flow of a mode at a state, with gradients: states, then parameters.
 struct TouchGeometry {
-    double value = 0, rate = 0, acceleration = 0, jerk = 0;
+    double value = 0, rate = 0, acceleration = 0;
     Eigen::VectorXd gradient, rate_gradient;
     Eigen::VectorXd field;
 };
@@ -30,7 +30,7 @@ public:
 private:
     System system_;
     std::size_t mode_, event_;
-    Function rate_, further_;
+    Function rate_; ///< with its gradient, then its own rate
 };
 
 /// What counts as zero beside a touch. Values and rates of functions are compared with what the sizes of the states and

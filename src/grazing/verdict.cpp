@@ -234,7 +234,10 @@ void judge_compliant(const CycleMap& map, Verdict& verdict) {
     const auto lost = loss_of_stability(scaled, chi < 0 ? (1 - 1e-6) * root : beyond * root);
     if (lost)
         verdict.unstable_depth = *lost * *lost;
-    verdict.outcome = chi < 0 && !lost ? GrazingOutcome::folds : GrazingOutcome::persists;
+    // A fold far deeper than the states go says only that there is none near.
+    constexpr double deepest = 10;
+    const bool near = root * root < deepest * scaled.gradient.cwiseAbs().sum();
+    verdict.outcome = chi < 0 && !lost && near ? GrazingOutcome::folds : GrazingOutcome::persists;
 }
 
 } // namespace

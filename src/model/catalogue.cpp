@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace graze {
 
@@ -78,6 +79,10 @@ Model load_model(const std::string& name_or_path) {
     std::vector<std::string> names;
     for (const EmbeddedModel& model : embedded_models())
         names.emplace_back(model.name);
+    std::error_code error;
+    if (const std::string file = name_or_path + ".toml"; std::filesystem::exists(file, error))
+        throw InputError(fmt::format("there is no shipped model '{}'", name_or_path),
+                         fmt::format("the file is called {}", file));
     throw InputError(fmt::format("there is no shipped model '{}'", name_or_path),
                      name_remedy(name_or_path, names) + " (the name of a file ends in .toml or contains a slash)");
 }

@@ -8,6 +8,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -34,6 +35,7 @@ constexpr const char* general_examples = R"(Start here:
   graze run --list                                 studies that come with graze: bifurcation diagrams and more
   graze run mems-switch --output switch            do one; its results and pictures go to a folder
   graze points results                             special points of branches of periodic orbits
+  graze grazing results GR1                        whether a motion that touches persists, or trips
   graze COMMAND --help                             all options of a command)";
 
 constexpr const char* check_text = R"(Check a model and say what is in it.
@@ -67,19 +69,6 @@ constexpr const char* simulate_examples = R"(Examples:
 
 const std::map<std::string, TableFormat> formats{
     {"table", TableFormat::table}, {"csv", TableFormat::csv}, {"json", TableFormat::json}};
-
-CLI::Validator whole_number(long least, long most) {
-    return CLI::Validator(
-        [=](std::string& text) {
-            long value = 0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-            const bool whole = error == std::errc() && end == text.data() + text.size();
-            return whole && value >= least && value <= most
-                       ? std::string()
-                       : fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
-        },
-        "");
-}
 
 void declare_output(CLI::App& command, OutputArguments& output, const std::string& file_option) {
     command.add_option("--format", output.format, "table (default), csv or json")
@@ -297,6 +286,32 @@ std::string explain_required(const std::string& message, const CLI::App& command
 
 } // namespace
 
+CLI::Validator whole_number(long least, long most) {
+    return CLI::Validator(
+        [=](std::string& text) {
+            long value = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            const bool whole = error == std::errc() && end == text.data() + text.size();
+            return whole && value >= least && value <= most
+                       ? std::string()
+                       : fmt::format("'{}' is not a whole number from {} to {}", text, least, most);
+        },
+        "");
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+    return CLI::Validator(
+        [words](std::string& text) {
+            if (std::find(words.begin(), words.end(), text) != words.end())
+                return std::string();
+            const std::string nearest = nearest_name(text, words);
+            return fmt::format("'{}' is no value for it; {}", text,
+                               nearest.empty() ? fmt::format("choose {}", fmt::join(words, ", "))
+                                               : fmt::format("did you mean '{}'?", nearest));
+        },
+        "");
+}
+
 CLI::Validator not_empty() {
     return CLI::Validator([](std::string& text) { return text.empty() ? "its value is empty" : std::string(); }, "");
 }
@@ -347,7 +362,8 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app) {
         return explain_conversion(error.what(), help);
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
         return explain_missing(error.what(), help);
-    return fmt::format("{}; {}", error.what(), help);
+    const std::string message = error.what();
+    return message.find("; ") == std::string::npos ? fmt::format("{}; {}", message, help) : message;
 }
 
 } // namespace graze

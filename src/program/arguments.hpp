@@ -92,6 +92,12 @@ struct OrbitArguments {
     OutputArguments output;
 };
 
+struct LadderArguments {
+    std::string file, point, parameter;
+    int rungs = 8;
+    OutputArguments output;
+};
+
 struct GrazingArguments {
     std::string file, point, parameter;
     bool verify = false;
@@ -123,11 +129,16 @@ struct Arguments {
     PointsArguments points;
     OrbitArguments orbit;
     GrazingArguments grazing;
+    LadderArguments ladder;
     CheckArguments check;
     ModelsArguments models;
     SimulateArguments simulate;
 };
 
+/// Refuses anything but whole numbers within these bounds.
+CLI::Validator whole_number(long least, long most);
+/// Refuses anything but these words.
+CLI::Validator one_of(const std::vector<std::string>& words);
 /// Refuses what an unset variable of a script leaves: it would silently count as if the option were not there.
 CLI::Validator not_empty();
 

@@ -37,10 +37,21 @@ constexpr const char* orbit_examples = R"(Examples:
   graze orbit results chain:17 --plot orbit.svg
   graze orbit results GR1 --plot history.pdf --x t --y q,v)";
 
+constexpr const char* ladder_text = R"(Climb from one grazing to the next, with one contact more each time.
+At each the branch of orbits with one contact more is followed until it grazes again. Their distances go down in a
+ratio that the restitution decides; where they lead contacts accumulate: the onset of chatter, found from the motion
+itself and, beside it, from the grazings alone. POINT is written as for graze orbit. A run of kind "ladder" of a study
+keeps all of it, with the orbits.)";
+
+constexpr const char* ladder_examples = R"(Examples:
+  graze ladder results GR1                         eight grazings, their ratios, where they lead
+  graze ladder results chain:GR1 --rungs 15
+  graze ladder results GR1 --format json           every number, with all its digits)";
+
 constexpr const char* grazing_text = R"(Say what becomes of an orbit that touches: persists, or trips?
 At a grazing (GR), or any other point whose orbit touches an event's surface without speed: how a contact there acts on
 the motion, which follows from the model's equations alone, on which later pass the next contact comes, and whether an
-attractor remains beyond. POINT is written as for graze orbit. With --verify the verdict is checked by simulation.)";
+attractor remains beyond. With --verify the verdict is checked by simulation. POINT is written as for graze orbit.)";
 
 constexpr const char* grazing_examples = R"(Examples:
   graze grazing results GR1                        what a contact does, and the verdict
@@ -60,7 +71,7 @@ void declare_output(CLI::App& command, OutputArguments& output) {
         ->transform(CLI::Transformer(formats).description(""));
     add(command, "Output", "--digits", output.digits, "N",
         "Significant digits of numbers (8; 17 of csv and json, which lose nothing)")
-        ->check(CLI::Range(1, 17));
+        ->check(whole_number(1, 17));
     add(command, "Output", "--output", output.file, "FILE", "Write the table there instead of to standard output");
 }
 
@@ -85,7 +96,7 @@ void declare_orbit(CLI::App& app, OrbitArguments& arguments) {
     add(command, group, "--quantity", arguments.quantities, "EXPR",
         "More columns: quantities of the model, or any expressions in its names");
     add(command, group, "--samples", arguments.samples, "N", "About so many rows of the whole period (200)")
-        ->check(CLI::Range(1, 1'000'000));
+        ->check(whole_number(1, 1'000'000));
     declare_output(command, arguments.output);
     command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal")
         ->group("Output");
@@ -112,12 +123,28 @@ void declare_grazing(CLI::App& app, GrazingArguments& arguments) {
         ->group("Output");
 }
 
+void declare_ladder(CLI::App& app, LadderArguments& arguments) {
+    CLI::App& command = *app.add_subcommand("ladder", ladder_text);
+    command.footer(ladder_examples);
+    command.add_option("FILE", arguments.file, "Result file, or the folder of a study")->type_name("")->required();
+    command.add_option("POINT", arguments.point, "LABEL, RUN:LABEL or RUN:NUMBER")->type_name("")->required();
+    const char* group = "How far";
+    add(command, group, "--rungs", arguments.rungs, "N", "Grazings at most, that one included (8)")
+        ->check(CLI::Range(2, 1000));
+    add(command, group, "--parameter", arguments.parameter, "NAME",
+        "That varies (the one that its run follows, within its bounds)");
+    declare_output(command, arguments.output);
+    command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal")
+        ->group("Output");
+}
+
 } // namespace
 
 void declare_branch_commands(CLI::App& app, Arguments& arguments) {
     declare_points(app, arguments.points);
     declare_orbit(app, arguments.orbit);
     declare_grazing(app, arguments.grazing);
+    declare_ladder(app, arguments.ladder);
 }
 
 } // namespace graze

@@ -17,6 +17,7 @@ int help_command(const CLI::App& app, const HelpArguments& arguments, const Cons
 int completion_command(const CLI::App& app, const CompletionArguments& arguments, const Console& console);
 int points_command(const PointsArguments& arguments, const Console& console);
 int orbit_command(const OrbitArguments& arguments, const Console& console);
+int ladder_command(const LadderArguments& arguments, const Console& console);
 int grazing_command(const GrazingArguments& arguments, const Console& console);
 
 /// Hands a table to the user: for people the columns that fit a terminal, unless all are asked for.

@@ -52,8 +52,11 @@ struct Terminal {
     std::string font;   ///< its name
     bool latex = false;
     bool pixels = false;
+    bool svg = false;
 
-    std::string text(const RichText& rich) const { return latex ? latex_markup(rich) : gnuplot_markup(rich); }
+    std::string text(const RichText& rich) const {
+        return latex ? latex_markup(rich) : svg ? firm_blanks(gnuplot_markup(rich)) : gnuplot_markup(rich);
+    }
     std::string font_text(double size) const { return fmt::format("font '{},{:.4g}'", font, size * letters); }
 };
 
@@ -82,6 +85,7 @@ Terminal terminal_of(const Figure& figure, const FigureLayout& page, const std::
         terminal.command = fmt::format("cairolatex pdf input size {:.4f}in,{:.4f}in linewidth {:.4g} dashlength {:.4g}",
                                        width, height, 1.5 * stroke, dash_of_cairo * stroke);
     } else {
+        terminal.svg = true;
         terminal.letters = svg_per_inch / points_per_inch;
         terminal.point = 7.2 / (page.font * terminal.letters);
         terminal.command = fmt::format("svg enhanced size {:.0f},{:.0f} linewidth {:.4g} background rgb 'white'",

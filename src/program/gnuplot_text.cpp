@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 #include <string_view>
+#include <utility>
 
 namespace graze {
 
@@ -53,7 +55,15 @@ std::string name_text(const std::string& name) {
 }
 
 std::string with_unit(const std::string& label, const std::string& unit) {
-    return unit.empty() ? label : fmt::format("{} ({})", label, unit_text(unit));
+    return unit.empty() ? label : firm_blanks(fmt::format("{} ({})", label, unit_text(unit)));
+}
+
+std::string firm_blanks(std::string markup) {
+    const std::string blank = "\u00a0";
+    for (const auto& [soft, firm] : {std::pair{std::string("} "), "}" + blank}, {" {", blank + "{"}})
+        for (std::size_t at = markup.find(soft); at != std::string::npos; at = markup.find(soft, at))
+            markup.replace(at, soft.size(), firm);
+    return markup;
 }
 
 std::string number_text(double value) {

@@ -21,6 +21,8 @@ std::string unit_text(const std::string& unit);
 std::string name_text(const std::string& name);
 /// A label with its unit in parentheses.
 std::string with_unit(const std::string& label, const std::string& unit);
+/// Markup whose blanks beside changes of the letters are not breaking: viewers of SVG drop those that are.
+std::string firm_blanks(std::string markup);
 std::string number_text(double value);
 
 } // namespace graze

@@ -32,29 +32,38 @@ public:
         table_.add(name);
         table_.add(value);
         table_.add(meaning);
+        values_.add(name, value);
     }
     void add(const std::string& name, std::optional<double> value, const std::string& meaning) {
         if (value)
             add(name, *value, meaning);
     }
     void add(const std::string& name, std::string_view value, const std::string& meaning) {
-        if (value.empty())
-            return;
         table_.add(name);
         table_.add(value);
         table_.add(meaning);
+        values_.add(name, value);
     }
     const Table& table() const { return table_; }
+    /// The same by name, without meanings.
+    const JsonObject& values() const { return values_; }
 
 private:
     Table table_;
+    JsonObject values_;
 };
 
-std::optional<ParameterId> parameter_of(const StoredRun& run, const std::string& asked) {
-    const std::string name = asked.empty() ? followed_parameter(run.record) : asked;
-    if (name.empty())
-        return std::nullopt;
-    return run.model.independent_parameter(name);
+/// What moves the orbit from its touch: what was asked for, or what the run follows. On a curve that is first the one
+/// that has been freed, since its own may have nothing to do with the orbit, as the stiffness of a stop has not.
+std::vector<ParameterId> parameters_of(const StoredRun& run, const std::string& asked) {
+    if (!asked.empty())
+        return {run.model.independent_parameter(asked)};
+    std::vector<ParameterId> result;
+    if (run.record.kind == "curve" && run.record.coordinates.size() > 1)
+        result.push_back(run.model.independent_parameter(run.record.coordinates[1].name));
+    if (const std::string followed = followed_parameter(run.record); !followed.empty())
+        result.push_back(run.model.independent_parameter(followed));
+    return result;
 }
 
 /// A grazing is kept with its place; others are looked through for one.
@@ -69,6 +78,19 @@ OrbitTouch touch_of(const System& system, const OrbitRecord& record) {
     return touches.front();
 }
 
+/// The map with the first of the parameters that moves the orbit; if none does, with the last.
+void find_map(Findings& found, const System& system, const std::string& asked) {
+    const OrbitTouch touch = touch_of(system, found.stored.record);
+    CycleMapOptions options;
+    found.map = cycle_map(system, found.stored.record.point.solution.orbit, touch, options);
+    for (const ParameterId parameter : parameters_of(found.stored.run, asked)) {
+        found.parameter = options.parameter = parameter;
+        found.map = cycle_map(system, found.stored.record.point.solution.orbit, touch, options);
+        if (found.map.clearance_rate && *found.map.clearance_rate != 0)
+            return;
+    }
+}
+
 std::string contacts_text(const Model& model, const std::vector<std::size_t>& contacts) {
     std::vector<std::string> labels;
     for (const std::size_t contact : contacts)
@@ -80,32 +102,42 @@ std::string contacts_text(const Model& model, const std::vector<std::size_t>& co
 void add_contact(Facts& facts, const Model& model, const CycleMap& map) {
     const DiscontinuityMap& contact = map.contact;
     facts.add("event", model.events[map.touch.event].name, "that is touched");
-    facts.add("map", name_of(contact.order), "square-root: a rigid contact; three-halves: a compliant one");
-    facts.add("no_map", map.reason, "why there is none");
-    if (!map.exists())
+    if (!map.exists()) {
+        facts.add("map", name_of(MapOrder::none), map.reason);
         return;
-    facts.add("contacts", contacts_text(model, contact.contacts), "transitions that a contact beside it makes");
-    facts.add("acceleration", contact.acceleration, "second rate of the event's function at the touch");
-    if (contact.order == MapOrder::square_root)
-        facts.add("restitution", contact.restitution, "rate of the event's function after by that before");
+    }
+    const bool rigid = contact.order == MapOrder::square_root;
+    facts.add("map", name_of(contact.order), rigid ? "a rigid contact" : "a compliant contact");
+    facts.add("contacts", contacts_text(model, contact.contacts), "transitions that a soft contact makes");
+    facts.add("acceleration", contact.acceleration, "second rate of the gap (the event's function)");
+    if (rigid)
+        facts.add("restitution", contact.restitution, "rate of the gap after by that before");
     for (std::size_t i = 0; i < contact.direction.size(); ++i)
         if (contact.direction[i] != 0)
             facts.add("direction_" + model.states[i].name, contact.direction[i],
-                      contact.order == MapOrder::square_root ? "what the state gains by approach speed"
-                                                             : "what the state gains by the power 3/2 of the depth");
+                      rigid ? "what it gains by approach speed" : "what it gains by depth^(3/2)");
 }
 
 void add_cycle(Facts& facts, const Findings& found) {
     const CycleMap& map = found.map;
     if (!map.exists())
         return;
-    facts.add("cycle", map.time, map.half ? "time of a cycle, the half of the orbit" : "time of a cycle");
+    facts.add("cycle", map.time, map.half ? "its time (of half the orbit)" : "its time");
     if (!map.multipliers.empty())
         facts.add("multiplier", std::abs(map.multipliers.front()), "modulus of the largest one");
     for (std::size_t k = 0; k < found.verdict.projections.size(); ++k)
         facts.add(fmt::format("projection_{}", k + 1), found.verdict.projections[k],
-                  k == 0 ? "what a contact does to the clearance one cycle later" : "and later");
-    facts.add("touches", static_cast<double>(map.touches), "places in which the orbit touches");
+                  k == 0 ? "effect on the gap one cycle later" : fmt::format("{} cycles later", k + 1));
+    if (map.touches > 1)
+        facts.add("touches", static_cast<double>(map.touches), "places in which the orbit touches");
+    if (!found.parameter)
+        return;
+    facts.add("parameter", found.stored.run.model.independent_parameters()[found.parameter->place()],
+              "moves the orbit from the touch");
+    facts.add("clearance_rate", map.clearance_rate, "of the least gap by the parameter");
+    facts.add("first_speed", found.verdict.first_speed, "of the first contact by distance^(1/2)");
+    if (found.verdict.side != 0)
+        facts.add("contacts_when", found.verdict.side > 0 ? "above" : "below", "the side of it with contacts");
 }
 
 void add_verdict(Facts& facts, const Findings& found) {
@@ -113,38 +145,40 @@ void add_verdict(Facts& facts, const Findings& found) {
     const auto logarithm = [](const std::optional<double>& value) {
         return value ? std::optional(std::log10(*value)) : std::nullopt;
     };
-    facts.add("verdict", name_of(verdict.outcome), "what becomes of the orbit beyond the touch");
-    facts.add("undecided", verdict.reason, "why");
-    if (found.parameter && verdict.side != 0) {
-        facts.add("parameter", found.stored.run.model.independent_parameters()[found.parameter->place()],
-                  "that moves the orbit from the touch");
-        facts.add("contacts_when", verdict.side > 0 ? "above" : "below", "side of the parameter on which they begin");
-    }
-    facts.add("clearance_rate", found.map.clearance_rate, "of the orbit without contact, by the parameter");
-    facts.add("first_speed", verdict.first_speed, "of the first contact, by the root of the parameter's distance");
+    const auto meaning = [&]() -> std::string {
+        switch (verdict.outcome) {
+        case GrazingOutcome::persists:
+            return "an attractor remains beside the touch";
+        case GrazingOutcome::lost:
+            return "no attractor remains: it trips";
+        case GrazingOutcome::folds:
+            return "the orbit remains up to a fold";
+        case GrazingOutcome::undecided:
+            break;
+        }
+        return verdict.reason;
+    }();
+    facts.add("verdict", name_of(verdict.outcome), meaning);
     if (verdict.attractor != AttractorKind::none)
         facts.add("attractors", name_of(verdict.attractor), "that remain");
     facts.add("leading", verdict.leading, "multiplier that decides which");
     if (verdict.next_contact > 0)
-        facts.add("next_contact", static_cast<double>(verdict.next_contact),
-                  "cycles until a contact is followed by another");
-    facts.add("growth", verdict.growth, "the next approach speed, by the root of the one before");
-    facts.add("log10_growth", logarithm(verdict.growth), "its decimal logarithm");
-    facts.add("jump_growth", verdict.jump_growth, "c: the same of the jumps of the rate");
-    facts.add("log10_jump_growth", logarithm(verdict.jump_growth), "its decimal logarithm");
-    facts.add("reach", verdict.reach, "approach speed up to which contacts would grow");
-    facts.add("alpha", verdict.alpha, "of the cubic alpha tau^3 + tau^2 + clearance, depth tau^2");
-    facts.add("fold_clearance", verdict.fold_clearance, "clearance at which the orbit turns");
-    facts.add("fold_depth", verdict.fold_depth, "depth at which the orbit turns");
+        facts.add("next_contact", static_cast<double>(verdict.next_contact), "n: cycles from one contact to the next");
+    facts.add("growth", verdict.growth, "next approach speed by speed^(1/2)");
+    facts.add("log10_growth", logarithm(verdict.growth), "");
+    facts.add("jump_growth", verdict.jump_growth, "c: next jump of the rate by jump^(1/2)");
+    facts.add("log10_jump_growth", logarithm(verdict.jump_growth), "");
+    facts.add("reach", verdict.reach, "speed up to which contacts would grow");
+    facts.add("alpha", verdict.alpha, "of the cubic alpha tau^3 + tau^2 + gap");
+    facts.add("fold_clearance", verdict.fold_clearance, "least gap without contact where it turns");
+    facts.add("fold_depth", verdict.fold_depth, "depth of the contact there");
     facts.add("fold_distance", verdict.fold_distance, "of the parameter from the touch");
-    facts.add("unstable_depth", verdict.unstable_depth, "depth at which the orbit loses its stability before");
-    if (found.trial) {
-        facts.add("trial", name_of(found.trial->outcome), "simulation beside the touch");
-        facts.add("trial_finds", found.trial->reason, "what it has shown");
-    }
+    facts.add("unstable_depth", verdict.unstable_depth, "depth at which it loses stability before");
+    if (found.trial)
+        facts.add("trial", name_of(found.trial->outcome), found.trial->reason);
 }
 
-JsonObject heading_of(const ResultFile& file, const Findings& found) {
+JsonObject heading_of(const ResultFile& file, const Findings& found, const Facts& facts) {
     const OrbitRecord& record = found.stored.record;
     JsonObject heading;
     heading.add("graze", GRAZE_VERSION);
@@ -153,6 +187,8 @@ JsonObject heading_of(const ResultFile& file, const Findings& found) {
     heading.add("run", found.stored.run.record.name);
     heading.add("number", static_cast<double>(record.number));
     heading.add("label", record.label);
+    heading.add("reason", found.verdict.reason);
+    heading.add("values", facts.values());
     std::vector<JsonObject> motions;
     if (found.trial)
         for (const TrialMotion& motion : found.trial->motions) {
@@ -173,12 +209,8 @@ JsonObject heading_of(const ResultFile& file, const Findings& found) {
 int grazing_command(const GrazingArguments& arguments, const Console& console) {
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
     Findings found{find_stored_orbit(file, arguments.point, {"POINT", 0, 0}), {}, {}, {}, {}};
-    found.parameter = parameter_of(found.stored.run, arguments.parameter);
     const System system(found.stored.run.model);
-    const Orbit& orbit = found.stored.record.point.solution.orbit;
-    CycleMapOptions options;
-    options.parameter = found.parameter;
-    found.map = cycle_map(system, orbit, touch_of(system, found.stored.record), options);
+    find_map(found, system, arguments.parameter);
     found.verdict = verdict_of(found.map);
     if (arguments.verify) {
         if (!found.parameter)
@@ -190,7 +222,7 @@ int grazing_command(const GrazingArguments& arguments, const Console& console) {
     add_contact(facts, found.stored.run.model, found.map);
     add_cycle(facts, found);
     add_verdict(facts, found);
-    deliver(facts.table(), arguments.output, heading_of(file, found), console);
+    deliver(facts.table(), arguments.output, heading_of(file, found, facts), console);
     const bool contradicted = found.trial && found.trial->outcome == TrialOutcome::contradicted;
     return contradicted ? exit_irregular : exit_success;
 }

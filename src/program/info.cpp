@@ -7,6 +7,7 @@
 #include "program/describe.hpp"
 #include "program/file_facts.hpp"
 #include "program/output_file.hpp"
+#include "program/table_fit.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -123,12 +124,12 @@ std::string words_of(const Facts& facts, const std::string& item, const std::str
 }
 
 /// "3 states, 2 modes"
-std::string counts_of(const Facts& facts, const std::string& model) {
+std::string counts_of(const Facts& facts, const std::string& model, std::size_t width) {
     std::vector<std::string> counts;
     for (const Fact& fact : facts.all())
         if (fact.item == "model" && fact.name == model && fact.number && *fact.number > 0)
             counts.push_back(fmt::format("{} {:.0f}", fact.property, *fact.number));
-    return fmt::format("{}\n", fmt::join(counts, ", "));
+    return wrapped(fmt::format("{}", fmt::join(counts, ", ")), width) + '\n';
 }
 
 /// What all runs have in common is said once. @return "", or a line
@@ -144,6 +145,23 @@ std::string common_to(const Facts& facts, const std::vector<std::string>& runs, 
     return words + common;
 }
 
+/// "from rest: V from 0.1 to 1, followed"
+std::string start_and_axes(const Facts& facts, const std::string& run) {
+    const std::string start = facts.text("run", run, "starts_from");
+    const std::string axes = fmt::format("{}", fmt::join(facts.texts("run", run, "varies"), "; "));
+    return start.empty() ? axes : fmt::format("from {}{}{}", start, axes.empty() ? "" : ": ", axes);
+}
+
+/// Moments are written such that they are in the order of letters.
+std::string first_begun(const Facts& facts, const std::vector<std::string>& runs) {
+    std::string first;
+    for (const std::string& run : runs)
+        if (const std::string begun = facts.text("run", run, "begun");
+            first.empty() || (!begun.empty() && begun < first))
+            first = begun;
+    return first;
+}
+
 std::string list_of_runs(const Facts& facts, std::size_t width) {
     const std::vector<std::string> runs = facts.names("run");
     const auto known = [&](const std::string& property) {
@@ -157,13 +175,14 @@ std::string list_of_runs(const Facts& facts, std::size_t width) {
     std::string heading = fmt::format("\n{} run{}", runs.size(), runs.size() == 1 ? "" : "s");
     std::vector<Table::Column> columns{{"run", ""}};
     for (const char* property :
-         {"kind", "model", "status", "points", "planned", "begun", "seconds", "version", "starts_from", "varies"}) {
+         {"kind", "model", "status", "points", "planned", "begun", "seconds", "version", "varies"}) {
         const std::string name = property;
         const std::string common = name == "model"     ? common_to(facts, runs, name, ", of model ")
                                    : name == "version" ? common_to(facts, runs, name, ", by graze ")
                                                        : "";
         heading += common;
-        if (known(name) && common.empty() && (name != "planned" || !all_are_there))
+        if ((known(name) || (name == "varies" && known("starts_from"))) && common.empty() &&
+            (name != "planned" || !all_are_there))
             columns.push_back({name, ""});
     }
     Table table(columns);
@@ -171,14 +190,25 @@ std::string list_of_runs(const Facts& facts, std::size_t width) {
         for (const Table::Column& column : columns)
             if (const auto number = facts.number("run", run, column.name))
                 table.add(*number);
+            else if (column.name == "varies")
+                table.add(start_and_axes(facts, run));
             else if (const auto texts = facts.texts("run", run, column.name); !texts.empty())
                 table.add(fmt::format("{}", fmt::join(texts, "; ")));
             else if (column.name == "run")
                 table.add(run);
             else
                 table.add(nothing);
+    // When each was begun, and how long it took, is told where there is room; otherwise when the first was begun.
+    std::vector<std::string> kept;
+    for (const Table::Column& column : columns)
+        if (column.name != "begun" && column.name != "seconds")
+            kept.push_back(column.name);
+    constexpr int digits = 4;
+    const FittedTable fits = fitted(table, digits, width, kept);
+    if (!fits.left_out.empty())
+        heading += ", begun " + first_begun(facts, runs);
     std::ostringstream text;
-    write_table(text, table, TableFormat::table, 4, {}, width);
+    write_table(text, fits.table, TableFormat::table, digits, {}, width);
     return fmt::format("{}\n{}", heading, text.str());
 }
 
@@ -193,7 +223,7 @@ std::string list_of(const Facts& facts, const std::string& item, const std::stri
 std::string text_of(const Facts& facts, bool all, std::size_t width) {
     std::string text = heading_of(facts);
     for (const std::string& model : facts.names("model"))
-        text += words_of(facts, "model", model, width) + counts_of(facts, model);
+        text += words_of(facts, "model", model, width) + counts_of(facts, model, width);
     for (const std::string& study : facts.names("study"))
         text += words_of(facts, "study", study, width);
     const std::vector<std::string> runs = facts.names("run"), pictures = facts.names("picture");

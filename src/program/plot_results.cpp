@@ -40,6 +40,9 @@ FigureStyle style_of(const PlotArguments& arguments) {
     FigureStyle style;
     if (!arguments.size.empty()) {
         const std::size_t cross = arguments.size.find('x');
+        if (arguments.size.find_first_not_of("0123456789.x") != std::string::npos)
+            throw InputError({"--size", 0, 0}, fmt::format("'{}' is no size", arguments.size),
+                             "write the width in mm, as 85, or WIDTHxHEIGHT, as 254x143");
         style.width = number_of(arguments.size.substr(0, cross), "--size");
         if (cross != std::string::npos)
             style.height = number_of(arguments.size.substr(cross + 1), "--size");
@@ -179,6 +182,24 @@ bool draw_together(const PlotArguments& arguments, const ResultFile& file, const
     return true;
 }
 
+/// Attractors are called by their period and signature, which are known when they are drawn.
+void check_names_of_attractors(const StudyPicture& picture, const ResultPicture& made) {
+    const auto is_shown = [&](const std::string& text) {
+        return std::any_of(made.figure.panels.begin(), made.figure.panels.end(), [&](const FigurePanel& panel) {
+            return std::any_of(panel.series.begin(), panel.series.end(),
+                               [&](const FigureSeries& series) { return series.title.starts_with(text); });
+        });
+    };
+    std::vector<std::string> kinds;
+    for (std::size_t column = 0; column < made.table.columns().size(); ++column)
+        for (std::size_t row = 0; made.table.columns()[column].name == "kind" && row < made.table.rows(); ++row)
+            kinds.push_back(made.table.text(row, column));
+    for (const auto& [name, text] : picture.names)
+        if (name.starts_with("period ") && !is_shown(text))
+            throw InputError({"--name", 0, 0}, fmt::format("'{}': the picture shows nothing of that name", name),
+                             name_advice(name, kinds, "there is no attractor"));
+}
+
 void draw_alone(const PlotArguments& arguments, const ResultFile& file, const std::string& name,
                 const Console& console) {
     const StoredRun run(file, name, {"--run", 0, 0});
@@ -186,7 +207,9 @@ void draw_alone(const PlotArguments& arguments, const ResultFile& file, const st
         throw InputError({"--run", 0, 0},
                          fmt::format("run '{}' has no points: it failed: {}", name, run.record.failure), "");
     const std::string path = arguments.output.empty() ? name + ".png" : arguments.output;
-    const ResultPicture made = make_picture(picture_of(arguments, run.record), file);
+    const StudyPicture picture = picture_of(arguments, run.record);
+    const ResultPicture made = make_picture(picture, file);
+    check_names_of_attractors(picture, made);
     draw_figure(made.figure, path, arguments.data);
     if (made.table.rows() > 0)
         deliver(made.table, {TableFormat::table, 6, "", true}, {}, console);

@@ -53,6 +53,8 @@ int dispatch(std::span<const std::string> words, const Console& console) {
         return points_command(arguments.points, console);
     if (app.got_subcommand("orbit"))
         return orbit_command(arguments.orbit, console);
+    if (app.got_subcommand("ladder"))
+        return ladder_command(arguments.ladder, console);
     if (app.got_subcommand("grazing"))
         return grazing_command(arguments.grazing, console);
     return simulate_command(arguments.simulate, console);

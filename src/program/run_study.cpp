@@ -49,6 +49,8 @@ std::string first_remedy(const StoredRun& run, const Counts& counts) {
         while (rows.next())
             if (rows.text(1) == name && !rows.text(2).empty())
                 return fmt::format("point {}: {}", rows.integer(0), rows.text(2));
+        if (label == Label::unsettled)
+            return "what has not settled may do so after more returns: raise `cycles`";
     }
     return "";
 }

@@ -74,7 +74,7 @@ void declare_run(CLI::App& app, RunArguments& arguments) {
     add(command, "STUDY", arguments.study, "", "Name of a shipped study, a file, or results to go on with");
     add(command, "--output", arguments.folder, "FOLDER", "Where results and pictures go (the study's name)");
     add(command, "--jobs", arguments.jobs, "N", "Threads (as many as there are cores); results do not depend on it")
-        ->check(CLI::Range(1, 1024));
+        ->check(whole_number(1, 1024));
     add(command, "--set", arguments.set, "NAME=VALUE", "Values of parameters instead of those in the study");
     add(command, "--only", arguments.only, "RUN", "Only these runs, with those that they start from");
     command.add_flag("--list", arguments.list, "List the shipped studies");
@@ -106,14 +106,12 @@ void declare_export(CLI::App& app, ExportArguments& arguments) {
         "Only points with this label, such as periodic; of branches also a type, such as GR");
     add(command, "--direction", arguments.direction, "WAY", "Only points of sweeps or branches up or down");
     add(command, "--sql", arguments.sql, "QUERY", "The rows of a query instead");
-    static const std::map<std::string, std::string> known{
-        {"table", "table"}, {"csv", "csv"}, {"json", "json"}, {"hdf5", "hdf5"}};
     add(command, "--format", arguments.hdf5, "FORMAT", "table (default), csv, json or hdf5")
-        ->check(CLI::IsMember(known));
+        ->check(one_of({"table", "csv", "json", "hdf5"}));
     add(command, "--output", arguments.output.file, "FILE", "Write there instead of to standard output");
     add(command, "--digits", arguments.output.digits, "N",
         "Significant digits of numbers (8; 17 of csv and json, which lose nothing)")
-        ->check(CLI::Range(1, 17));
+        ->check(whole_number(1, 17));
     command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal");
 }
 
@@ -125,7 +123,7 @@ void declare_plot_results(CLI::App& app, PlotArguments& arguments) {
         "Runs to be drawn (all; each by itself, but branches with --output together)");
     add(command, "--kind", arguments.kind, "KIND",
         "bifurcation, branch, basin, map, spectrum, history, portrait, regression or scatter")
-        ->check(CLI::IsMember(
+        ->check(one_of(
             {"bifurcation", "branch", "basin", "map", "spectrum", "history", "portrait", "regression", "scatter"}));
     add(command, "--x", arguments.x, "NAME", "Horizontal axis: what varies, or a value");
     add(command, "--y", arguments.y, "NAME", "Vertical axes, one panel each (all values)");
@@ -139,8 +137,7 @@ void declare_plot_results(CLI::App& app, PlotArguments& arguments) {
     add(command, "--fit", arguments.fit, "A:B", "Range of x that a regression uses");
     add(command, "--group", arguments.group, "NAME", "What varies between the lines of a regression");
     command.add_flag("--successive", arguments.successive, "Regression: each value against the one before it");
-    add(command, "--log", arguments.logarithmic, "AXIS", "Logarithmic axes: x, y or both")
-        ->check(CLI::IsMember({"x", "y"}));
+    add(command, "--log", arguments.logarithmic, "AXIS", "Logarithmic axes: x, y or both")->check(one_of({"x", "y"}));
     add(command, "--title", arguments.title, "TEXT", "Title");
     add(command, "--name", arguments.names, "NAME=TEXT",
         "What legends, titles and axes show in the place of names of runs, values, samplings");

@@ -11,11 +11,11 @@ namespace graze {
 namespace {
 
 /// Columns of results that people look at last, the least of them first.
-constexpr std::array<std::string_view, 27> last_looked_at{
-    "durations",    "low",           "high",       "tangent", "iterations",  "step",     "chain",
-    "returns",      "cycles",        "arclength",  "error",   "residual",    "outcome",  "bracket_low",
-    "bracket_high", "event_segment", "event_time", "event",   "at_end",      "unstable", "lyapunov_error",
-    "mode",         "version",       "time",       "ending",  "ending_time", "located"};
+constexpr std::array<std::string_view, 28> last_looked_at{
+    "begun",          "durations",    "low",           "high",       "tangent", "iterations",  "step",
+    "chain",          "returns",      "cycles",        "arclength",  "error",   "residual",    "outcome",
+    "bracket_low",    "bracket_high", "event_segment", "event_time", "event",   "at_end",      "unstable",
+    "lyapunov_error", "mode",         "version",       "time",       "ending",  "ending_time", "located"};
 
 bool is_empty(const Table& table, std::size_t column) {
     for (std::size_t row = 0; row < table.rows(); ++row)

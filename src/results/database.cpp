@@ -62,8 +62,10 @@ void throw_database_error(int code, const std::string& message, const std::strin
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
         throw InputError(place, "another program uses the result file", "wait for it, or choose another folder");
-    case SQLITE_NOTADB:
     case SQLITE_CORRUPT:
+        throw InputError(place, fmt::format("the file is damaged ({})", message),
+                         "ask for another copy, or run the study again into another folder");
+    case SQLITE_NOTADB:
         throw InputError(place, fmt::format("this is no result file of graze ({})", message),
                          "give the results.sqlite of a study, or its folder");
     case SQLITE_INTERRUPT:

@@ -118,10 +118,7 @@ PartEnd follow_part(const StudyRun& run, const BranchSettings& of_run, const Sys
     while (going) {
         for (const SpecialPoint& special : branch.found())
             writer.add(part.name, special, is_stable(special.solution));
-        const BranchOutcome outcome = branch.outcome();
-        const bool ended = outcome == BranchOutcome::bound || outcome == BranchOutcome::stopped ||
-                           outcome == BranchOutcome::unphysical || outcome == BranchOutcome::returned;
-        last_is_special = ended && !branch.found().empty();
+        last_is_special = ends_at_point(branch.outcome()) && !branch.found().empty();
         last = last_is_special ? std::optional(branch.found().back()) : std::nullopt;
         // What lies beyond an end that has been located does not belong to the branch.
         if (!last_is_special)

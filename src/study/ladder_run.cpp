@@ -1,10 +1,10 @@
 #include "study/ladder_run.hpp"
 
-#include "graze/branch/chatter_limit.hpp"
+#include "graze/branch/ladder.hpp"
 
 #include <fmt/format.h>
 
-#include <vector>
+#include <string>
 
 namespace graze {
 
@@ -12,22 +12,6 @@ namespace {
 
 std::string name_of_rung(std::size_t number) {
     return fmt::format("rung {}", number);
-}
-
-void require_grazing(const StudyRun& run, const SpecialPoint& point) {
-    if (point.type != PointType::grazing || point.at_end)
-        throw InputError(run.start->place,
-                         point.at_end ? "a ladder cannot begin where a contact loses its speed"
-                                      : fmt::format("a ladder begins at a grazing, and the point is of type {} ({})",
-                                                    short_name(point.type), name_of(point.type)),
-                         "start from a point of type GR at which an arc touches an event's surface");
-    const BranchSettings& settings = run.branch.settings;
-    if ((settings.least && point.parameter < *settings.least) ||
-        (settings.greatest && point.parameter > *settings.greatest))
-        throw InputError(run.start->place,
-                         fmt::format("the grazing from which the ladder starts, at {:.9g}, lies outside of its bounds",
-                                     point.parameter),
-                         "give wider bounds in `along`");
 }
 
 /// What is known of the limit, in words.
@@ -74,47 +58,30 @@ SpecialPoint end_of(const SpecialPoint& last, const std::string& problem, const 
 
 bool run_ladder(const StudyRun& run, const System& system, const OrbitRecord& first, PointWriter& writer,
                 const RunnerOptions& options) {
-    require_grazing(run, first.point);
-    BranchSettings settings = run.branch.settings;
-    settings.stop_at = {PointType::grazing};
-    std::vector<SpecialPoint> grazings{first.point};
-    SpecialPoint begin = first.point;
-    begin.monitors.resize(settings.monitors.size(), unknown_value);
+    Ladder ladder = at_place(run.start->place, run, [&] { return Ladder(system, first.point, run.branch.settings); });
+    SpecialPoint begin = ladder.grazings().front();
+    begin.monitors.assign(run.branch.settings.monitors.size(), unknown_value);
     writer.add(name_of_rung(1), begin, first.stable);
     writer.end("");
-    std::string why;
-    while (grazings.size() < run.branch.rungs && why.empty()) {
+    while (ladder.grazings().size() < run.branch.rungs) {
         BranchPart part;
-        part.name = name_of_rung(grazings.size() + 1);
+        part.name = name_of_rung(ladder.grazings().size() + 1);
         part.again = true; // its first point is none of its ends
-        try {
-            part.onto = branches_at(system, grazings.back(), settings).front();
-        } catch (const InputError& error) {
-            if (grazings.size() == 1)
-                throw InputError(run.start->place, fmt::format("run '{}': {}", run.name, error.problem()),
-                                 error.remedy());
-            why = error.problem();
+        part.onto = ladder.next();
+        if (!part.onto)
             break;
-        }
         part.orbit = part.onto->orbit;
-        const PartEnd end = follow_part(run, settings, system, part, writer, options);
+        const PartEnd end = follow_part(run, ladder.settings(), system, part, writer, options);
         if (end.interrupted)
             return false;
-        const bool next = end.last && end.last->type == PointType::grazing && !end.last->at_end &&
-                          end.last->event == grazings.back().event;
-        if (next)
-            grazings.push_back(*end.last);
-        else
-            why = end.last ? std::string(name_of(end.last->type)) : end.why;
+        ladder.take(end.last, end.why);
     }
-    ChatterLimit limit;
-    if (grazings.size() > 1)
-        limit = at_place(run.start->place, run,
-                         [&] { return chatter_limit(system, grazings, settings.parameter, settings.orbit.tolerance); });
-    if (limit.direct)
-        writer.add("limit", point_of(limit, grazings.back(), run), false);
-    else if (!limit.problem.empty() || !why.empty())
-        writer.add("limit", end_of(grazings.back(), limit.problem.empty() ? why : limit.problem, why), false);
+    if (ladder.grazings().size() < 2)
+        throw InputError(run.start->place, fmt::format("run '{}': no ladder begins there: {}", run.name, ladder.why()),
+                         "choose another grazing, or wider bounds");
+    const ChatterLimit limit = at_place(run.start->place, run, [&] { return ladder.limit(); });
+    const SpecialPoint& last = ladder.grazings().back();
+    writer.add("limit", limit.direct ? point_of(limit, last, run) : end_of(last, limit.problem, ladder.why()), false);
     writer.end("");
     return true;
 }

@@ -28,6 +28,10 @@ Model model_of(const StudyReader& reader, const std::string& name, const Place& 
     } catch (const InputError& error) {
         if (!error.place().file.empty())
             throw;
+        const std::string file = name + ".toml";
+        std::error_code none;
+        if (!of_file && std::filesystem::exists(std::filesystem::path(reader.file()).parent_path() / file, none))
+            throw InputError(place, error.problem(), fmt::format("the file beside the study is called {}", file));
         throw InputError(place, error.problem(), error.remedy());
     }
 }

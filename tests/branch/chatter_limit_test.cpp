@@ -1,6 +1,6 @@
 #include "graze/branch/chatter_limit.hpp"
 
-#include "follow.hpp"
+#include "chattering.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,61 +14,15 @@ namespace {
 
 using namespace testing;
 
-constexpr double zeta = 0.5, omega = 0.3;
-
-/// An oscillator at a stop s, in units of length and time.
-Model oscillator(double restitution, double length, double time) {
-    return model_from(fmt::format(R"toml(
-[parameters]
-s = {:.17g}
-[states]
-x = 0
-v = 0
-theta = {{ initial = 0, period = "2*pi" }}
-[modes.free]
-rates = {{ x = "v", v = "({:.17g}*cos(theta) - x)/{:.17g} - 2*{:.17g}*v", theta = "{:.17g}" }}
-watch = ["stop"]
-[events.stop]
-function = "s - x"
-[jumps.bounce]
-v = "-{:.17g}*v"
-[[transitions]]
-mode = "free"
-event = "stop"
-jump = "bounce"
-next = "free"
-[sections.start]
-state = "theta"
-value = 0
-)toml",
-                                  1.5 * length, length, time * time, zeta / time, omega / time, restitution));
-}
-
-/// Grazings of motions with 0, 1, ... contacts, each from the one before.
-std::vector<SpecialPoint> climb(const Model& model, BranchSettings settings, std::size_t rungs) {
-    settings.stop_at = {PointType::grazing};
-    std::vector<SpecialPoint> grazings;
-    Branch branch = follow_branch(model, settled(model, model.sections.front().name).orbit, settings);
-    while (true) {
-        const auto touches = of_type(branch, PointType::grazing);
-        if (touches.empty())
-            break;
-        grazings.push_back(touches.front());
-        if (grazings.size() == rungs)
-            break;
-        branch = follow(model, branches_at(model, grazings.back(), settings).at(0), settings);
-    }
-    EXPECT_EQ(grazings.size(), rungs) << names(branch) << ", " << branch.detail;
-    return grazings;
+std::vector<SpecialPoint> climbed(const Model& model, const BranchSettings& settings, std::size_t rungs) {
+    const Ladder ladder = climb(model, first_grazing(model, settings), settings, rungs);
+    EXPECT_EQ(ladder.grazings().size(), rungs) << ladder.why();
+    return ladder.grazings();
 }
 
 ChatterLimit limit_of_oscillator(const Model& model, double length, std::size_t rungs) {
-    BranchSettings settings;
-    settings.parameter = model.independent_parameter("s");
-    settings.direction = -1;
-    settings.least = 0.1 * length;
-    settings.greatest = 3 * length;
-    return chatter_limit(model, climb(model, settings, rungs), settings.parameter);
+    const BranchSettings settings = of_oscillator(model, length);
+    return chatter_limit(model, climbed(model, settings, rungs), settings.parameter);
 }
 
 /// The same by the closed form of the flights, in extended precision: from rest at the stop, where the force is about
@@ -174,7 +128,7 @@ TEST(ChatterLimit, self_similar_contacts_solve_their_equations) {
 }
 
 TEST(ChatterLimit, of_an_oscillator_is_that_of_its_closed_form) {
-    const ChatterLimit limit = limit_of_oscillator(oscillator(0.5, 1, 1), 1, 9);
+    const ChatterLimit limit = limit_of_oscillator(chattering_oscillator(0.5, 1, 1), 1, 9);
     ASSERT_TRUE(limit.direct) << limit.problem;
     ASSERT_TRUE(limit.extrapolated);
     EXPECT_NEAR(limit.contacts.restitution, 0.5, 1e-6);
@@ -191,10 +145,11 @@ TEST(ChatterLimit, of_an_oscillator_is_that_of_its_closed_form) {
 }
 
 TEST(ChatterLimit, does_not_depend_on_units) {
-    const ChatterLimit known = limit_of_oscillator(oscillator(0.5, 1, 1), 1, 6);
+    const ChatterLimit known = limit_of_oscillator(chattering_oscillator(0.5, 1, 1), 1, 6);
     ASSERT_TRUE(known.direct) << known.problem;
-    for (const auto [length, time] : {std::pair(1e-9, 1e-6), {1e6, 1.0}, {1e-20, 1e3}, {1e15, 1e3}}) {
-        const ChatterLimit limit = limit_of_oscillator(oscillator(0.5, length, time), length, 6);
+    using Units = std::pair<double, double>;
+    for (const auto& [length, time] : {Units(1e-9, 1e-6), Units(1e6, 1), Units(1e-20, 1e3), Units(1e15, 1e3)}) {
+        const ChatterLimit limit = limit_of_oscillator(chattering_oscillator(0.5, length, time), length, 6);
         ASSERT_TRUE(limit.direct) << limit.problem;
         EXPECT_NEAR(limit.direct->first / length, known.direct->first, known.direct->second);
         EXPECT_LT(limit.direct->second / length, 1e-10);
@@ -209,7 +164,7 @@ TEST(ChatterLimit, of_the_microactuator) {
     settings.parameter = model.independent_parameter("V");
     settings.least = 0.005;
     settings.greatest = 3;
-    const auto rungs = climb(model, settings, 9);
+    const auto rungs = climbed(model, settings, 9);
     // "Published values": V_1 to V_8.
     const std::array known{.52745995765981, .66636423118007, .74940362005310, .79897011651099,
                            .82715666925300, .84240315127881, .85032000894172, .85431167398464};
@@ -225,7 +180,7 @@ TEST(ChatterLimit, of_the_microactuator) {
 }
 
 TEST(ChatterLimit, says_what_is_no_ladder) {
-    const Model model = oscillator(0.5, 1, 1);
+    const Model model = chattering_oscillator(0.5, 1, 1);
     const std::vector<SpecialPoint> none(1);
     EXPECT_THROW(chatter_limit(model, none, model.independent_parameter("s")), InputError);
     const std::vector<SpecialPoint> folds(3, SpecialPoint{.type = PointType::fold,

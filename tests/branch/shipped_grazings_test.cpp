@@ -63,6 +63,61 @@ std::vector<double> speeds_beyond(const Model& model, const CycleMap& map, Param
     return speeds;
 }
 
+/// The least value of the touched function one cycle and more after a contact of small speed, by simulation; of a half
+/// orbit after as many halves. What the projections leave out goes with the speed.
+void expect_projections(const Model& model, const CycleMap& map, std::size_t cycles) {
+    const System system(model);
+    const TouchState& touch = map.contact.touch;
+    const Simulation simulation(system, {}, {}, SimulationOptions{.tolerance = 1e-15});
+    ModeFlow flow(system, 1e-15);
+    flow.set_parameters(touch.parameters);
+    const auto inputs = [&](std::vector<double> state) {
+        state.insert(state.end(), touch.parameters.begin(), touch.parameters.end());
+        return state;
+    };
+    const double usual =
+        std::sqrt(2 * map.contact.acceleration) * std::sqrt(std::abs(map.contact.acceleration)) * map.time;
+    double before = 0;
+    for (const double share : {1e-5, 1e-6}) {
+        // A motion that meets the surface with a speed s has been s/a before its touch there.
+        const double speed = share * usual;
+        std::vector<double> state = touch.state;
+        EXPECT_EQ(flow.run(touch.mode, state, -speed / map.contact.acceleration), ModeFlow::Ending::done);
+        const auto value = system.event(touch.event)(inputs(state));
+        double square = 0;
+        for (std::size_t i = 0; i < state.size(); ++i)
+            square += value[1 + i] * value[1 + i] * touch.scales[i] * touch.scales[i];
+        // Not quite on the surface yet, which takes a share of the speed.
+        const double lift = 0.01 * value[0], met = std::sqrt(0.99) * speed;
+        for (std::size_t i = 0; i < state.size(); ++i)
+            state[i] -= (value[0] - lift) / square * value[1 + i] * touch.scales[i] * touch.scales[i];
+        Observer nobody;
+        Trajectory trajectory(simulation, touch.parameters, nobody);
+        // Where the pass hits, it does so before its least value by the root of the depth.
+        const double projection = map.projections(cycles).back();
+        const double short_of = std::max(20 * speed / map.contact.acceleration,
+                                         3 * std::sqrt(2 * std::abs(projection) * speed / map.contact.acceleration));
+        trajectory.start(state, touch.mode, 0, static_cast<double>(cycles) * map.time - short_of);
+        JetSet jets(simulation, LaneKind::single);
+        run(trajectory, jets);
+        ASSERT_EQ(trajectory.outcome().ending, Ending::end_time) << trajectory.outcome().detail;
+        ASSERT_EQ(trajectory.mode(), touch.mode);
+        std::vector<double> end(trajectory.state().begin(), trajectory.state().end());
+        double least = 1e300;
+        constexpr int parts = 4000;
+        for (int part = 0; part < parts; ++part) {
+            EXPECT_EQ(flow.run(touch.mode, end, 2 * short_of / parts), ModeFlow::Ending::done);
+            least = std::min(least, system.event(touch.event)(inputs(end))[0]);
+        }
+        const double error = std::abs(least / met / projection - 1);
+        if (before > 0) {
+            EXPECT_LT(error, std::max(0.2 * before, 1e-6)) << cycles << ' ' << before;
+        }
+        before = error;
+    }
+    EXPECT_LT(before, 1e-3);
+}
+
 Branch mems_branch(Model& model, const BranchSettings& settings) {
     model.set_parameter("V", 0.15);
     model.set_initial("q", 0);
@@ -83,6 +138,7 @@ TEST(ShippedGrazings, mems_switch_trips) {
     EXPECT_EQ(one.verdict.next_contact, 1U);
     EXPECT_EQ(one.verdict.side, 1);
     EXPECT_EQ(one.trial.outcome, TrialOutcome::agreed) << one.trial.reason;
+    expect_projections(model, one.map, 1);
     // Snap-through ends both motions.
     for (const TrialMotion& motion : one.trial.motions)
         EXPECT_TRUE(motion.ended);
@@ -119,6 +175,9 @@ TEST(ShippedGrazings, testbed_loses_its_orbit) {
         EXPECT_NEAR(grazings[0].parameter, voltage, 1e-11);
         const Judged one = judged(model, grazings[0], "V0");
         EXPECT_TRUE(one.map.half);
+        for (const std::size_t cycles : {1U, 2U, 3U})
+            if (cycles < one.verdict.next_contact || cycles == 1)
+                expect_projections(model, one.map, cycles);
         EXPECT_EQ(one.verdict.outcome, GrazingOutcome::lost) << one.verdict.reason;
         EXPECT_EQ(one.trial.outcome, TrialOutcome::agreed) << one.trial.reason;
     }
@@ -143,6 +202,7 @@ TEST(ShippedGrazings, microactuators_orbits_are_not_stable_where_they_touch) {
         EXPECT_EQ(one.verdict.outcome, GrazingOutcome::undecided);
         EXPECT_EQ(one.verdict.reason, "the orbit that touches is not stable itself");
         EXPECT_GT(std::abs(one.map.multipliers[0]), 1);
+        expect_projections(model, one.map, 1);
         branch = follow(model, branches_at(model, grazings[0], settings).at(0), settings);
         ASSERT_FALSE(branch.points.empty());
     }

@@ -1,8 +1,11 @@
 // Local maps of cycles that graze, against closed forms and published values.
 
 #include "graze/grazing/cycle_map.hpp"
+#include "graze/grazing/map_motion.hpp"
+#include "graze/grazing/trial.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/orbit/solve.hpp"
+#include "graze/symbolic/input_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -75,6 +78,105 @@ TEST(CycleMap, of_ball_and_shaker_has_the_published_growth) {
                                         std::sin(2 * one.n * pi * own / omega));
         EXPECT_NEAR(c, closed, 1e-12 * closed);
     }
+}
+
+/// The motion between two stops that just reaches both. @param half from the mean position on one side to the other
+Orbit between_stops(Model& model, bool half) {
+    const double zeta = 0.02, omega = 1.2;
+    const double in_phase = (1 - omega * omega), out_of_phase = 2 * zeta * omega,
+                 square = in_phase * in_phase + out_of_phase * out_of_phase;
+    model.set_parameter("sigma", 1 / std::sqrt(square));
+    Orbit orbit;
+    orbit.signature = parse_signature(model, "free:phase0");
+    orbit.parameters = model.parameter_values();
+    orbit.starts = {{in_phase / square, omega * out_of_phase / square, 0}};
+    orbit.durations = {(half ? 1 : 2) * pi / omega};
+    if (half)
+        orbit.symmetry = 0;
+    return orbit;
+}
+
+TEST(CycleMap, of_a_half_orbit_ends_at_its_image) {
+    Model model = load_model("impact-oscillator-two-stops");
+    const Orbit half = between_stops(model, true);
+    const System system(model);
+    CycleMapOptions options;
+    options.parameter = model.independent_parameter("amplitude");
+    const auto touches = touches_of(system, half, options);
+    ASSERT_EQ(touches.size(), 1U);
+    const CycleMap map = cycle_map(system, half, touches[0], options);
+    ASSERT_TRUE(map.exists()) << map.reason;
+    EXPECT_TRUE(map.half);
+    // After half a period the image of what the impact has changed, which has the other sign.
+    const double zeta = 0.02, d = std::sqrt(1 - zeta * zeta), time = pi / 1.2;
+    const auto projections = map.projections(6);
+    for (int k = 1; k <= 6; ++k) {
+        const double closed = (k % 2 == 0 ? 1 : -1) * 1.7 * std::exp(-zeta * k * time) * std::sin(d * k * time) / d;
+        EXPECT_NEAR(projections[static_cast<std::size_t>(k - 1)], closed, 1e-11) << k;
+    }
+    EXPECT_NE(verdict_of(map).outcome, GrazingOutcome::undecided) << verdict_of(map).reason;
+    const Verdict verdict = verdict_of(map);
+    const Trial trial = try_verdict(system, map, verdict, *options.parameter);
+    EXPECT_EQ(trial.outcome, TrialOutcome::agreed) << trial.reason;
+}
+
+TEST(CycleMap, of_a_whole_orbit_that_touches_twice_decides_nothing) {
+    Model model = load_model("impact-oscillator-two-stops");
+    const Orbit whole = between_stops(model, false);
+    const System system(model);
+    const auto touches = touches_of(system, whole);
+    ASSERT_EQ(touches.size(), 2U);
+    const CycleMap map = cycle_map(system, whole, touches[0]);
+    EXPECT_TRUE(map.exists());
+    EXPECT_EQ(map.touches, 2U);
+    const Verdict verdict = verdict_of(map);
+    EXPECT_EQ(verdict.outcome, GrazingOutcome::undecided);
+    EXPECT_EQ(verdict.reason, "the orbit touches in 2 places at once");
+}
+
+TEST(CycleMap, says_why_there_is_none) {
+    Model model = load_model("ball-and-shaker");
+    model.set_parameter("a", 0.6);
+    const System system(model);
+    const Orbit orbit = resting_ball(model);
+    EXPECT_TRUE(touches_of(system, orbit).empty());
+    OrbitTouch touch;
+    touch.event = *model.find_event("contact");
+    touch.time = 0.25 / 6;
+    const CycleMap map = cycle_map(system, orbit, touch);
+    EXPECT_FALSE(map.exists());
+    EXPECT_EQ(map.reason, "the state is not on the surface of event 'contact'");
+    EXPECT_TRUE(map.projections(3).empty());
+    EXPECT_EQ(verdict_of(map).reason, map.reason);
+    touch.time = 0.75 / 6; // farthest away
+    EXPECT_EQ(cycle_map(system, orbit, touch).reason,
+              "the function of event 'contact' is greatest, not least, at the touch");
+    EXPECT_THROW(map_motion(map, -1e-6), InputError);
+}
+
+TEST(CycleMap, needs_what_fits_the_orbit) {
+    Model model = load_model("ball-and-shaker");
+    const System system(model);
+    const Orbit orbit = resting_ball(model);
+    OrbitTouch touch;
+    touch.segment = 3;
+    EXPECT_THROW(cycle_map(system, orbit, touch), InputError);
+    touch.segment = 0;
+    touch.event = 9;
+    EXPECT_THROW(cycle_map(system, orbit, touch), InputError);
+    touch.event = 0;
+    touch.time = NAN;
+    EXPECT_THROW(cycle_map(system, orbit, touch), InputError);
+    CycleMapOptions options;
+    options.tolerance = 2;
+    touch.time = 0.01;
+    EXPECT_THROW(cycle_map(system, orbit, touch, options), InputError);
+    TrialOptions trial;
+    trial.cycles = 0;
+    EXPECT_THROW(trial.validate(), InputError);
+    MapMotionOptions motion;
+    motion.recurrence = -1;
+    EXPECT_THROW(motion.validate(), InputError);
 }
 
 } // namespace

@@ -111,6 +111,11 @@ value = 0
                            rest;
         for (std::size_t at; (at = text.find("RATES")) != std::string::npos;)
             text.replace(at, 5, rates + "theta = \"omega\"");
+        for (std::size_t at; (at = text.find("HELD")) != std::string::npos;) {
+            std::string held = rates + "theta = \"omega\"";
+            held.insert(held.find("v0 = \"") + 6, "k*(sigma - q0) + ");
+            text.replace(at, 4, held);
+        }
         return parse_model(text, "oscillator.toml");
     }
     /// The steady motion, which touches.

@@ -62,6 +62,74 @@ TEST(Verdict, maps_of_linear_oscillators_have_their_closed_form_in_all_units) {
             }
 }
 
+/// The same oscillator with a spring behind the stop, of a stiffness in units of the first one's.
+std::string spring(double stiffness, const LinearOscillator& oscillator) {
+    return fmt::format(R"toml(
+[parameters.k]
+value = {:.17g}
+[initial]
+mode = "free"
+[events.leave]
+function = "q0 - sigma"
+[modes.free]
+watch = ["stop"]
+[modes.free.rates]
+RATES
+[modes.held]
+watch = ["leave"]
+[modes.held.rates]
+HELD
+[[transitions]]
+mode = "free"
+event = "stop"
+next = "held"
+[[transitions]]
+mode = "held"
+event = "leave"
+next = "free"
+)toml",
+                       stiffness / (oscillator.clock * oscillator.clock));
+}
+
+TEST(Verdict, compliant_stops_of_linear_oscillators_have_their_closed_form) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    int folds = 0, agreed = 0;
+    for (int trial = 0; trial < 60; ++trial) {
+        LinearOscillator one = trial % 2 == 0
+                                   ? testing::one_degree(0.02 + 0.5 * uniform(random), 0.4 + 3 * uniform(random), 0)
+                                   : testing::two_degrees(3 * uniform(random), 0.02 + 0.3 * uniform(random),
+                                                          0.4 + 3 * uniform(random), 0, 2 * uniform(random) - 1);
+        one.length = trial % 3 == 0 ? 1e-9 : 1;
+        one.clock = trial % 5 == 0 ? 1e6 : 1;
+        const double k = std::pow(10, 1 + 3 * uniform(random));
+        const Model model = one.model(spring(k, one));
+        const CycleMap map = map_of(one, model);
+        ASSERT_EQ(map.contact.order, MapOrder::three_halves) << map.reason;
+        // The force -k h acts on q_1' for the time in which h is negative: 4/3 (2/a)^(1/2) d^(3/2) in all.
+        const Eigen::Index n = one.force.size();
+        Eigen::VectorXd gain = Eigen::VectorXd::Zero(2 * n);
+        gain[n] = -k * 4 / 3 * std::sqrt(2 / one.acceleration());
+        const Eigen::MatrixXd once = one.return_map(), identity = Eigen::MatrixXd::Identity(2 * n, 2 * n);
+        const double chi = -(identity - once).fullPivLu().solve(once * gain)[0];
+        const Verdict verdict = verdict_of(map);
+        ASSERT_TRUE(verdict.alpha) << verdict.reason;
+        const double unit = 1 / std::sqrt(one.length);
+        EXPECT_NEAR(*verdict.alpha, -chi * unit, 1e-8 * unit * (std::abs(chi) + k / one.acceleration()));
+        if (verdict.outcome == GrazingOutcome::folds) {
+            ++folds;
+            EXPECT_LT(chi, 0);
+            EXPECT_NEAR(*verdict.fold_distance, 4 / (27 * chi * chi) / one.stop(), 1e-6 * *verdict.fold_distance);
+        }
+        const Trial tried = try_verdict(System(model), map, verdict, model.independent_parameter("force"));
+        EXPECT_NE(tried.outcome, TrialOutcome::contradicted) << tried.reason;
+        agreed += tried.outcome == TrialOutcome::agreed ? 1 : 0;
+    }
+    EXPECT_GE(folds, 10);
+    EXPECT_GE(agreed, 40);
+    std::cout << "compliant: " << folds << " fold, " << agreed << " of 60 agreed with simulation\n";
+}
+
 /// Verdicts on random oscillators, and what trials say of them.
 std::map<std::string, int> try_random(int count, unsigned seed) {
     std::mt19937 random(seed);

@@ -89,6 +89,7 @@ TEST(DamagedResultsSlow, AreUsedOrRefusedWithTheNameOfTheFile) {
         {"points", copy, "--all"},
         {"orbit", copy, "rest:EP1"},
         {"export", copy, "--what", "runs"},
+        {"plot", copy, "--run", "free", "--output", folder / "free.svg"},
         {"export", copy, "--what", "samples", "--format", "csv"},
         {"export", copy, "--what", "multipliers", "--format", "json"},
         {"export", copy, "--format", "hdf5", "--output", folder / "all.h5"},
@@ -100,6 +101,8 @@ TEST(DamagedResultsSlow, AreUsedOrRefusedWithTheNameOfTheFile) {
         for (const char* text : {"''", "NULL", "'{'", "'{\"name\": 1}'", "char(27) || '[2J'"}) {
             const std::string sql = std::string(change).replace(change.find("%s"), 2, text);
             for (const std::vector<std::string>& command : commands) {
+                if (command[0] == "plot" && text != std::string_view("'{'")) // gnuplot takes its time
+                    continue;
                 std::filesystem::copy_file(whole + "/results.sqlite", file,
                                            std::filesystem::copy_options::overwrite_existing);
                 rows_of(opened(file).get(), sql);
@@ -109,7 +112,8 @@ TEST(DamagedResultsSlow, AreUsedOrRefusedWithTheNameOfTheFile) {
                     << command[0] << " after " << sql << ": " << printed.err;
                 if (printed.code == exit_bad_input) {
                     // Unless it is what was asked for that is not there any more.
-                    EXPECT_THAT(printed.err, AnyOf(HasSubstr(file), StartsWith("graze: POINT: ")))
+                    EXPECT_THAT(printed.err,
+                                AnyOf(HasSubstr(file), StartsWith("graze: POINT: "), StartsWith("graze: --run: ")))
                         << command[0] << " after " << sql;
                 }
                 EXPECT_EQ(printed.err.find('\x1b'), std::string::npos) << command[0] << " after " << sql;

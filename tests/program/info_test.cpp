@@ -114,6 +114,14 @@ TEST_F(Info, TellsHowAndWhenResultsWereMade) {
     EXPECT_THAT(run_graze({"info", results, "--all"}).out, HasSubstr("run swept: parameters\n  w = 3\n  g = 2 m\n"));
 }
 
+TEST_F(Info, ListsRunsInAHundredColumns) {
+    for (const char* name : {"microactuator", "microbeam", "electromagnetic-testbed", "mems-switch"}) {
+        std::istringstream text(run_graze(std::vector<std::string>{"info", name}).out);
+        for (std::string line; std::getline(text, line);)
+            EXPECT_LE(line.size(), 110U) << name << ": " << line; // some letters have two bytes
+    }
+}
+
 TEST_F(Info, RefusesWhatSaysNothing) {
     const Folder begun;
     const auto refused = [&](const std::string& name, const std::string& words) {

@@ -151,6 +151,11 @@ TEST_F(PlotResults, TellsTheAttractorsOfABasinApart) {
     for (const FigureSeries& series : made.figure.panels[0].series)
         EXPECT_EQ(series.cells.size(), 10U) << series.title; // no two beside one another
     EXPECT_EQ(made.table.rows(), 3U);
+    const auto named = [&](const std::string& name) {
+        return run_graze({"plot", path, "--kind", "basin", "--output", folder / "basin.svg", "--name", name});
+    };
+    EXPECT_EQ(named("period 2=twice").code, 0);
+    EXPECT_THAT(named("period 3=thrice").err, HasSubstr("'period 3': the picture shows nothing of that name; did you"));
 }
 
 TEST_F(PlotResults, MapsWhatIsReachedInTwoParametersBothWays) {

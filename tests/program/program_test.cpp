@@ -86,6 +86,14 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{"check mems-switch --graph modes.gif", ".svg"}));
 
 INSTANTIATE_TEST_SUITE_P(
+    Words, BadInput,
+    ::testing::Values(
+        Mistake{"plot x --kind portrat", "--kind: 'portrat' is no value for it; did you mean 'portrait'?"},
+        Mistake{"export x --format xlsx", "--format: 'xlsx' is no value for it; choose table, csv"},
+        Mistake{"run x --jobs 0", "--jobs: '0' is not a whole number from 1 to 1024"},
+        Mistake{"run microactator", "there is no study 'microactator'; did you mean 'microactuator'? ("}));
+
+INSTANTIATE_TEST_SUITE_P(
     Numbers, BadInput,
     ::testing::Values(Mistake{"simulate mems-switch --steps -1", "--steps: '-1' is not a whole number from 1"},
                       Mistake{"simulate mems-switch --steps 0", "--steps: '0' is not a whole number from 1"},

@@ -352,5 +352,18 @@ TEST_F(RunStudyTest, what_is_neither_study_nor_results_is_refused) {
     EXPECT_NE(run_graze({"run", folder_.string()}).code, 0);
 }
 
+TEST_F(RunStudyTest, files_without_their_ending_are_told_by_name) {
+    std::ofstream(path("mine.toml")) << "name = \"mine\"\n[states]\nx = 1\n[modes.m]\nrates = { x = \"-x\" }\n";
+    std::ofstream(path("own.toml")) << "name = \"own\"\nmodel = \"mine\"\n[runs.a]\nkind = \"simulate\"\ntime = 1\n";
+    EXPECT_THAT(run_graze({"run", path("own.toml")}).err,
+                HasSubstr("there is no shipped model 'mine'; the file beside the study is called mine.toml"));
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(std::filesystem::path(path("own.toml")).parent_path());
+    const testing::Printed of_study = run_graze("run own"), of_model = run_graze("simulate mine");
+    std::filesystem::current_path(before);
+    EXPECT_THAT(of_study.err, HasSubstr("there is no study 'own'; the file is called own.toml"));
+    EXPECT_THAT(of_model.err, HasSubstr("there is no shipped model 'mine'; the file is called mine.toml"));
+}
+
 } // namespace
 } // namespace graze

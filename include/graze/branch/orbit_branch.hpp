@@ -68,6 +68,8 @@ enum class BranchOutcome {
     no_start,       ///< no orbit was found to start from
 };
 std::string_view name_of(BranchOutcome outcome);
+/// Whether the branch then ends at a special point, if there is one with its last point.
+bool ends_at_point(BranchOutcome outcome);
 
 /// Follows a branch of periodic orbits of one signature in one parameter, and finds what happens on the way: an
 /// iterator that one can stop and resume after any step.

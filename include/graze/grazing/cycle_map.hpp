@@ -29,7 +29,7 @@ struct CycleMapOptions {
 std::vector<OrbitTouch> touches_of(const System& system, const Orbit& orbit, const CycleMapOptions& options = {});
 
 /// The map of one cycle of an orbit that touches, from touch to touch, to leading order: the discontinuity map followed
-/// by the linear map of the orbit (A. B. Nordmark, Nonlinearity 10, 1997). Of states in which cycles matter, on the
+/// by the linear map of the orbit (A. B. Nordmark, Phys. Rev. E 55, 1997). Of states in which cycles matter, on the
 /// surface where the rate of the event's function is zero, as differences from the orbit without contact,
 ///
 ///     x -> P (x + B s),   s = sqrt(-2 a h) where h = C + g x is negative, and 0 elsewhere

@@ -26,9 +26,9 @@ enum class MapOrder {
 /// Stable name for tables and files, such as "square-root".
 std::string_view name_of(MapOrder order);
 
-/// What a contact adds to the motion beside a touch (discontinuity map: A. B. Nordmark, J. Sound Vib. 145, 1991;
-/// H. Dankowicz and A. B. Nordmark, Physica D 136, 2000; M. di Bernardo et al., "Piecewise-smooth Dynamical Systems",
-/// 2008, chapters 6 to 8), to leading order and in the units of the model. With h the event's function, a neighbour of
+/// What a contact adds to the motion beside a touch (discontinuity map: A. B. Nordmark, J. Sound Vib. 145, 1991; M. di
+/// Bernardo et al., "Piecewise-smooth Dynamical Systems", 2008, chapters 6 and 7), to leading order and in the units of
+/// the model. With h the event's function, a neighbour of
 /// the touch that would reach the least value h = -d < 0 if nothing happened at the surface goes on as one that at the
 /// same time has gained
 ///

@@ -33,7 +33,7 @@ std::string_view name_of(AttractorKind kind);
 ///
 /// A contact of speed s changes the clearance k cycles later by s times the projection k, against which all else is
 /// small beside the touch. If all are positive, the next contact comes when its effect has died away, and an attractor
-/// remains (A. B. Nordmark, Nonlinearity 10, 1997; M. H. Fredriksson and A. B. Nordmark, Proc. R. Soc. A 453, 1997; of
+/// remains (A. B. Nordmark, Phys. Rev. E 55, 1997; M. H. Fredriksson and A. B. Nordmark, Proc. R. Soc. A 453, 1997; of
 /// which kind: W. Chin, E. Ott, H. E. Nusse and C. Grebogi, Phys. Rev. E 50, 1994). If one is negative, the first of
 /// these leads to a contact of the speed growth s^(1/2), which is far harder: the attractor is lost.
 ///

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "graze/grazing/discontinuity_map.hpp"
+#include "grazing/touch_geometry.hpp"
+
+namespace graze {
+
+/// What is asked of a contact. Compliant ones take a while, since second derivatives of the fields are needed.
+enum class AskedContacts { all, rigid };
+
+/// As `discontinuity_map`, with the touched function compiled already.
+DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& touch, AskedContacts asked);
+
+} // namespace graze

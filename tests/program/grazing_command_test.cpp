@@ -1,0 +1,98 @@
+// What the program says of orbits that touch, on shipped studies and on a model of a user.
+
+#include "run_graze.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+namespace graze::testing {
+
+using ::testing::HasSubstr;
+
+namespace {
+
+/// The value of a quantity in a table of the command.
+std::string value_of(const Csv& csv, const std::string& quantity) {
+    for (std::size_t row = 0; row < csv.rows.size(); ++row)
+        if (csv.text(row, "quantity") == quantity)
+            return csv.text(row, "value");
+    return "";
+}
+
+struct GrazingCommand : public ::testing::Test {
+    std::string run_only(const std::string& study, const std::vector<std::string>& runs) {
+        std::vector<std::string> words{"run", study, "--output", folder / "results", "--quiet"};
+        for (const std::string& run : runs) {
+            words.emplace_back("--only");
+            words.push_back(run);
+        }
+        const Printed printed = run_graze(words);
+        EXPECT_EQ(printed.code, 0) << printed.err;
+        return folder / "results";
+    }
+    Csv table(const std::vector<std::string>& words) {
+        std::vector<std::string> all{"grazing"};
+        all.insert(all.end(), words.begin(), words.end());
+        all.insert(all.end(), {"--format", "csv"});
+        const Printed printed = run_graze(all);
+        EXPECT_EQ(printed.code, 0) << printed.err;
+        return Csv(printed.out);
+    }
+    Folder folder;
+};
+
+} // namespace
+
+TEST_F(GrazingCommand, TellsTheGrowthOfBallAndShaker) {
+    const std::string results = run_only("ball-and-shaker", {"rest_6Hz", "touch_6Hz", "rest_18Hz", "touch_18Hz"});
+    for (const auto& [point, n, log_c] :
+         {std::tuple("touch_6Hz:GR1", "1", 1.01155084345), std::tuple("touch_18Hz:GR1", "3", 1.48867209817)}) {
+        const Csv csv = table({results, point, "--verify"});
+        EXPECT_EQ(value_of(csv, "map"), "square-root");
+        EXPECT_EQ(value_of(csv, "verdict"), "lost");
+        EXPECT_EQ(value_of(csv, "next_contact"), n);
+        EXPECT_NEAR(std::stod(value_of(csv, "log10_jump_growth")), log_c, 1e-10);
+        EXPECT_EQ(value_of(csv, "contacts_when"), "above");
+        EXPECT_EQ(value_of(csv, "trial"), "agreed");
+    }
+    const Printed json = run_graze({"grazing", results, "touch_6Hz:GR1", "--format", "json", "--verify"});
+    EXPECT_THAT(json.out, HasSubstr("\"verdict\":\"lost\""));
+    EXPECT_THAT(json.out, HasSubstr("\"trial_motions\":[{"));
+}
+
+TEST_F(GrazingCommand, TakesAnyPointThatTouches) {
+    const std::string results = run_only("mems-switch", {"free", "no_impact", "touches_gap"});
+    const Csv touch = table({results, "no_impact:GR1"});
+    EXPECT_EQ(value_of(touch, "parameter"), "V");
+    // A curve of touches begins there, and its points touch though they are no grazings of their own.
+    for (const char* point : {"touches_gap:EP1", "touches_gap:BD1", "touches_gap:3"}) {
+        const Csv csv = table({results, point, "--parameter", "V"});
+        EXPECT_EQ(value_of(csv, "verdict"), "lost") << point;
+    }
+    EXPECT_NEAR(std::stod(value_of(touch, "jump_growth")),
+                std::stod(value_of(table({results, "touches_gap:EP1", "--parameter", "V"}), "jump_growth")), 1e-9);
+}
+
+TEST_F(GrazingCommand, RefusesWhatTouchesNothing) {
+    const std::string results = run_only("mems-switch", {"free", "no_impact"});
+    const Printed none = run_graze({"grazing", results, "no_impact:EP1"});
+    EXPECT_EQ(none.code, 2);
+    EXPECT_THAT(none.err, HasSubstr("the orbit at EP1 touches nothing; choose a grazing (GR)"));
+    const Printed unknown = run_graze({"grazing", results, "no_impact:GR1", "--parameter", "omegaa"});
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_THAT(unknown.err, HasSubstr("omega"));
+    const Printed missing = run_graze({"grazing", results, "no_impact:GR9"});
+    EXPECT_EQ(missing.code, 2);
+}
+
+TEST_F(GrazingCommand, SaysWhereACompliantStopFolds) {
+    const std::string results = run_only("microbeam", {"free", "no_contact"});
+    const Csv csv = table({results, "no_contact:GR1", "--verify"});
+    EXPECT_EQ(value_of(csv, "map"), "three-halves");
+    EXPECT_EQ(value_of(csv, "verdict"), "folds");
+    EXPECT_GT(std::stod(value_of(csv, "fold_distance")), 0);
+    EXPECT_EQ(value_of(csv, "trial"), "agreed");
+}
+
+} // namespace graze::testing
