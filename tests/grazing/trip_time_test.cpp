@@ -12,7 +12,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iostream>
 #include <numbers>
+#include <random>
 
 namespace graze {
 namespace {
@@ -323,6 +325,39 @@ TEST(TripTime, counts_halves_of_an_orbit_that_is_given_by_its_half) {
     end.speed = tiny.level;
     EXPECT_NEAR(continued_trip(one.system, one.map, one.parameter, 1e-20, tiny, end).time, tiny.time,
                 0.1 * one.map.time);
+}
+
+TEST(TripTime, agrees_with_simulation_on_random_oscillators) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    int compared = 0, alike = 0, continued_alike = 0;
+    for (int trial = 0; trial < 150; ++trial) {
+        const double zeta = std::pow(10, -2.5 + 2.5 * uniform(random)), omega = 0.4 + 5 * uniform(random),
+                     e = 0.95 * uniform(random);
+        const LinearOscillator linear =
+            trial % 2 == 0 ? testing::one_degree(zeta, omega, e)
+                           : testing::two_degrees(3 * uniform(random), zeta, omega, e, 2 * uniform(random) - 1);
+        const Touching one = touching(linear);
+        if (one.verdict.outcome != GrazingOutcome::lost)
+            continue;
+        for (const double overshoot : {1e-5, 1e-8}) {
+            const PredictedTrip predicted = predicted_trip(one.map, one.verdict, overshoot);
+            TripEnd end;
+            end.speed = predicted.level;
+            const TripTime whole = simulated_trip(one.system, one.map, one.parameter, overshoot, end);
+            const TripTime continued = continued_trip(one.system, one.map, one.parameter, overshoot, predicted, end);
+            ++compared;
+            alike += whole.ended && std::abs(whole.time - predicted.time) < 0.2 * one.map.time ? 1 : 0;
+            continued_alike +=
+                whole.ended && continued.ended && std::abs(whole.time - continued.time) < 0.05 * one.map.time ? 1 : 0;
+        }
+    }
+    std::cout << compared << " compared, " << alike << " by the map and " << continued_alike
+              << " from there on alike\n";
+    EXPECT_GE(compared, 200);
+    // A contact that is within some percent of the level, or of being none, counts here and not there.
+    EXPECT_GE(alike, 0.97 * compared);
+    EXPECT_EQ(continued_alike, compared);
 }
 
 TEST(TripTime, begins_with_a_disturbance_alone) {
