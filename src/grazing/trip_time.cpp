@@ -168,6 +168,9 @@ TouchMeeting meeting_of(const CycleMap& map, double overshoot, std::span<const d
     return meeting;
 }
 
+/// Of the speeds up to which contacts grow at all, as the map has them.
+constexpr double trusted_share = 0.1;
+
 double level_of_map(const CycleMap& map, const Verdict& verdict) {
     if (verdict.outcome != GrazingOutcome::lost || !verdict.reach)
         throw InputError(fmt::format("the verdict is {}{}: there is no trip", name_of(verdict.outcome),
@@ -177,8 +180,7 @@ double level_of_map(const CycleMap& map, const Verdict& verdict) {
     const TouchState& touch = map.contact.touch;
     for (std::size_t i = 0; i < touch.state.size(); ++i)
         size += std::abs(map.contact.gradient[i]) * touch.scales[i];
-    constexpr double share = 0.1;
-    return share * std::min(*verdict.reach, std::sqrt(2 * map.contact.acceleration * size));
+    return trusted_share * std::min(*verdict.reach, std::sqrt(2 * map.contact.acceleration * size));
 }
 
 PredictedTrip predicted_trip(const CycleMap& map, const Verdict& verdict, double overshoot,
@@ -212,7 +214,10 @@ PredictedTrip predicted_trip(const CycleMap& map, const Verdict& verdict, double
             break;
         found = passes.find_contact();
     }
-    trip.ending = trip.ended ? "speed" : "none";
+    // So far beyond the touch nothing goes by its map.
+    const bool too_far = trip.first_speed > trusted / trusted_share;
+    trip.ended = trip.ended && !too_far;
+    trip.ending = trip.ended ? "speed" : (too_far ? "too-far" : "none");
     // A contact is before the pass by its speed over the acceleration.
     trip.time = trip.cycles * map.time - trip.speed / map.contact.acceleration;
     return trip;

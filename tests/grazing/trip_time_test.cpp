@@ -129,6 +129,15 @@ TEST(TripTime, goes_on_by_simulation_after_an_overshoot_that_none_could_see) {
     }
 }
 
+TEST(TripTime, is_not_told_by_the_map_far_from_the_touch) {
+    const Touching mems = mems_switch();
+    const PredictedTrip far = predicted_trip(mems.map, mems.verdict, 1);
+    EXPECT_FALSE(far.ended);
+    EXPECT_EQ(far.ending, "too-far");
+    EXPECT_EQ(far.handed_cycles, 0);
+    EXPECT_TRUE(continued_trip(mems.system, mems.map, mems.parameter, 1, far, {}).ended); // all by simulation
+}
+
 TEST(TripTime, ends_at_a_level_of_a_quantity) {
     const Touching mems = mems_switch();
     TripEnd end;

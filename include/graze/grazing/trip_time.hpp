@@ -14,7 +14,7 @@ namespace graze {
 /// How long a motion takes that begins where the orbit touches, with the parameter moved beyond.
 struct TripTime {
     bool ended = false; ///< the end that was asked for has come, or one of the motion's own
-    std::string ending; ///< "speed", "level", or as trajectories end: "singular", "terminal", "end-time", ...
+    std::string ending; ///< "speed", "level", or as trajectories end: "singular", "terminal", ...
     double cycles = 0;  ///< until then: passes of the touch by the map, time over that of a cycle by simulation
     double time = 0;
     std::size_t contacts = 0; ///< with the touched surface until then, that at the end included
@@ -54,10 +54,10 @@ double level_of_map(const CycleMap& map, const Verdict& verdict);
 /// map, where what is left of the state falls by multipliers next to 1 without further turns.
 /// Where an orbit is given by its half, its halves are the cycles.
 /// @param overshoot of the parameter beyond its value at the touch, with its sign; 0 where a disturbance sets it off
-/// @return one that has not ended where contacts do not grow to the level, as when it is beyond their reach
+/// @return one that has not ended where contacts do not grow to the level ("none"), as when it is beyond their reach,
+///         and where the first is harder than all that the map can tell of ("too-far")
 /// @throws InputError unless the verdict is `lost`; for a map without parameter, an overshoot on the side on which
-/// there
-///         is no contact, and numbers that do not fit or are not finite
+///         there is no contact, and numbers that do not fit or are not finite
 PredictedTrip predicted_trip(const CycleMap& map, const Verdict& verdict, double overshoot,
                              const PredictionOptions& options = {});
 
