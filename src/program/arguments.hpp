@@ -104,6 +104,14 @@ struct GrazingArguments {
     OutputArguments output;
 };
 
+struct TripArguments {
+    std::string file, point, parameter, until, plot, data;
+    std::vector<std::string> overshoots;
+    std::optional<double> greatest_speed;
+    long cycles = 2000;
+    OutputArguments output;
+};
+
 struct InfoArguments {
     std::string file;
     bool all = false;
@@ -129,6 +137,7 @@ struct Arguments {
     PointsArguments points;
     OrbitArguments orbit;
     GrazingArguments grazing;
+    TripArguments trip;
     LadderArguments ladder;
     CheckArguments check;
     ModelsArguments models;
