@@ -107,12 +107,9 @@ public:
         result.parts = 1;
         bool moved = false;
         if (!go(neighbour_, neighbour_directions_, target, result)) {
-            const std::string first = result.problem;
             moved = true;
-            if (!divide(target, result)) {
-                result.problem = first;
+            if (!divide(target, result)) // the problem of its last part says more than that of the whole
                 result.parts = 0;
-            }
         }
         if (result.parts > 0)
             describe(result);
@@ -178,7 +175,9 @@ private:
         constexpr double nearly = 1e-6; // corrections below this are small enough for round-off to decide
         unknowns.tail(wanted.size()) = wanted;
         if (!equations_.evaluate(unknowns, at_) || !condition_->evaluate(equations_, at_)) {
-            problem = at_.problem.empty() ? "the point's condition is not defined" : at_.problem;
+            problem = at_.problem.empty()
+                          ? "the point's condition has no meaning there, as where a touch leaves its segment"
+                          : at_.problem;
             return false;
         }
         for (std::size_t k = 0; k < options_.orbit.iterations; ++k) {

@@ -16,8 +16,8 @@ using ::testing::StartsWith;
 
 namespace {
 
-const std::vector<std::string> commands{"check",  "models", "simulate", "run",    "info", "export",    "plot",
-                                        "points", "orbit",  "grazing",  "ladder", "help", "completion"};
+const std::vector<std::string> commands{"check",  "models", "simulate", "run",    "info",      "export", "plot",
+                                        "points", "orbit",  "grazing",  "ladder", "tolerance", "help",   "completion"};
 
 /// What a shell command prints.
 std::string printed_by(const std::string& command) {
