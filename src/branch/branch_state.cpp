@@ -96,20 +96,7 @@ bool BranchState::hold_kept(const Orbit& orbit) {
 }
 
 std::optional<HeldLimit> BranchState::held_limit() const {
-    if (!settings_.kept)
-        return std::nullopt;
-    const SpecialPoint& kept = *settings_.kept;
-    const auto held = [&](HeldLimit::Kind kind) { return HeldLimit{kind, kept.segment, kept.event}; };
-    switch (kept.type) {
-    case PointType::grazing:
-        return kept.at_end ? std::nullopt : std::optional(held(HeldLimit::Kind::touch));
-    case PointType::vanishing:
-        return held(HeldLimit::Kind::vanishing);
-    case PointType::guard:
-        return held(HeldLimit::Kind::guard);
-    default:
-        return std::nullopt;
-    }
+    return settings_.kept ? held_limit_of(*settings_.kept) : std::nullopt;
 }
 
 /// Where on the orbit the touch is that is kept: of all least values of that event's function, the one that is zero.

@@ -259,6 +259,20 @@ bool is_point_label(std::string_view text) {
     });
 }
 
+std::optional<HeldLimit> held_limit_of(const SpecialPoint& point) {
+    const auto held = [&](HeldLimit::Kind kind) { return HeldLimit{kind, point.segment, point.event}; };
+    switch (point.type) {
+    case PointType::grazing:
+        return point.at_end ? std::nullopt : std::optional(held(HeldLimit::Kind::touch));
+    case PointType::vanishing:
+        return held(HeldLimit::Kind::vanishing);
+    case PointType::guard:
+        return held(HeldLimit::Kind::guard);
+    default:
+        return std::nullopt;
+    }
+}
+
 std::vector<BranchTest> branch_tests(const TestedPoint& point) {
     std::vector<BranchTest> tests;
     for (const PointRule& rule : table)

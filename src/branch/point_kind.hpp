@@ -3,6 +3,7 @@
 #include "branch/orbit_condition.hpp"
 #include "graze/branch/orbit_branch.hpp"
 #include "graze/branch/switching.hpp"
+#include "orbit/certify.hpp"
 #include "orbit/orbit_equations.hpp"
 
 #include <cstddef>
@@ -79,6 +80,9 @@ struct PointRule {
 /// All of them, in the order of their types: a new kind of special points is one more entry.
 std::span<const PointRule> point_rules();
 const PointRule& rule_of(PointType type);
+
+/// To what an orbit is held by a point's condition, of what decides whether it is admissible.
+std::optional<HeldLimit> held_limit_of(const SpecialPoint& point);
 
 /// All test functions at a point, always in the same order for one signature.
 std::vector<BranchTest> branch_tests(const TestedPoint& point);

@@ -112,6 +112,14 @@ struct TripArguments {
     OutputArguments output;
 };
 
+struct ToleranceArguments {
+    std::string file, point, parameter, within, plot, data;
+    std::vector<std::string> vary;
+    std::size_t devices = 10'000, seed = 1;
+    int jobs = 0; ///< 0: as many as there are cores
+    OutputArguments output;
+};
+
 struct InfoArguments {
     std::string file;
     bool all = false;
@@ -139,6 +147,7 @@ struct Arguments {
     GrazingArguments grazing;
     TripArguments trip;
     LadderArguments ladder;
+    ToleranceArguments tolerance;
     CheckArguments check;
     ModelsArguments models;
     SimulateArguments simulate;

@@ -70,6 +70,17 @@ constexpr const char* trip_examples = R"(Examples:
   graze trip results GR1 --overshoot 1e-3:1e-9 --until q=0.9
   graze trip results GR1 --until end --plot trip.svg)";
 
+constexpr const char* tolerance_text = R"(Say how far a special point depends on the other parameters.
+The value of the run's parameter at which the point lies, such as the voltage at which a switch trips, is a function of
+all other parameters: its exact derivatives and, with --vary, its statistics over devices whose parameters differ, each
+solved for by Newton's method. POINT is a grazing (GR), fold (SN), flip (PD) or any other whose curve could be followed,
+written as for graze orbit.)";
+
+constexpr const char* tolerance_examples = R"(Examples:
+  graze tolerance results GR1                      derivatives by every parameter
+  graze tolerance results GR1 --vary delta=1%,zeta=0.002
+  graze tolerance results GR1 --vary delta=0.01:uniform --within 0.19:0.21 --plot yield.svg)";
+
 template <class Value>
 CLI::Option* add(CLI::App& command, const char* group, const char* name, Value& value, const char* type,
                  const char* text) {
@@ -177,6 +188,35 @@ void declare_ladder(CLI::App& app, LadderArguments& arguments) {
         ->group("Output");
 }
 
+void declare_tolerance(CLI::App& app, ToleranceArguments& arguments) {
+    CLI::App& command = *app.add_subcommand("tolerance", tolerance_text);
+    command.footer(tolerance_examples);
+    command.add_option("FILE", arguments.file, "Result file, or the folder of a study")->type_name("")->required();
+    command.add_option("POINT", arguments.point, "LABEL, RUN:LABEL or RUN:NUMBER")->type_name("")->required();
+    const char* group = "What to find";
+    add(command, group, "--parameter", arguments.parameter, "NAME",
+        "Whose value follows from the others (the one that the run follows)");
+    add(command, group, "--vary", arguments.vary, "NAME=SIZE",
+        "Parameters that differ from device to device: standard deviation, as a number or in percent of the value; "
+        "with "
+        ":uniform behind it the largest departure");
+    add(command, group, "--within", arguments.within, "LOW:HIGH", "Values that are wanted; one side may be left out")
+        ->check(not_empty());
+    add(command, group, "--devices", arguments.devices, "N", "How many are made (10000)")
+        ->check(whole_number(1, 100'000'000));
+    add(command, group, "--seed", arguments.seed, "N", "Of what is drawn (1)")->check(whole_number(0, 1'000'000'000));
+    add(command, group, "--jobs", arguments.jobs, "N", "Threads (one for each core); results do not depend on them")
+        ->check(whole_number(1, 1024));
+    declare_output(command, arguments.output);
+    command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal")
+        ->group("Output");
+    group = "Picture";
+    add(command, group, "--plot", arguments.plot, "FILE", "Draw how the devices are distributed, too: svg, png or pdf")
+        ->check(not_empty());
+    add(command, group, "--data", arguments.data, "FILE",
+        "Keep data and commands, to be changed and drawn by `gnuplot FILE`");
+}
+
 } // namespace
 
 void declare_branch_commands(CLI::App& app, Arguments& arguments) {
@@ -185,6 +225,7 @@ void declare_branch_commands(CLI::App& app, Arguments& arguments) {
     declare_grazing(app, arguments.grazing);
     declare_trip(app, arguments.trip);
     declare_ladder(app, arguments.ladder);
+    declare_tolerance(app, arguments.tolerance);
 }
 
 } // namespace graze

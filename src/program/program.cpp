@@ -59,6 +59,8 @@ int dispatch(std::span<const std::string> words, const Console& console) {
         return grazing_command(arguments.grazing, console);
     if (app.got_subcommand("trip"))
         return trip_command(arguments.trip, console);
+    if (app.got_subcommand("tolerance"))
+        return tolerance_command(arguments.tolerance, console);
     return simulate_command(arguments.simulate, console);
 }
 

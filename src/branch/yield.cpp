@@ -1,0 +1,318 @@
+#include "graze/branch/yield.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <numbers>
+#include <thread>
+
+namespace graze {
+
+namespace {
+
+/// A number that looks random, of another one (G. L. Steele, D. Lea and C. H. Flood, "Fast splittable pseudorandom
+/// number generators", 2014).
+std::uint64_t mixed(std::uint64_t x) {
+    x += 0x9e3779b97f4a7c15ULL;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+    return x ^ (x >> 31);
+}
+
+/// In (0, 1), without either end.
+double drawn(std::uint64_t seed, std::size_t device, std::size_t place) {
+    const std::uint64_t bits = mixed(mixed(mixed(seed) ^ static_cast<std::uint64_t>(device)) ^ place);
+    return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
+}
+
+/// Of mean zero.
+double departure(const Tolerance& tolerance, std::uint64_t seed, std::size_t device, std::size_t place) {
+    const double first = drawn(seed, device, 2 * place);
+    if (tolerance.spread == Spread::uniform)
+        return tolerance.size * (2 * first - 1);
+    const double second = drawn(seed, device, 2 * place + 1);
+    return tolerance.size * std::sqrt(-2 * std::log(first)) * std::cos(2 * std::numbers::pi * second);
+}
+
+/// How many standard deviations on either side of the mean hold such a share of a normal distribution.
+double deviations_that_hold(double share) {
+    double low = 0, high = 40;
+    while (true) {
+        const double middle = 0.5 * (low + high);
+        if (middle <= low || middle >= high)
+            return middle;
+        (std::erf(middle / std::numbers::sqrt2) < share ? low : high) = middle;
+    }
+}
+
+void require_share(double share, const char* what) {
+    if (!(share > 0 && share < 1))
+        throw InputError(fmt::format("{} {} is out of range", what, share), "choose one between 0 and 1");
+}
+
+/// The devices, on threads.
+class Workshop {
+public:
+    Workshop(const System& system, const SpecialPoint& point, ParameterId control, const YieldSettings& settings)
+        : system_(&system), point_(&point), control_(control), settings_(&settings), own_(made()) {}
+
+    LocatedValue& nominal() { return own_; }
+
+    void make(Yield& result) {
+        result.devices.resize(settings_->devices);
+        problems_.resize(settings_->devices);
+        constexpr std::size_t enough = 32; // devices, for which a thread is worth its start
+        const std::size_t jobs =
+            std::clamp<std::size_t>(settings_->devices / enough, 1, static_cast<std::size_t>(settings_->jobs));
+        {
+            std::vector<std::jthread> threads;
+            for (std::size_t i = 1; i < jobs; ++i)
+                threads.emplace_back([&] {
+                    guarded([&] {
+                        LocatedValue one = made();
+                        work(one, result, false);
+                    });
+                });
+            guarded([&] { work(own_, result, true); });
+        }
+        if (error_)
+            std::rethrow_exception(error_);
+        result.interrupted = stopped_;
+        std::map<std::string, std::size_t> counts;
+        for (const std::string& problem : problems_)
+            if (!problem.empty())
+                ++counts[problem];
+        result.problems.assign(counts.begin(), counts.end());
+        std::stable_sort(result.problems.begin(), result.problems.end(),
+                         [](const auto& a, const auto& b) { return a.second > b.second; });
+    }
+
+private:
+    LocatedValue made() const {
+        std::vector<ParameterId> others;
+        for (const Tolerance& one : settings_->tolerances)
+            others.push_back(one.parameter);
+        return {*system_, *point_, control_, others, settings_->solver};
+    }
+
+    template <class Work>
+    void guarded(const Work& work) {
+        try {
+            work();
+        } catch (...) {
+            const std::lock_guard lock(mutex_);
+            if (!error_)
+                error_ = std::current_exception();
+            stopped_ = true;
+        }
+    }
+
+    void work(LocatedValue& solver, Yield& result, bool tells) {
+        std::vector<double> values;
+        for (std::size_t i; !stopped_ && (i = next_++) < settings_->devices;) {
+            if (settings_->interrupted && settings_->interrupted()) {
+                stopped_ = true;
+                return;
+            }
+            Device& device = result.devices[i];
+            values = solver.values();
+            device.linear = solver.value();
+            for (std::size_t k = 0; k < values.size(); ++k) {
+                const double change = departure(settings_->tolerances[k], settings_->seed, i, k);
+                values[k] += change;
+                device.linear += solver.derivatives()[k] * change;
+            }
+            const LocatedSolution found = solver(values);
+            device.outcome = !found.found        ? DeviceOutcome::failed
+                             : !found.admissible ? DeviceOutcome::inadmissible
+                                                 : DeviceOutcome::found;
+            if (device.outcome == DeviceOutcome::found)
+                device.value = found.value;
+            else
+                problems_[i] = found.problem.empty() ? "the model would not follow the orbit" : found.problem;
+            const std::size_t done = ++done_;
+            if (tells && settings_->progress)
+                settings_->progress(done);
+        }
+    }
+
+    const System* system_;
+    const SpecialPoint* point_;
+    ParameterId control_;
+    const YieldSettings* settings_;
+    LocatedValue own_;
+    std::vector<std::string> problems_;
+    std::atomic<std::size_t> next_{0}, done_{0};
+    std::atomic<bool> stopped_{false};
+    std::mutex mutex_; ///< of the error
+    std::exception_ptr error_;
+};
+
+void count(Yield& result) {
+    for (const Device& device : result.devices)
+        switch (device.outcome) {
+        case DeviceOutcome::found:
+            ++result.found;
+            break;
+        case DeviceOutcome::inadmissible:
+            ++result.inadmissible;
+            break;
+        case DeviceOutcome::failed:
+            ++result.failed;
+            break;
+        case DeviceOutcome::not_made:
+            break;
+        }
+    result.made = result.found + result.inadmissible + result.failed;
+}
+
+/// Measured from the nominal value, so that little is lost of small differences.
+void set_moments(Yield& result, const std::vector<double>& values, double confidence) {
+    const auto n = static_cast<double>(values.size());
+    if (values.size() < 2)
+        return;
+    double sum = 0;
+    for (const double value : values)
+        sum += value - result.nominal;
+    const double mean = sum / n;
+    double second = 0, fourth = 0;
+    for (const double value : values) {
+        const double square = (value - result.nominal - mean) * (value - result.nominal - mean);
+        second += square;
+        fourth += square * square;
+    }
+    const double variance = second / (n - 1), deviation = std::sqrt(variance), z = deviations_that_hold(confidence);
+    const double of_mean = z * deviation / std::sqrt(n);
+    const double spread = std::max(0.0, fourth / n - variance * variance);
+    const double of_deviation = deviation > 0 ? z * std::sqrt(spread / n) / (2 * deviation) : 0;
+    const double centre = result.nominal + mean;
+    result.mean = Estimate{centre, centre - of_mean, centre + of_mean};
+    result.deviation = Estimate{deviation, std::max(0.0, deviation - of_deviation), deviation + of_deviation};
+}
+
+/// The number of values below a quantile is binomial: limits are the values between which it lies with the confidence.
+/// @param values in order
+QuantileEstimate quantile_of(const std::vector<double>& values, double share, double confidence) {
+    const std::size_t n = values.size();
+    const auto count = static_cast<double>(n);
+    QuantileEstimate result;
+    result.share = share;
+    const double place = share * (count - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const double rest = place - static_cast<double>(below);
+    result.value = values[below] + (below + 1 < n ? rest * (values[below + 1] - values[below]) : 0);
+    const double outside = 0.5 * (1 - confidence);
+    double cumulative = 0;
+    for (std::size_t k = 0; k < n; ++k) { // cumulative: of at most k values below
+        const auto hits = static_cast<double>(k);
+        cumulative += std::exp(std::lgamma(count + 1) - std::lgamma(hits + 1) - std::lgamma(count - hits + 1) +
+                               hits * std::log(share) + (count - hits) * std::log1p(-share));
+        if (cumulative <= outside)
+            result.low = values[k];
+        if (cumulative >= 1 - outside) {
+            result.high = values[k];
+            break;
+        }
+    }
+    return result;
+}
+
+void set_shares(Yield& result, const YieldSettings& settings) {
+    if ((!settings.least && !settings.greatest) || result.made == 0)
+        return;
+    const auto is_within = [&](double value) {
+        return (!settings.least || value >= *settings.least) && (!settings.greatest || value <= *settings.greatest);
+    };
+    std::size_t within = 0, linear = 0;
+    for (const Device& device : result.devices) {
+        within += device.outcome == DeviceOutcome::found && is_within(device.value) ? 1 : 0;
+        linear += device.outcome != DeviceOutcome::not_made && is_within(device.linear) ? 1 : 0;
+    }
+    result.within = wilson_interval(within, result.made, settings.confidence);
+    result.linear_within = static_cast<double>(linear) / static_cast<double>(result.made);
+}
+
+void set_contributions(Yield& result, const LocatedValue& nominal, const std::vector<Tolerance>& tolerances) {
+    double sum = 0; // hypotenuses neither overflow nor vanish, whatever the units
+    for (std::size_t k = 0; k < tolerances.size(); ++k) {
+        const double one = nominal.derivatives()[k] * tolerances[k].deviation();
+        result.contributions.push_back({tolerances[k].parameter, one, 0});
+        sum = std::hypot(sum, one);
+    }
+    result.linear_deviation = sum;
+    for (Contribution& one : result.contributions)
+        one.share = sum > 0 ? (one.deviation / sum) * (one.deviation / sum) : 0;
+    std::stable_sort(result.contributions.begin(), result.contributions.end(),
+                     [](const Contribution& a, const Contribution& b) { return a.share > b.share; });
+}
+
+} // namespace
+
+double Tolerance::deviation() const {
+    return spread == Spread::normal ? size : size / std::numbers::sqrt3;
+}
+
+void YieldSettings::validate() const {
+    constexpr std::size_t most = 100'000'000;
+    if (tolerances.empty())
+        throw InputError("no parameter has a tolerance", "give at least one");
+    for (const Tolerance& one : tolerances)
+        if (!(one.size >= 0 && std::isfinite(one.size)))
+            throw InputError(fmt::format("the tolerance {} is out of range", one.size),
+                             "give a number that is not negative");
+    if (devices == 0 || devices > most)
+        throw InputError(fmt::format("{} devices are out of range", devices), fmt::format("choose from 1 to {}", most));
+    if (least && greatest && !(*least <= *greatest))
+        throw InputError(fmt::format("nothing lies within {} and {}", *least, *greatest), "give the lower limit first");
+    require_share(confidence, "the confidence");
+    for (const double share : quantiles)
+        require_share(share, "the quantile");
+    if (jobs < 1)
+        throw InputError(fmt::format("{} jobs cannot do anything", jobs), "give at least one");
+    solver.validate();
+}
+
+Estimate wilson_interval(std::size_t hits, std::size_t trials, double confidence) {
+    require_share(confidence, "the confidence");
+    if (trials == 0 || hits > trials)
+        throw InputError(fmt::format("{} of {} is no share", hits, trials),
+                         "give at least one trial, and no more hits");
+    const auto n = static_cast<double>(trials);
+    const double share = static_cast<double>(hits) / n, z = deviations_that_hold(confidence), z2 = z * z;
+    const double centre = (share + z2 / (2 * n)) / (1 + z2 / n);
+    const double half = z / (1 + z2 / n) * std::sqrt(share * (1 - share) / n + z2 / (4 * n * n));
+    return {share, hits == 0 ? 0 : std::max(0.0, centre - half), hits == trials ? 1 : std::min(1.0, centre + half)};
+}
+
+Yield yield_of(const System& system, const SpecialPoint& point, ParameterId control, const YieldSettings& settings) {
+    settings.validate();
+    Workshop workshop(system, point, control, settings);
+    Yield result;
+    result.nominal = workshop.nominal().value();
+    workshop.make(result);
+    count(result);
+    set_contributions(result, workshop.nominal(), settings.tolerances);
+    set_shares(result, settings);
+    std::vector<double> values;
+    for (const Device& device : result.devices)
+        if (device.outcome == DeviceOutcome::found) {
+            values.push_back(device.value);
+            result.largest_departure = std::max(result.largest_departure, std::abs(device.value - device.linear));
+        }
+    set_moments(result, values, settings.confidence);
+    std::sort(values.begin(), values.end());
+    if (!values.empty())
+        for (const double share : settings.quantiles)
+            result.quantiles.push_back(quantile_of(values, share, settings.confidence));
+    return result;
+}
+
+} // namespace graze

@@ -1,0 +1,350 @@
+#include "graze/branch/curve_start.hpp"
+#include "graze/branch/yield.hpp"
+#include "graze/results/orbit_motion.hpp"
+#include "graze/results/stored_orbit.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "program/commands.hpp"
+#include "program/figure.hpp"
+#include "program/interrupt.hpp"
+#include "program/output_file.hpp"
+#include "program/picture.hpp"
+#include "program/status_line.hpp"
+#include "program/values.hpp"
+#include "program/yield_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
+
+/// What has been found at a point.
+struct Findings {
+    StoredOrbit stored;
+    Model model; ///< at the point's parameters
+    SpecialPoint point;
+    std::vector<std::string> names; ///< of the independent parameters
+    ParameterId control{};
+    std::optional<LocatedValue> located{};
+    YieldSettings settings{};
+    std::optional<Yield> yield{};
+
+    const std::string& name_of_control() const { return names[control.place()]; }
+    std::string unit() const { return model.parameters[*model.find_parameter(name_of_control())].unit; }
+};
+
+/// The point as one whose condition can be held: of several, what it is first.
+SpecialPoint with_condition(const SpecialPoint& point) {
+    if (kind_of(point.type).may_be_kept)
+        return point;
+    const std::vector<PointType> known = curves_at(point);
+    if (known.empty())
+        throw InputError(Place{"POINT", 0, 0},
+                         fmt::format("nothing that could be held happens at a point of type {} ({})",
+                                     short_name(point.type), name_of(point.type)),
+                         "choose a grazing (GR), fold (SN) or flip (PD), or a point of a curve of such");
+    return as_type(point, known.front());
+}
+
+/// What was asked for, or what the run follows; on a curve first the parameter that was freed.
+std::vector<ParameterId> parameters_of(const StoredRun& run, const std::string& asked) {
+    if (!asked.empty())
+        return {run.model.independent_parameter(asked)};
+    std::vector<ParameterId> result;
+    if (run.record.kind == "curve" && run.record.coordinates.size() > 1)
+        result.push_back(run.model.independent_parameter(run.record.coordinates[1].name));
+    if (const std::string followed = followed_parameter(run.record); !followed.empty())
+        result.push_back(run.model.independent_parameter(followed));
+    if (result.empty())
+        throw InputError(Place{"POINT", 0, 0}, fmt::format("run '{}' follows no parameter", run.record.name),
+                         "say whose value follows from the others: --parameter NAME");
+    return result;
+}
+
+/// The first of the parameters on which the point depends.
+void locate(Findings& found, const System& system, const std::string& asked) {
+    const std::vector<ParameterId> candidates = parameters_of(found.stored.run, asked);
+    for (const ParameterId one : candidates) {
+        found.control = one;
+        try {
+            found.located.emplace(system, found.point, one, parameters_but(found.model, one));
+            return;
+        } catch (const InputError& error) {
+            if (one == candidates.back())
+                throw InputError(Place{"POINT", 0, 0}, error.problem(), error.remedy());
+        }
+    }
+}
+
+/// NAME=SIZE, NAME=SIZE%, NAME=SIZE:uniform
+Tolerance tolerance_of(const Findings& found, const std::string& text) {
+    const Place place{fmt::format("--vary {}", text), 0, 0};
+    const std::size_t equals = text.find('='), colon = text.rfind(':');
+    const char* example = "write NAME=SIZE, with a percent sign for a part of the value, and with :uniform behind it "
+                          "where it is not a standard deviation";
+    if (equals == std::string::npos || equals == 0)
+        throw InputError(place, "no tolerance of any parameter", example);
+    Tolerance result;
+    const std::string name = text.substr(0, equals);
+    result.parameter = found.model.independent_parameter(name);
+    std::string size = text.substr(equals + 1);
+    if (colon != std::string::npos && colon > equals) {
+        const std::string word = text.substr(colon + 1);
+        if (word != "uniform" && word != "normal")
+            throw InputError(place, fmt::format("'{}' is no way in which devices differ", word),
+                             "write normal or uniform");
+        result.spread = word == "uniform" ? Spread::uniform : Spread::normal;
+        size = text.substr(equals + 1, colon - equals - 1);
+    }
+    const bool share = !size.empty() && size.back() == '%';
+    if (share)
+        size.pop_back();
+    if (size.empty())
+        throw InputError(place, "a tolerance without a size", example);
+    result.size = value_of(found.model, size, "--vary");
+    if (share) {
+        const double value = found.point.solution.orbit.parameters[result.parameter.place()];
+        if (value == 0)
+            throw InputError(place, fmt::format("'{}' is zero, of which there are no percents", name),
+                             "give the tolerance in its unit");
+        result.size *= 0.01 * std::abs(value);
+    }
+    if (result.size < 0)
+        throw InputError(place, "a tolerance below zero", "give its size");
+    if (result.parameter == found.control)
+        throw InputError(place, fmt::format("'{}' is the parameter whose value follows from the others", name),
+                         "vary others, or choose another one by --parameter");
+    return result;
+}
+
+void set_interval(Findings& found, const std::string& text) {
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos || text.size() == 1)
+        throw InputError(Place{"--within", 0, 0}, fmt::format("'{}' is no interval", text),
+                         "write LOW:HIGH; one of the two may be left out");
+    if (colon > 0)
+        found.settings.least = value_of(found.model, text.substr(0, colon), "--within");
+    if (colon + 1 < text.size())
+        found.settings.greatest = value_of(found.model, text.substr(colon + 1), "--within");
+}
+
+void set_yield(Findings& found, const System& system, const ToleranceArguments& arguments, const Console& console) {
+    YieldSettings& settings = found.settings;
+    for (const std::string& item : split_list(arguments.vary))
+        settings.tolerances.push_back(tolerance_of(found, item));
+    if (!arguments.within.empty())
+        set_interval(found, arguments.within);
+    settings.devices = arguments.devices;
+    settings.seed = arguments.seed;
+    settings.jobs =
+        arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    settings.interrupted = [] { return InterruptGuard::requested(); };
+    StatusLine line(console, console.terminal);
+    settings.progress = [&](std::size_t devices) {
+        if (line.is_due())
+            line.show(fmt::format("device {} of {}", devices, arguments.devices));
+    };
+    try {
+        found.yield = yield_of(system, found.point, found.control, settings);
+    } catch (const InputError& error) {
+        if (!error.place().file.empty())
+            throw;
+        throw InputError(Place{"--vary", 0, 0}, error.problem(), error.remedy());
+    }
+}
+
+/// Derivatives by all parameters, and what those that vary contribute.
+Table derivatives_of(const Findings& found) {
+    const LocatedValue& located = *found.located;
+    std::vector<Table::Column> columns{
+        {"parameter", ""}, {"value", ""}, {"d" + found.name_of_control(), ""}, {"relative", ""}};
+    if (found.yield)
+        for (const char* name : {"deviation", "effect", "share"})
+            columns.push_back({name, ""});
+    Table table(columns);
+    for (std::size_t i = 0; i < located.others().size(); ++i) {
+        const ParameterId parameter = located.others()[i];
+        table.add(found.names[parameter.place()]);
+        table.add(located.values()[i]);
+        table.add(located.derivatives()[i]);
+        table.add(located.value() != 0 ? located.derivatives()[i] * located.values()[i] / located.value() : nothing);
+        if (!found.yield)
+            continue;
+        const auto& tolerances = found.settings.tolerances;
+        const auto& parts = found.yield->contributions;
+        const auto tolerance = std::find_if(tolerances.begin(), tolerances.end(),
+                                            [&](const Tolerance& one) { return one.parameter == parameter; });
+        const auto part = std::find_if(parts.begin(), parts.end(),
+                                       [&](const Contribution& one) { return one.parameter == parameter; });
+        table.add(tolerance == tolerances.end() ? nothing : tolerance->deviation());
+        table.add(part == parts.end() ? nothing : part->deviation);
+        table.add(part == parts.end() ? nothing : part->share);
+    }
+    return table;
+}
+
+/// One row of statistics; members of a JSON object say the same.
+class Statistics {
+public:
+    Statistics() : table_({{"quantity", ""}, {"value", ""}, {"low", ""}, {"high", ""}, {"meaning", ""}}) {}
+    void add(const std::string& name, double value, double low, double high, const std::string& meaning) {
+        table_.add(name);
+        table_.add(value);
+        table_.add(low);
+        table_.add(high);
+        table_.add(meaning);
+        values_.add(name, value);
+        if (std::isfinite(low) || std::isfinite(high)) {
+            values_.add(name + "_low", low);
+            values_.add(name + "_high", high);
+        }
+    }
+    void add(const std::string& name, double value, const std::string& meaning) {
+        add(name, value, nothing, nothing, meaning);
+    }
+    void add(const std::string& name, const std::optional<Estimate>& one, const std::string& meaning) {
+        if (one)
+            add(name, one->value, one->low, one->high, meaning);
+    }
+    const Table& table() const { return table_; }
+    const JsonObject& values() const { return values_; }
+
+private:
+    Table table_;
+    JsonObject values_;
+};
+
+Statistics statistics_of(const Findings& found) {
+    const Yield& yield = *found.yield;
+    Statistics result;
+    result.add("nominal", yield.nominal, fmt::format("{} without tolerances", found.name_of_control()));
+    result.add("devices", static_cast<double>(yield.made), "that were made");
+    result.add("found", static_cast<double>(yield.found), "with a value; what follows is of them");
+    result.add("inadmissible", static_cast<double>(yield.inadmissible), "of which something else happens first");
+    result.add("failed", static_cast<double>(yield.failed), "not found by Newton's method");
+    result.add("mean", yield.mean, "");
+    result.add("deviation", yield.deviation, "standard deviation");
+    result.add("linear_deviation", yield.linear_deviation, "the same by the derivatives alone");
+    result.add("largest_departure", yield.largest_departure, "of a device from what the derivatives say");
+    for (const QuantileEstimate& one : yield.quantiles)
+        result.add(fmt::format("quantile_{:g}", one.share), one.value, one.low.value_or(nothing),
+                   one.high.value_or(nothing), "this share lies below");
+    result.add("within", yield.within, "share of all devices that is wanted");
+    if (yield.linear_within)
+        result.add("linear_within", *yield.linear_within, "the same by the derivatives alone");
+    return result;
+}
+
+JsonObject heading_of(const ResultFile& file, const Findings& found) {
+    const OrbitRecord& record = found.stored.record;
+    JsonObject heading;
+    heading.add("graze", GRAZE_VERSION);
+    heading.add("file", file.path());
+    heading.add("model", found.model.name);
+    heading.add("run", found.stored.run.record.name);
+    heading.add("number", static_cast<double>(record.number));
+    heading.add("label", record.label);
+    heading.add("type", short_name(found.point.type));
+    heading.add("parameter", found.name_of_control());
+    heading.add("unit", found.unit());
+    heading.add("value", found.located->value());
+    if (!found.yield)
+        return heading;
+    heading.add("seed", static_cast<double>(found.settings.seed));
+    heading.add("confidence", found.settings.confidence);
+    heading.add("statistics", statistics_of(found).values());
+    std::vector<JsonObject> problems;
+    for (const auto& [problem, count] : found.yield->problems) {
+        JsonObject& one = problems.emplace_back();
+        one.add("problem", problem);
+        one.add("devices", static_cast<double>(count));
+    }
+    heading.add("problems", problems);
+    return heading;
+}
+
+/// For people both tables; as CSV the one that was asked for.
+void show(const ResultFile& file, const Findings& found, const OutputArguments& output, const Console& console) {
+    std::ostringstream text;
+    const Console inner{text, console.err, console.terminal, console.cursor, console.width};
+    OutputArguments here = output;
+    here.file.clear();
+    if (output.format == TableFormat::table)
+        text << fmt::format("{} = {:.{}g}{}{}\n\n", found.name_of_control(), found.located->value(),
+                            output.shown_digits(), found.unit().empty() ? "" : " ", found.unit());
+    if (output.format != TableFormat::csv || !found.yield)
+        deliver(derivatives_of(found), here, heading_of(file, found), inner);
+    if (output.format == TableFormat::table && found.yield)
+        text << '\n';
+    if (output.format != TableFormat::json && found.yield)
+        deliver(statistics_of(found).table(), here, {}, inner);
+    if (output.file.empty()) {
+        console.out << text.str();
+        require_delivered(console);
+    } else {
+        write_file(output.file, text.view());
+    }
+}
+
+/// What has gone wrong with some, beside the tables.
+void tell(const Yield& yield, const Console& console) {
+    constexpr std::size_t most = 5;
+    for (std::size_t i = 0; i < std::min(most, yield.problems.size()); ++i)
+        console.err << fmt::format("graze: {} of {} devices: {}\n", yield.problems[i].second, yield.made,
+                                   yield.problems[i].first);
+    if (yield.problems.size() > most)
+        console.err << fmt::format("graze: {} more reasons; --format json has all\n", yield.problems.size() - most);
+}
+
+void require_devices(const ToleranceArguments& arguments) {
+    if (arguments.vary.empty() && (!arguments.plot.empty() || !arguments.within.empty()))
+        throw InputError("without tolerances all devices are alike", "say what differs: --vary NAME=SIZE");
+    if (arguments.plot.empty() && !arguments.data.empty())
+        throw InputError("--data keeps the data of a picture, and nothing is drawn", "name one by --plot FILE");
+    if (!arguments.plot.empty())
+        picture_ending(arguments.plot, "--plot", {"svg", "png", "pdf"});
+}
+
+} // namespace
+
+int tolerance_command(const ToleranceArguments& arguments, const Console& console) {
+    require_devices(arguments);
+    const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
+    StoredOrbit stored = find_stored_orbit(file, arguments.point, {"POINT", 0, 0});
+    const SpecialPoint point = with_condition(stored.record.point);
+    Model model = model_at(stored.run.model, point.solution.orbit);
+    std::vector<std::string> names = model.independent_parameters();
+    Findings found{.stored = std::move(stored), .model = std::move(model), .point = point, .names = std::move(names)};
+    const System system(found.stored.run.model);
+    locate(found, system, arguments.parameter);
+    const InterruptGuard guard;
+    if (!arguments.vary.empty())
+        set_yield(found, system, arguments, console);
+    show(file, found, arguments.output, console);
+    if (!found.yield)
+        return exit_success;
+    tell(*found.yield, console);
+    if (!arguments.plot.empty() && !found.yield->interrupted)
+        draw_figure(yield_picture(*found.yield, found.name_of_control(), found.unit(), found.settings.least,
+                                  found.settings.greatest),
+                    arguments.plot, arguments.data);
+    if (found.yield->interrupted) {
+        console.err << fmt::format("graze: interrupted; {} of {} devices were made\n", found.yield->made,
+                                   arguments.devices);
+        return InterruptGuard::exit_code();
+    }
+    return found.yield->failed > 0 ? exit_irregular : exit_success;
+}
+
+} // namespace graze

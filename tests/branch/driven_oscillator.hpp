@@ -1,0 +1,82 @@
+// A driven oscillator with a stop, in any units: the force at which its steady motion touches, in closed form.
+
+#pragma once
+
+#include "follow.hpp"
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace graze::testing {
+
+/// m q'' + c q' + k q = F cos(omega t) with a stop at q = sigma; units of length, time and mass.
+struct DrivenOscillator {
+    double length = 1, time = 1, mass = 1;
+    double m = 1.3 * mass, c = 0.2 * mass / time, k = 2.1 * mass / (time * time), omega = 1.7 / time,
+           sigma = 0.8 * length;
+
+    /// F for the unit of the amplitude.
+    std::complex<double> stiffness() const { return {k - m * omega * omega, c * omega}; }
+    double force() const { return sigma * std::abs(stiffness()); }
+    /// Derivatives of the force by m, c, k, omega, sigma, e.
+    std::array<double, 6> derivatives() const {
+        const double size = std::abs(stiffness()), real = stiffness().real(), imaginary = stiffness().imag();
+        return {-sigma * real * omega * omega / size,
+                sigma * imaginary * omega / size,
+                sigma * real / size,
+                sigma * (-2 * real * m * omega + imaginary * c) / size,
+                size,
+                0};
+    }
+    Model model() const {
+        return model_from(fmt::format(R"toml(
+[parameters]
+F = {:.17g}
+m = {:.17g}
+c = {:.17g}
+k = {:.17g}
+omega = {:.17g}
+sigma = {:.17g}
+e = 0.8
+[states]
+q = 0
+v = 0
+theta = {{ initial = 0, period = "2*pi" }}
+[modes.free]
+rates = {{ q = "v", v = "(F*cos(theta) - c*v - k*q)/m", theta = "omega" }}
+watch = ["stop"]
+[events]
+stop = "sigma - q"
+[jumps.impact]
+v = "-e*v"
+[[transitions]]
+mode = "free"
+event = "stop"
+label = "impact"
+jump = "impact"
+next = "free"
+[sections.start]
+state = "theta"
+value = 0
+)toml",
+                                      force(), m, c, k, omega, sigma));
+    }
+    /// The motion that touches.
+    SpecialPoint grazing(const Model& made) const {
+        const std::complex<double> amplitude = force() / stiffness(), i(0, 1);
+        const double turn = 2 * std::numbers::pi, phase = std::fmod(turn - std::arg(amplitude), turn);
+        SpecialPoint point;
+        point.type = PointType::grazing;
+        point.solution.orbit.signature = parse_signature(made, "free:start");
+        point.solution.orbit.parameters = made.parameter_values();
+        point.solution.orbit.starts = {{amplitude.real(), (i * omega * amplitude).real(), 0}};
+        point.solution.orbit.durations = {turn / omega};
+        point.parameter = force();
+        point.time = phase / omega;
+        return point;
+    }
+};
+
+} // namespace graze::testing

@@ -1,0 +1,172 @@
+#include "graze/branch/located_value.hpp"
+
+#include "driven_oscillator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+SpecialPoint mems_grazing(Model& model) {
+    model = load_model("mems-switch");
+    model.set_parameter("V", 0.15);
+    model.set_initial("q", 0);
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("V");
+    settings.greatest = 0.4;
+    for (const SpecialPoint& point : follow_branch(model, settled(model, "phase0").orbit, settings).special)
+        if (point.type == PointType::grazing)
+            return point;
+    ADD_FAILURE() << "no grazing";
+    return {};
+}
+
+TEST(LocatedValue, of_a_touch_and_its_derivatives_are_those_of_the_closed_form_in_any_units) {
+    for (const auto& [length, time, mass] :
+         {std::array{1.0, 1.0, 1.0}, {1e-9, 1e-9, 1e-12}, {1e6, 1e6, 1e9}, {1e-6, 1e-3, 1e6}, {1e6, 1e-6, 1e-9}}) {
+        const DrivenOscillator known{length, time, mass};
+        const Model model = known.model();
+        const ParameterId force = model.independent_parameter("F");
+        LocatedValue touch(model, known.grazing(model), force, parameters_but(model, force));
+        EXPECT_NEAR(touch.value() / known.force(), 1, 1e-12);
+        const auto derivatives = known.derivatives();
+        ASSERT_EQ(touch.derivatives().size(), derivatives.size());
+        for (std::size_t i = 0; i < derivatives.size(); ++i) // the integration's tolerance is 1e-13
+            EXPECT_NEAR(touch.derivatives()[i] * touch.values()[i] / known.force(),
+                        derivatives[i] * touch.values()[i] / known.force(), 1e-11)
+                << i << ' ' << length;
+        // Far from there, exactly too.
+        DrivenOscillator other = known;
+        other.m *= 1.07;
+        other.c *= 0.8;
+        other.k *= 0.95;
+        other.omega *= 1.02;
+        other.sigma *= 1.2;
+        const LocatedSolution found = touch(std::vector{other.m, other.c, other.k, other.omega, other.sigma, 0.3});
+        ASSERT_TRUE(found.found) << found.problem;
+        EXPECT_TRUE(found.admissible) << found.problem;
+        EXPECT_LE(found.parts, 4U);
+        EXPECT_NEAR(found.value / other.force(), 1, 1e-12);
+    }
+}
+
+TEST(LocatedValue, is_reached_in_parts_where_one_step_is_too_far) {
+    const DrivenOscillator known;
+    const Model model = known.model();
+    const ParameterId force = model.independent_parameter("F");
+    LocatedValue touch(model, known.grazing(model), force, {model.independent_parameter("omega")});
+    DrivenOscillator other = known;
+    other.omega = 0.4; // through the resonance at 1.27
+    const LocatedSolution found = touch(std::vector{other.omega});
+    ASSERT_TRUE(found.found) << found.problem;
+    EXPECT_GT(found.parts, 1U);
+    EXPECT_NEAR(found.value / other.force(), 1, 1e-11);
+    // What it was asked before does not matter.
+    const LocatedSolution near = touch(std::vector{1.71});
+    LocatedValue fresh(model, known.grazing(model), force, {model.independent_parameter("omega")});
+    EXPECT_EQ(near.value, fresh(std::vector{1.71}).value);
+    EXPECT_EQ(found.value, fresh(std::vector{other.omega}).value);
+
+    LocatedValueOptions impatient;
+    impatient.halvings = 0;
+    const LocatedSolution none =
+        LocatedValue(model, known.grazing(model), force, {model.independent_parameter("omega")},
+                     impatient)(std::vector{other.omega});
+    EXPECT_FALSE(none.found);
+    EXPECT_FALSE(none.problem.empty());
+    EXPECT_EQ(none.parts, 0U);
+}
+
+TEST(LocatedValue, of_the_mems_switch_is_the_published_one_and_its_derivatives_are_those_of_differences) {
+    Model model;
+    const SpecialPoint point = mems_grazing(model);
+    const ParameterId voltage = model.independent_parameter("V");
+    LocatedValue touch(model, point, voltage, parameters_but(model, voltage));
+    EXPECT_NEAR(touch.value(), 0.2013662121541341, 1e-12);
+    const std::vector<std::string> names = model.independent_parameters();
+    for (std::size_t i = 0; i < touch.others().size(); ++i) {
+        // Central differences with Richardson's extrapolation: h is small against the width of the resonance, zeta.
+        // What is left is round-off of V by h / 4, some 1e-15 / 1e-4, a few times.
+        const double step = 5e-4 * touch.values()[i];
+        const auto difference = [&](double h) {
+            double sides[2] = {0, 0};
+            for (const int side : {0, 1}) {
+                std::vector<double> values = touch.values();
+                values[i] += side == 0 ? -h : h;
+                const LocatedSolution found = touch(values);
+                EXPECT_TRUE(found.found && found.admissible) << found.problem;
+                sides[side] = found.value;
+            }
+            return (sides[1] - sides[0]) / (2 * h);
+        };
+        const double once = difference(step), half = difference(step / 2), quarter = difference(step / 4);
+        const double better = (4 * half - once) / 3, best = (4 * quarter - half) / 3;
+        EXPECT_NEAR((16 * best - better) / 15, touch.derivatives()[i], 3e-10) << names[touch.others()[i].place()];
+    }
+}
+
+TEST(LocatedValue, follows_folds_and_flips_too) {
+    // x' = p - x^2 + a y, y' = -y: a fold at p = b (of a shift); as an orbit of a phase.
+    const Model model = model_from(R"toml(
+[parameters]
+p = 0.5
+b = 0.3
+r = 2
+[states]
+x = 1
+theta = { initial = 0, period = "2*pi" }
+[modes.only]
+rates = { x = "p - b^2/r - (x - b)^2", theta = 1 }
+[sections.start]
+state = "theta"
+value = 0
+)toml");
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("p");
+    settings.direction = -1;
+    settings.least = -1;
+    settings.greatest = 1;
+    const Branch branch = follow_branch(model, settled(model, "start").orbit, settings);
+    const auto fold = std::find_if(branch.special.begin(), branch.special.end(),
+                                   [](const auto& one) { return one.type == PointType::fold; });
+    ASSERT_NE(fold, branch.special.end());
+    LocatedValue value(model, *fold, settings.parameter, parameters_but(model, settings.parameter));
+    EXPECT_NEAR(value.value(), 0.045, 1e-12); // b^2 / r
+    EXPECT_NEAR(value.derivatives()[0], 0.3, 1e-10);
+    EXPECT_NEAR(value.derivatives()[1], -0.0225, 1e-10);
+    const LocatedSolution found = value(std::vector{0.5, 1.0});
+    ASSERT_TRUE(found.found) << found.problem;
+    EXPECT_NEAR(found.value, 0.25, 1e-12);
+}
+
+TEST(LocatedValue, says_what_it_cannot_do) {
+    const DrivenOscillator known;
+    const Model model = known.model();
+    const ParameterId force = model.independent_parameter("F"), restitution = model.independent_parameter("e");
+    const SpecialPoint point = known.grazing(model);
+    EXPECT_THROW(LocatedValue(model, point, force, {force}), InputError);
+    EXPECT_THROW(LocatedValue(model, point, force, {restitution, restitution}), InputError);
+    EXPECT_THROW(LocatedValue(model, point, force, {ParameterId(99)}), InputError);
+    EXPECT_THROW(LocatedValue(model, point, restitution, {force}), InputError); // moves nothing
+    SpecialPoint regular = point;
+    regular.type = PointType::regular;
+    EXPECT_THROW(LocatedValue(model, regular, force, {}), InputError);
+    LocatedValueOptions wrong;
+    wrong.halvings = 1000;
+    EXPECT_THROW(LocatedValue(model, point, force, {}, wrong), InputError);
+    LocatedValue touch(model, point, force, {});
+    EXPECT_NEAR(touch.value() / known.force(), 1, 1e-12);
+    EXPECT_THROW(touch(std::vector{1.0}), InputError);
+    LocatedValue of_mass(model, point, force, {model.independent_parameter("m")});
+    EXPECT_THROW(of_mass(std::vector{std::nan("")}), InputError);
+    // Without stiffness and mass nothing follows: a number of failures has its reason.
+    EXPECT_FALSE(of_mass(std::vector{0.0}).found);
+    EXPECT_FALSE(of_mass(std::vector{0.0}).problem.empty());
+}
+
+} // namespace
+} // namespace graze
