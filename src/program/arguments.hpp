@@ -106,7 +106,7 @@ struct GrazingArguments {
 
 struct TripArguments {
     std::string file, point, parameter, until, plot, data;
-    std::vector<std::string> overshoots;
+    std::vector<std::string> overshoots, disturbances;
     std::optional<double> greatest_speed;
     long cycles = 2000;
     OutputArguments output;

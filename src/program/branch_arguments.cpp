@@ -156,6 +156,8 @@ void declare_trip(CLI::App& app, TripArguments& arguments) {
         "That moves the orbit from its touch (the one that its run follows)");
     add(command, group, "--overshoot", arguments.overshoots, "VALUES",
         "Of the parameter beyond its touch, with sign: a list, or FIRST:LAST for each decade");
+    add(command, group, "--disturbance", arguments.disturbances, "STATE=VALUE",
+        "Added to the state of the touch in which the motion begins (none)");
     auto* until = add(command, group, "--until", arguments.until, "EXPR=LEVEL",
                       "End there, or where the motion ends by itself: end (contacts as hard as the map can tell)");
     add(command, group, "--greatest-speed", arguments.greatest_speed, "SPEED",

@@ -147,6 +147,8 @@ Figure figure_of(const std::vector<TripRow>& rows, const Model& model, const std
     FigureSeries simulated = series_of("simulation alone, until " + end, FigureSeries::Style::circles, 2);
     for (const TripRow& row : rows) {
         const double x = std::abs(row.overshoot);
+        if (x == 0) // has no place on the axis
+            continue;
         if (row.predicted.ended)
             map.points.push_back({x, row.predicted.time});
         if (row.continued.ended)
@@ -202,6 +204,7 @@ int trip_command(const TripArguments& arguments, const Console& console) {
     prediction.level = level = asked.end.speed > 0 ? std::min(level, asked.end.speed) : level;
     TripOptions options;
     options.cycles = static_cast<double>(arguments.cycles);
+    prediction.disturbance = options.disturbance = disturbance_of(model, arguments.disturbances);
     std::vector<TripRow> rows;
     bool all_ended = true;
     for (const double overshoot : overshoots_of(found, arguments.overshoots)) {
@@ -210,7 +213,7 @@ int trip_command(const TripArguments& arguments, const Console& console) {
         row.predicted = predicted_trip(found.map, verdict, overshoot, prediction);
         row.continued =
             continued_trip(system, found.map, *found.parameter, overshoot, row.predicted, asked.end, options);
-        if (std::abs(overshoot) >= least_overshoot(found.map, *found.parameter))
+        if (overshoot == 0 || std::abs(overshoot) >= least_overshoot(found.map, *found.parameter))
             row.simulated = simulated_trip(system, found.map, *found.parameter, overshoot, asked.end, options);
         all_ended = all_ended && row.continued.ended;
     }

@@ -5,6 +5,7 @@
 #include "graze/symbolic/parser.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <set>
 
@@ -109,6 +110,26 @@ void set_initial_state(Model& model, const std::vector<std::string>& assignments
         require_new(names, assignment.name, "--from");
         model.set_initial(assignment.name, value_of_text(model, assignment.text, assignment.place));
     }
+}
+
+std::vector<double> disturbance_of(const Model& model, const std::vector<std::string>& assignments) {
+    const std::vector<std::string> items = split_list(assignments);
+    std::vector<double> values(items.empty() ? 0 : model.states.size(), 0.0);
+    std::set<std::string> names;
+    for (const std::string& item : items) {
+        const Assignment assignment = parse_assignment(item, "--disturbance");
+        const std::optional<std::size_t> state = model.find_state(assignment.name);
+        if (!state) {
+            std::vector<std::string> states;
+            for (const State& one : model.states)
+                states.push_back(one.name);
+            throw InputError({"--disturbance", 0, 0}, fmt::format("'{}' is not a state", assignment.name),
+                             fmt::format("choose one of {}", fmt::join(states, ", ")));
+        }
+        require_new(names, assignment.name, "--disturbance");
+        values[*state] = value_of_text(model, assignment.text, assignment.place);
+    }
+    return values;
 }
 
 } // namespace graze

@@ -27,5 +27,7 @@ void set_parameters(Model& model, const std::vector<std::string>& assignments);
 std::vector<std::pair<std::string, double>> parameter_values(const std::vector<std::string>& assignments);
 /// Carries out `--from STATE=EXPRESSION ...`. @throws InputError
 void set_initial_state(Model& model, const std::vector<std::string>& assignments);
+/// What `--disturbance STATE=EXPRESSION ...` adds to each state of the model; empty without any. @throws InputError
+std::vector<double> disturbance_of(const Model& model, const std::vector<std::string>& assignments);
 
 } // namespace graze

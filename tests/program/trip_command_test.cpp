@@ -68,6 +68,10 @@ TEST_F(TripCommand, TellsTheTimesOfTheSwitch) {
     EXPECT_LT(number(level, 0, "end_time"), 27.31773570163);
     const Csv speed = table({results, "GR1", "--overshoot", "1e-4", "--greatest-speed", "0.001"});
     EXPECT_NEAR(number(speed, 0, "end_time"), 6.267394614702, 1e-6);
+    // Pushed towards the stop, without overshoot: the first contact is at once and has the speed of the push.
+    const Csv pushed = table({results, "GR1", "--overshoot", "0", "--disturbance", "v=-1e-4"});
+    EXPECT_NEAR(number(pushed, 0, "first_speed"), 1e-4, 1e-8);
+    EXPECT_NEAR(number(pushed, 0, "end_time"), number(pushed, 0, "simulated_time"), 1e-3);
     const Printed json = run_graze({"trip", results, "GR1", "--overshoot", "1e-3:1e-6", "--format", "json"});
     EXPECT_THAT(json.out, HasSubstr("\"parameter\":\"V\""));
     EXPECT_EQ(table({results, "GR1", "--overshoot", "1e-3:1e-6"}).rows.size(), 4U);
@@ -86,6 +90,7 @@ TEST_F(TripCommand, RefusesWhereThereIsNoTrip) {
     expect_refusal({results, "GR1", "--overshoot", "-1e-4"}, "contacts begin above: give a positive overshoot");
     expect_refusal({results, "GR1", "--overshoot", "1e-4:-1e-6"}, "not of one sign");
     expect_refusal({results, "GR1", "--overshoot", "0"}, "nothing happens");
+    expect_refusal({results, "GR1", "--disturbance", "w=1"}, "'w' is not a state; choose one of q, v, theta");
     expect_refusal({results, "GR1", "--until", "q"}, "it names no level");
     expect_refusal({results, "GR1", "--until", "qq=1"}, "qq");
     expect_refusal({results, "GR1", "--until", "end", "--greatest-speed", "1"}, "--until");
