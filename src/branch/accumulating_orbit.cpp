@@ -35,22 +35,21 @@ std::vector<double> numbers_of(const VectorXd& values) {
 
 } // namespace
 
-AccumulatingOrbit::AccumulatingOrbit(const System& system, const SpecialPoint& grazing, ParameterId along,
-                                     double tolerance)
-    : simulation_(system, {}, {}, integration(tolerance)), flow_(flow_of(simulation_)), grazing_(grazing),
-      along_(along), mode_(grazing.solution.orbit.signature[grazing.segment].mode), first_mode_(mode_) {
-    const Orbit& orbit = grazing.solution.orbit;
+AccumulatingOrbit::AccumulatingOrbit(const System& system, const Orbit& like, std::size_t mode, std::size_t event,
+                                     ParameterId along, double tolerance)
+    : simulation_(system, {}, {}, integration(tolerance)), flow_(flow_of(simulation_)), like_(like), along_(along),
+      mode_(mode), event_(event), first_mode_(mode_) {
     const Model& model = simulation_.model();
-    if (orbit.symmetry)
-        if (const Transition* contact = model.find_transition(mode_, grazing.event)) {
+    if (like.symmetry)
+        if (const Transition* contact = model.find_transition(mode_, event)) {
             const auto transition = static_cast<std::size_t>(contact - model.transitions.data());
-            first_mode_ = image_of(system, *orbit.symmetry, {mode_, SegmentEnd::event, transition}, orbit).mode;
+            first_mode_ = image_of(system, *like.symmetry, {mode_, SegmentEnd::event, transition}, like).mode;
         }
     constexpr int derivatives = 3;
-    heights_.push_back(simulation_.system().event(grazing.event));
-    for (const Expression& rate : rates_of(simulation_.system(), mode_, grazing.event, derivatives))
+    heights_.push_back(simulation_.system().event(event));
+    for (const Expression& rate : rates_of(simulation_.system(), mode_, event, derivatives))
         heights_.push_back(simulation_.system().with_gradient(rate));
-    const Shooting shooting(simulation_, orbit, {along});
+    const Shooting shooting(simulation_, like, {along});
     const auto n = index(model.states.size());
     scales_.resize(n + 1);
     scales_ << shooting.scales().head(n), shooting.scales()[index(shooting.layout().parameter(0))];
@@ -65,7 +64,7 @@ std::vector<double> AccumulatingOrbit::inputs(const VectorXd& state) const {
 }
 
 bool AccumulatingOrbit::set(const VectorXd& unknowns) {
-    parameters_ = grazing_.solution.orbit.parameters;
+    parameters_ = like_.parameters;
     parameters_[along_.place()] = unknowns[parameter_place()];
     if (!unknowns.allFinite())
         return false;
@@ -92,22 +91,16 @@ VectorXd AccumulatingOrbit::field(const VectorXd& state) const {
     return vector_of(simulation_.system().mode(mode_).rates(inputs(state)));
 }
 
-bool AccumulatingOrbit::begin(double parameter, std::size_t count, std::string& problem) {
+bool AccumulatingOrbit::begin(double parameter, std::size_t count, const std::vector<double>& state,
+                              std::string& problem) {
     count_ = count;
     jacobian_.resize(0, 0);
-    const Orbit& orbit = grazing_.solution.orbit;
-    const auto n = index(orbit.starts.front().size());
-    std::vector<double> touch = orbit.starts[grazing_.segment];
-    flow_.set_parameters(orbit.parameters);
-    if (flow_.run(mode_, touch, grazing_.time) != ModeFlow::Ending::done) {
-        problem = "the grazing orbit cannot be followed";
-        return false;
-    }
+    const auto n = index(state.size());
     unknowns_.resize(n + 1);
-    unknowns_ << vector_of(touch), parameter;
+    unknowns_ << vector_of(state), parameter;
     if (!set(unknowns_))
         return false;
-    VectorXd start = vector_of(touch);
+    VectorXd start = vector_of(state);
     if (!project(start) || !(heights(start)[3] > 0)) {
         problem = "near the touch there is no state in which contacts can accumulate just where the motion leaves: the "
                   "height's third rate is not positive there";
@@ -193,7 +186,7 @@ bool AccumulatingOrbit::follow(std::size_t count, Rest& rest) {
     rest.start = unknowns_.head(parameter_place());
     if (!project(rest.start))
         return false;
-    const Orbit& orbit = grazing_.solution.orbit;
+    const Orbit& orbit = like_;
     const System& system = simulation_.system();
     std::vector<double> state = numbers_of(rest.start);
     if (orbit.symmetry)
@@ -207,7 +200,7 @@ bool AccumulatingOrbit::follow(std::size_t count, Rest& rest) {
     std::size_t contacts = 0, contact = 0;
     for (; contact < motion.segments.size(); ++contact)
         if (motion.segments[contact].mode == mode_ && motion.segments[contact].end == SegmentEnd::event &&
-            system.model().transitions[motion.segments[contact].index].event == grazing_.event && ++contacts == count)
+            system.model().transitions[motion.segments[contact].index].event == event_ && ++contacts == count)
             break;
     rest.segments = contact + 1;
     while (rest.segments < motion.segments.size() && motion.segments[rest.segments].mode != mode_)
@@ -337,7 +330,7 @@ Orbit AccumulatingOrbit::shown(double& gap) {
             return std::vector(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rest.segments));
         };
         orbit = {taken(rest.motion.segments), parameters_, taken(rest.motion.starts), taken(rest.motion.durations),
-                 grazing_.solution.orbit.symmetry};
+                 like_.symmetry};
         const VectorXd after = vector_of(rest.motion.starts[rest.segments]);
         gap = 0;
         for (Eigen::Index i = 0; i < n; ++i) {

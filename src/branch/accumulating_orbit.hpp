@@ -18,18 +18,21 @@ namespace graze {
 /// Unknowns are the state in which contacts accumulate and a parameter.
 class AccumulatingOrbit {
 public:
-    /// @param grazing an orbit with many contacts that is near; @param along the parameter
-    AccumulatingOrbit(const System& system, const SpecialPoint& grazing, ParameterId along, double tolerance);
+    /// @param like an orbit that is near, of the same period, symmetry and other parameters
+    /// @param mode in which the event is met; @param along the parameter
+    AccumulatingOrbit(const System& system, const Orbit& like, std::size_t mode, std::size_t event, ParameterId along,
+                      double tolerance);
 
-    /// Takes the parameter's value, a number of contacts, and the state in which the orbit touches.
+    /// Takes the parameter's value, a number of contacts, and a state near that in which they accumulate.
     /// @return false, with the problem, where nothing can accumulate
-    bool begin(double parameter, std::size_t count, std::string& problem);
+    bool begin(double parameter, std::size_t count, const std::vector<double>& state, std::string& problem);
     /// Newton's method. @return false where it does not converge
     bool solve();
     bool has_solution() const { return solved_; }
     /// From now on, with one contact more.
     void add_contact();
 
+    ParameterId along() const { return along_; }
     double parameter() const { return unknowns_[parameter_place()]; }
     /// Of the parameter, by round-off of heights.
     double uncertainty() const { return uncertainty_; }
@@ -66,9 +69,9 @@ private:
 
     Simulation simulation_;
     ModeFlow flow_;
-    SpecialPoint grazing_;
+    Orbit like_;
     ParameterId along_;
-    std::size_t mode_, first_mode_;
+    std::size_t mode_, event_, first_mode_;
     std::vector<Function> heights_; ///< each with its gradient
     std::vector<double> periods_, parameters_;
     Eigen::VectorXd scales_, unknowns_, rows_; ///< of states, then the parameter; of the equations

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace graze {
 
@@ -74,14 +75,14 @@ void require_ladder(std::span<const SpecialPoint> grazings) {
 /// Limits with 2, 3, ... contacts before the self-similar rest: each a solution from which the next begins.
 class Approach {
 public:
-    Approach(const System& system, const SpecialPoint& last, ParameterId along, double tolerance)
-        : orbit_(system, last, along, tolerance) {}
+    explicit Approach(AccumulatingOrbit orbit) : orbit_(std::move(orbit)) {}
 
-    bool run(double guess, std::size_t contacts, ChatterLimit& limit) {
+    /// @param state near that in which contacts accumulate
+    bool run(double guess, std::size_t contacts, const std::vector<double>& state, ChatterLimit& limit) {
         constexpr std::size_t most_contacts = 80, fewest = 6;
         // The more contacts, the better the guess has to be, and the nearer the first solution is to it.
         for (std::size_t first = std::max<std::size_t>(contacts, 4); first > 1; --first) {
-            if (!orbit_.begin(guess, first, limit.problem))
+            if (!orbit_.begin(guess, first, state, limit.problem))
                 return false;
             if (orbit_.solve())
                 break;
@@ -105,13 +106,14 @@ public:
         }
         if (values_.size() < fewest) {
             limit.problem = values_.empty()
-                                ? "no orbit with accumulating contacts was found near the last grazing"
+                                ? "no orbit with accumulating contacts was found"
                                 : fmt::format("orbits with accumulating contacts were found for {} numbers of contacts "
                                               "before the rest, which is too few",
                                               values_.size());
             return false;
         }
         limit.orbit = orbit_.shown(limit.gap);
+        limit.orbit.parameters[orbit_.along().place()] = limit.direct->first;
         return true;
     }
 
@@ -148,13 +150,45 @@ ChatterLimit chatter_limit(const System& system, std::span<const SpecialPoint> g
             guess += last * last / (before - last);
     }
     const auto contacts = grazings.size() - 1;
-    Approach approach(system, grazings.back(), along, tolerance);
-    if (!approach.run(guess, contacts, limit))
+    const SpecialPoint& last = grazings.back();
+    const Orbit& orbit = last.solution.orbit;
+    std::vector<double> touch = orbit.starts[last.segment];
+    ModeFlow flow(system, tolerance);
+    flow.set_parameters(orbit.parameters);
+    if (flow.run(orbit.signature[last.segment].mode, touch, last.time) != ModeFlow::Ending::done) {
+        limit.problem = "the last grazing cannot be followed";
+        return limit;
+    }
+    Approach approach(
+        AccumulatingOrbit(system, orbit, orbit.signature[last.segment].mode, last.event, along, tolerance));
+    if (!approach.run(guess, contacts, touch, limit))
         return limit;
     const double ratio = limit.contacts.ratio;
     const std::array factors{ratio, ratio * limit.contacts.times, ratio * limit.contacts.times * limit.contacts.times};
     if (values.size() > 3)
         limit.extrapolated = extrapolate(values, factors);
+    return limit;
+}
+
+ChatterLimit chatter_limit_near(const System& system, const Orbit& known, std::size_t event, ParameterId along,
+                                double tolerance) {
+    const Model& model = system.model();
+    validate_orbit(model, known);
+    const auto contact = std::find_if(known.signature.rbegin(), known.signature.rend(), [&](const Segment& one) {
+        return one.end == SegmentEnd::event && model.transitions[one.index].event == event;
+    });
+    if (contact == known.signature.rend())
+        throw InputError("the orbit has no contact at this event", "choose the event at which contacts accumulate");
+    std::vector<double> state = known.starts.front();
+    if (known.symmetry) { // whose image of the image is the state itself
+        std::vector<double> inputs = state;
+        inputs.insert(inputs.end(), known.parameters.begin(), known.parameters.end());
+        state = system.symmetry(*known.symmetry).map(inputs);
+    }
+    ChatterLimit limit;
+    constexpr std::size_t contacts = 8;
+    Approach(AccumulatingOrbit(system, known, contact->mode, event, along, tolerance))
+        .run(known.parameters[along.place()], contacts, state, limit);
     return limit;
 }
 

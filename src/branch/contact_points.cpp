@@ -28,14 +28,20 @@ std::size_t own_event(const TestedPoint& point, std::size_t segment) {
     return one.end == SegmentEnd::event ? point.equations.model().transitions[one.index].event : 0;
 }
 
-/// Where a contact without speed is kept, the next segment leaves its surface without speed, too: a least value at its
-/// very start is that contact.
-bool leaves_kept_contact(const TestedPoint& point, const OrbitMinimum& minimum) {
-    constexpr double at_start = 1e-3; // share of the segment
-    const std::size_t segments = point.equations.signature().size();
-    return is_kept(point, PointType::grazing) && point.settings.kept->at_end &&
-           minimum.segment == (point.settings.kept->segment + 1) % segments &&
-           minimum.time < at_start * std::abs(point.solution.orbit.durations[minimum.segment]);
+/// Where contacts are without speed, as on curves of touches, the ends of arcs have least values too: of the next
+/// segment at its very start, and of a segment's own event at its end, which the speed tells of.
+bool is_of_contact(const TestedPoint& point, const OrbitMinimum& minimum) {
+    constexpr double at_start = 1e-3, at_end = 1e-6; // shares of the segment
+    if (!is_kept(point, PointType::grazing))
+        return false;
+    const SpecialPoint& kept = *point.settings.kept;
+    const auto& signature = point.equations.signature();
+    const double duration = std::abs(point.solution.orbit.durations[minimum.segment]);
+    const bool own =
+        signature[minimum.segment].end == SegmentEnd::event && own_event(point, minimum.segment) == minimum.event;
+    return (own && minimum.time > (1 - at_end) * duration) ||
+           (kept.at_end && minimum.segment == (kept.segment + 1) % signature.size() &&
+            minimum.time < at_start * duration);
 }
 
 } // namespace
@@ -45,6 +51,9 @@ bool leaves_kept_contact(const TestedPoint& point, const OrbitMinimum& minimum) 
 void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests) {
     const Certificate& certificate = point.solution.certificate;
     const PointType type = is_kept(point, PointType::grazing) ? PointType::double_grazing : PointType::grazing;
+    // On curves of touches orbits may be simpler ones gone round several times, whose contacts are all without speed:
+    // a speed is known to the root of round-off there.
+    const double noise = type == PointType::double_grazing ? 1e-7 : least_rate;
     for (std::size_t s = 0; s < point.equations.signature().size(); ++s) {
         const bool event = point.equations.signature()[s].end == SegmentEnd::event;
         const bool kept = is_kept(point, PointType::grazing, s, own_event(point, s)) && point.settings.kept->at_end;
@@ -52,7 +61,7 @@ void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests) {
                          .segment = s,
                          .event = own_event(point, s),
                          .value = event && !kept ? certificate.approach_speeds[s] : nothing,
-                         .noise = least_rate * point.equations.usual_rate(point.at, s),
+                         .noise = noise * point.equations.usual_rate(point.at, s),
                          .time = point.solution.orbit.durations[s],
                          .at_end = true,
                          .appears = true});
@@ -64,7 +73,7 @@ void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests) {
             for (const OrbitMinimum& minimum : certificate.minima)
                 if (minimum.segment == s && minimum.event == event && !(minimum.value >= test.value) &&
                     !(kept && (point.settings.kept->at_end || minimum.time == point.settings.kept->time)) &&
-                    !leaves_kept_contact(point, minimum)) {
+                    !is_of_contact(point, minimum)) {
                     test.value = minimum.value;
                     test.noise = smallest_clearance * minimum.size;
                     test.time = minimum.time;
@@ -92,7 +101,7 @@ bool confirm_double_grazing(BranchState& state, SpecialPoint& special, const Bra
         special.type = PointType::grazing;
         special.detail += "; the touch has come to the end of its segment";
     }
-    return true;
+    return special.located;
 }
 
 int rank_of_grazing(const SpecialPoint& point) {

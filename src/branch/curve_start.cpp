@@ -102,8 +102,11 @@ SpecialPoint as_type(const SpecialPoint& point, PointType type) {
         for (const PointKind& kind : point_kinds())
             if (kind.may_be_kept)
                 kept.push_back(kind.short_name);
+        const std::string has = kind_of(type).limits && type != PointType::grazing
+                                    ? "that is known of points of its own type only"
+                                    : multipliers_in_words(point);
         throw InputError(fmt::format("the point of type {} ({}) is no {}: {}", short_name(point.type),
-                                     name_of(point.type), name_of(type), multipliers_in_words(point)),
+                                     name_of(point.type), name_of(type), has),
                          known.empty()
                              ? fmt::format("no curve begins there: choose a point of type {}", fmt::join(kept, ", "))
                              : fmt::format("curves that begin there are {}", quoted(known)));

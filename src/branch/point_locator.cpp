@@ -62,6 +62,11 @@ std::vector<std::pair<TestValue, TestValue>> PointLocator::brackets_of(std::size
     const bool vanished = appears && std::isnan(high.value) && low.value < -noise;
     if (std::abs(low.value) <= noise && std::abs(high.value) <= noise && noise > 0)
         return {};
+    // Orbits that touch several times are often simpler ones gone round more than once, which touch each time: what
+    // comes down to zero touches too, and is met only beyond.
+    const bool is_zero = std::abs(low.value) <= noise || std::abs(high.value) <= noise;
+    if ((*tests_)[test].type == PointType::double_grazing && is_zero && noise > 0)
+        return {};
     if (low.value * high.value < 0 || appeared || vanished || (high.value == 0 && low.value != 0))
         return {{low, high}};
     if (older_.size() != tests_->size() || !(low.value * high.value > 0))

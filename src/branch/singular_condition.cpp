@@ -27,14 +27,16 @@ Eigen::VectorXd units_of_rows(const OrbitEquations& equations, const OrbitEvalua
 
 using Multipliers = std::vector<std::complex<double>>;
 
-/// Two that belong together, conjugate or both real, whose sum and product are nearest to these.
+/// Two that belong together, conjugate or both real, whose sum and product are nearest to these: products by their
+/// ratio, since that of the pair that is kept does not change, sums by their difference.
 std::optional<std::pair<std::complex<double>, std::complex<double>>> pair_near(const Multipliers& all, double sum,
                                                                                double product) {
     std::optional<std::pair<std::complex<double>, std::complex<double>>> result;
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < all.size(); ++i)
         for (std::size_t j = i + 1; j < all.size(); ++j) {
-            const double distance = std::abs(all[i] + all[j] - sum) + std::abs(all[i] * all[j] - product);
+            const double distance = std::abs(std::log(std::abs(all[i] * all[j]) / std::abs(product))) +
+                                    0.5 * std::abs(all[i] + all[j] - sum);
             if ((all[i].imag() == 0) == (all[j].imag() == 0) && distance < nearest) {
                 nearest = distance;
                 result = {all[i], all[j]};
@@ -136,7 +138,7 @@ std::vector<Degeneracy> SingularCondition::degeneracies(const OrbitEquations& eq
 }
 
 TorusCondition::TorusCondition(const OrbitEquations& equations, const OrbitEvaluation& at, double sum, double product)
-    : MultiplierCondition(equations, at), sum_(sum), product_(product) {}
+    : MultiplierCondition(equations, at), sum_(sum), product_(product), kept_sum_(sum), kept_product_(product) {}
 
 std::unique_ptr<OrbitCondition> TorusCondition::of_pair(const OrbitEquations& equations, const OrbitEvaluation& at) {
     const Eigen::VectorXd ones = Eigen::VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
@@ -150,7 +152,7 @@ std::unique_ptr<OrbitCondition> TorusCondition::of_pair(const OrbitEquations& eq
 /// Both are kept together in the plane that they have, in which all is smooth where they meet.
 bool TorusCondition::evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) {
     const CyclicMatrix here = matrix(equations, at, 1);
-    const auto pair = pair_near(here.multipliers(), sum_, product_);
+    const auto pair = pair_near(here.multipliers(), kept_sum_, kept_product_);
     CyclicMatrix::Plane plane;
     if (!pair || !here.plane_near(pair->first, pair->second, plane))
         return false;
@@ -166,6 +168,11 @@ bool TorusCondition::evaluate(const OrbitEquations& equations, const OrbitEvalua
     product_ = plane.map.determinant();
     value_ = product_ - 1;
     return std::isfinite(value_) && gradient_.allFinite();
+}
+
+void TorusCondition::renew(const OrbitEquations&, const OrbitEvaluation&) {
+    kept_sum_ = sum_;
+    kept_product_ = product_;
 }
 
 std::vector<Degeneracy> TorusCondition::degeneracies(const OrbitEquations&, const OrbitEvaluation&) {

@@ -66,15 +66,17 @@ public:
     /// Of the complex pair that is nearest to the unit circle, or of two multipliers that meet there, at 1 or at -1.
     /// @return none when there is none
     static std::unique_ptr<OrbitCondition> of_pair(const OrbitEquations& equations, const OrbitEvaluation& at);
-    /// Follows the pair from one evaluation to the next: it is the one nearest to where it was.
     bool evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) override;
+    /// The pair is the one nearest to where it was here, not at a trial that has led nowhere.
+    void renew(const OrbitEquations& equations, const OrbitEvaluation& at) override;
     /// Resonances 1:1 to 1:4.
     std::vector<Degeneracy> degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at) override;
 
 private:
     TorusCondition(const OrbitEquations& equations, const OrbitEvaluation& at, double sum, double product);
 
-    double sum_, product_; ///< of the pair
+    double sum_, product_;           ///< of the pair where it has been evaluated last
+    double kept_sum_, kept_product_; ///< and at the last solution
 };
 
 } // namespace graze

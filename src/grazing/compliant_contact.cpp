@@ -68,7 +68,7 @@ CompliantContact compliant_contact(const TouchFunctions& functions, const TouchS
         result.reason = std::move(reason);
         return result;
     };
-    const Eigen::VectorXd units = sizes.scales();
+    const Eigen::VectorXd& units = sizes.scales();
     const double force = (difference.value.cwiseQuotient(units) * sizes.time()).norm();
     if (!difference.derivatives.allFinite() || !difference.second.allFinite() || !(force <= small))
         return fail(fmt::format("the field of mode '{}' is another one at the touch", name));

@@ -103,6 +103,7 @@ private:
         std::optional<std::size_t> mode;
         if (!choose(which, mode))
             return false;
+        chain_.ends = !mode && chain_.contacts.size() == 1;
         if (!mode)
             return set_reason(fmt::format("the motion ends at event '{}'", model_.events[event].name));
         enter(*mode);

@@ -14,6 +14,7 @@ namespace graze {
 /// What a contact of vanishing approach speed s sets off, to first order in s: the jump, further modes that last for a
 /// time in proportion to s, their jumps, until the motion is back in the mode in which it was touching.
 struct ContactChain {
+    bool ends = false;                 ///< the first contact ends the motion
     std::string reason;                ///< why it does not come back at once; empty if it does
     Eigen::VectorXd gain;              ///< of the states against the motion without contact at the same time, by s
     double time = 0;                   ///< from the first contact to the return, by s

@@ -95,6 +95,41 @@ bool evaluate(Shooting& shooting, const Orbit& orbit, OrbitEvaluation& at) {
     return shooting.evaluate(shooting.unknowns_of(orbit), at);
 }
 
+/// When the whole of an orbit touches an event, and when it meets it.
+void add_times(CycleMap& map, const System& system, const Orbit& orbit) {
+    const Orbit whole = whole_orbit(system, orbit);
+    map.period = orbit.period();
+    double touched = map.touch.time;
+    for (std::size_t s = 0; s < map.touch.segment; ++s)
+        touched += orbit.durations[s];
+    const auto since = [&](double time) { return within_period(time - touched, map.period); };
+    const auto event_at_end = [&](std::size_t s) -> std::optional<std::size_t> {
+        const Segment& segment = whole.signature[s];
+        if (segment.end != SegmentEnd::event || is_harmless(system, segment.index))
+            return std::nullopt;
+        return system.model().transitions[segment.index].event;
+    };
+    map.touch_times = {0};
+    if (orbit.symmetry) {
+        // The image of the touch may be one of the same event.
+        const std::size_t mode = orbit.signature[map.touch.segment].mode;
+        const Transition* contact = system.model().find_transition(mode, map.touch.event);
+        if (contact) {
+            const auto index = static_cast<std::size_t>(contact - system.model().transitions.data());
+            const Segment image = image_of(system, *orbit.symmetry, {mode, SegmentEnd::event, index}, orbit);
+            if (system.model().transitions[image.index].event == map.touch.event)
+                map.touch_times.push_back(0.5 * map.period);
+        }
+    }
+    double time = 0;
+    for (std::size_t s = 0; s < whole.segments(); ++s) {
+        time += whole.durations[s];
+        const bool is_touch = map.touch.at_end && s % orbit.segments() == map.touch.segment;
+        if (!is_touch && event_at_end(s) == map.touch.event)
+            map.contact_times.push_back(since(time));
+    }
+}
+
 Simulation simulation_of(const System& system, const CycleMapOptions& options) {
     return Simulation(system, {}, {}, integration(options.tolerance));
 }
@@ -208,6 +243,8 @@ CycleMap cycle_map(const System& system, const Orbit& orbit, const OrbitTouch& t
     }
     CycleMap map = cycle_map_of(shooting, at, touch, options.parameter ? std::optional<std::size_t>(0) : std::nullopt);
     map.touches = std::max<std::size_t>(1, touches_in(shooting, at, orbit).size());
+    if (map.exists() || map.contact.ends)
+        add_times(map, system, orbit);
     return map;
 }
 

@@ -133,6 +133,7 @@ DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& to
     map.restitution = chain.restitution;
     map.time = chain.time;
     map.reason = chain.reason;
+    map.ends = chain.ends;
     if (!map.reason.empty())
         return map;
     if (!sizes.is_zero_gain(chain.gain)) {

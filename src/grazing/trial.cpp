@@ -1,5 +1,6 @@
 #include "graze/grazing/trial.hpp"
 
+#include "flow/cyclic.hpp"
 #include "graze/grazing/map_motion.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/trajectory/trajectory.hpp"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace graze {
 
@@ -17,16 +19,18 @@ namespace {
 /// Factors of speeds that count as growth, and as agreement with the map.
 constexpr double growth = 30, alike = 3;
 
-/// Notes the greatest approach speed at one event, or the greatest depth beyond it.
+/// Notes the greatest approach speed at one event, or the greatest depth beyond it, of contacts that come nearer to
+/// the time of the touch than to those at which the orbit meets the event anyway.
 class Greatest : public Observer {
 public:
-    Greatest(const System& system, std::size_t event, std::span<const double> parameters,
+    /// @param start time of the first touch
+    Greatest(const System& system, const CycleMap& map, double start, std::span<const double> parameters,
              const std::function<bool()>& interrupted)
-        : system_(system), event_(event), parameters_(parameters.begin(), parameters.end()), interrupted_(interrupted) {
-    }
+        : system_(system), map_(map), event_(map.contact.touch.event), start_(start),
+          parameters_(parameters.begin(), parameters.end()), interrupted_(interrupted) {}
 
     void contact(const Contact& contact) override {
-        if (contact.event != event_ || contact.kind == ContactKind::touch)
+        if (contact.event != event_ || contact.kind == ContactKind::touch || !is_new(contact.time))
             return;
         ++contacts_;
         speed_ = std::max(speed_, -contact.rate_before);
@@ -35,6 +39,8 @@ public:
         constexpr int parts = 8;
         for (int part = 1; part <= parts; ++part) {
             const double s = step.length * part / parts;
+            if (!is_new(step.start + s))
+                continue;
             std::vector<double> inputs;
             for (std::size_t i = 0; i < system_.states(); ++i)
                 inputs.push_back(step.state(i, s));
@@ -49,8 +55,21 @@ public:
     double depth() const { return depth_; }
 
 private:
+    bool is_new(double time) const {
+        const double phase = within_period(time - start_, map_.period);
+        const auto distance = [&](const std::vector<double>& times) {
+            double least = std::numeric_limits<double>::infinity();
+            for (const double one : times)
+                least = std::min(least, std::abs(without_turns(phase - one, map_.period)));
+            return least;
+        };
+        return distance(map_.touch_times) < distance(map_.contact_times);
+    }
+
     const System& system_;
+    const CycleMap& map_;
     std::size_t event_;
+    double start_;
     std::vector<double> parameters_;
     const std::function<bool()>& interrupted_;
     std::size_t contacts_ = 0;
@@ -95,7 +114,7 @@ public:
         flow.set_parameters(parameters);
         if (flow.run(touch.mode, state, -early) != ModeFlow::Ending::done)
             return motion;
-        Greatest greatest(simulation_.system(), touch.event, parameters, options_.interrupted);
+        Greatest greatest(simulation_.system(), map_, early, parameters, options_.interrupted);
         Trajectory trajectory(simulation_, parameters, greatest);
         trajectory.start(state, touch.mode, 0, static_cast<double>(options_.cycles) * map_.time + early);
         JetSet jets(simulation_, LaneKind::single);
@@ -105,6 +124,8 @@ public:
         motion.followed = motion.ended || ending == Ending::end_time;
         motion.contacts = greatest.contacts();
         motion.largest = rigid_ ? greatest.speed() : greatest.depth();
+        if (!map_.exists())
+            return motion;
         MapMotionOptions map_options;
         map_options.transient = 0;
         map_options.cycles = options_.cycles;
@@ -129,6 +150,17 @@ Trial with_reason(Trial trial, TrialOutcome outcome, std::string reason) {
 
 bool is_near(double one, double other, double factor) {
     return one <= factor * other && other <= factor * one;
+}
+
+/// The first contact must end every motion.
+Trial try_ending(const Experiment& experiment) {
+    Trial trial;
+    for (const double factor : {1.0, 30.0})
+        trial.motions.push_back(experiment.run(-experiment.least_clearance() * factor));
+    const bool all_end =
+        std::all_of(trial.motions.begin(), trial.motions.end(), [](const TrialMotion& motion) { return motion.ended; });
+    return with_reason(trial, all_end ? TrialOutcome::agreed : TrialOutcome::contradicted,
+                       all_end ? "contact ends the motion" : "contact does not end the motion");
 }
 
 /// Growth must be there at every distance, and the nearer the touch the more of it.
@@ -225,6 +257,8 @@ Trial try_verdict(const System& system, const CycleMap& map, const Verdict& verd
     if (map.contact.touch.state.size() != system.states() || map.contact.touch.parameters.size() != system.parameters())
         throw InputError("the map belongs to another model", "give the system that it was made from");
     const Experiment experiment(system, map, parameter, options);
+    if (map.contact.ends)
+        return try_ending(experiment);
     return verdict.outcome == GrazingOutcome::lost ? try_loss(experiment, verdict, options)
                                                    : try_persistence(experiment);
 }

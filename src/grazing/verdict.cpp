@@ -272,7 +272,7 @@ std::string_view name_of(AttractorKind kind) {
 
 Verdict verdict_of(const CycleMap& map, std::size_t shown) {
     Verdict verdict;
-    if (!map.exists()) {
+    if (!map.exists() && !map.contact.ends) {
         verdict.reason = map.reason.empty() ? map.contact.reason : map.reason;
         return verdict;
     }
@@ -281,6 +281,10 @@ Verdict verdict_of(const CycleMap& map, std::size_t shown) {
         verdict.side = *map.clearance_rate < 0 ? 1 : (*map.clearance_rate > 0 ? -1 : 0);
     if (!map.multipliers.empty() && !(std::abs(map.multipliers.front()) < stable)) {
         verdict.reason = "the orbit that touches is not stable itself";
+        return verdict;
+    }
+    if (map.contact.ends) { // whatever else it touches
+        verdict.outcome = GrazingOutcome::lost;
         return verdict;
     }
     if (map.touches > 1) {

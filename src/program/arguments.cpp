@@ -36,6 +36,7 @@ constexpr const char* general_examples = R"(Start here:
   graze run mems-switch --output switch            do one; its results and pictures go to a folder
   graze points results                             special points of branches of periodic orbits
   graze grazing results GR1                        whether a motion that touches persists, or trips
+  graze trip results GR1                           and how fast it trips
   graze COMMAND --help                             all options of a command)";
 
 constexpr const char* check_text = R"(Check a model and say what is in it.

@@ -104,6 +104,14 @@ struct GrazingArguments {
     OutputArguments output;
 };
 
+struct TripArguments {
+    std::string file, point, parameter, until, plot, data;
+    std::vector<std::string> overshoots;
+    std::optional<double> greatest_speed;
+    long cycles = 2000;
+    OutputArguments output;
+};
+
 struct ToleranceArguments {
     std::string file, point, parameter, within, plot, data;
     std::vector<std::string> vary;
@@ -137,6 +145,7 @@ struct Arguments {
     PointsArguments points;
     OrbitArguments orbit;
     GrazingArguments grazing;
+    TripArguments trip;
     LadderArguments ladder;
     ToleranceArguments tolerance;
     CheckArguments check;

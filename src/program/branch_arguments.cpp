@@ -58,6 +58,18 @@ constexpr const char* grazing_examples = R"(Examples:
   graze grazing results chain:GR1 --verify         checked by motions just beyond
   graze grazing results GR1 --format json          every number, with all its digits)";
 
+constexpr const char* trip_text = R"(Say how long it takes until a motion that touches is lost.
+At a touch whose verdict (graze grazing) is that the motion is lost: cycles and time from the touch, with the parameter
+moved beyond by each overshoot, until contacts are hard. The map of a cycle tells it for any overshoot, also for those that
+no simulation can see; the columns with `end` go on by simulation until the end that is asked for, and `simulated_time`
+is simulation alone, where the digits of the parameter allow it. POINT is written as for graze orbit.)";
+
+constexpr const char* trip_examples = R"(Examples:
+  graze trip results GR1                           ten overshoots from 1e-2 to 1e-20 of the parameter's size
+  graze trip results GR1 --until end               until the motion comes to its own end, as by snap-through
+  graze trip results GR1 --overshoot 1e-3:1e-9 --until q=0.9
+  graze trip results GR1 --until end --plot trip.svg)";
+
 constexpr const char* tolerance_text = R"(Say how far a special point depends on the other parameters.
 The value of the run's parameter at which the point lies, such as the voltage at which a switch trips, is a function of
 all other parameters: its exact derivatives and, with --vary, its statistics over devices whose parameters differ, each
@@ -134,6 +146,33 @@ void declare_grazing(CLI::App& app, GrazingArguments& arguments) {
         ->group("Output");
 }
 
+void declare_trip(CLI::App& app, TripArguments& arguments) {
+    CLI::App& command = *app.add_subcommand("trip", trip_text);
+    command.footer(trip_examples);
+    command.add_option("FILE", arguments.file, "Result file, or the folder of a study")->type_name("")->required();
+    command.add_option("POINT", arguments.point, "LABEL, RUN:LABEL or RUN:NUMBER")->type_name("")->required();
+    const char* group = "What to compute";
+    add(command, group, "--parameter", arguments.parameter, "NAME",
+        "That moves the orbit from its touch (the one that its run follows)");
+    add(command, group, "--overshoot", arguments.overshoots, "VALUES",
+        "Of the parameter beyond its touch, with sign: a list, or FIRST:LAST for each decade");
+    auto* until = add(command, group, "--until", arguments.until, "EXPR=LEVEL",
+                      "End there, or where the motion ends by itself: end (contacts as hard as the map can tell)");
+    add(command, group, "--greatest-speed", arguments.greatest_speed, "SPEED",
+        "End at a contact of this approach speed")
+        ->check(CLI::PositiveNumber)
+        ->excludes(until);
+    add(command, group, "--cycles", arguments.cycles, "N", "Cycles that are simulated at most (2000)")
+        ->check(whole_number(1, 1'000'000));
+    declare_output(command, arguments.output);
+    command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal")
+        ->group("Output");
+    group = "Picture";
+    add(command, group, "--plot", arguments.plot, "FILE", "Draw times instead, as svg, png or pdf");
+    add(command, group, "--data", arguments.data, "FILE",
+        "Keep data and commands, to be changed and drawn by `gnuplot FILE`");
+}
+
 void declare_ladder(CLI::App& app, LadderArguments& arguments) {
     CLI::App& command = *app.add_subcommand("ladder", ladder_text);
     command.footer(ladder_examples);
@@ -184,6 +223,7 @@ void declare_branch_commands(CLI::App& app, Arguments& arguments) {
     declare_points(app, arguments.points);
     declare_orbit(app, arguments.orbit);
     declare_grazing(app, arguments.grazing);
+    declare_trip(app, arguments.trip);
     declare_ladder(app, arguments.ladder);
     declare_tolerance(app, arguments.tolerance);
 }

@@ -19,6 +19,7 @@ int points_command(const PointsArguments& arguments, const Console& console);
 int orbit_command(const OrbitArguments& arguments, const Console& console);
 int ladder_command(const LadderArguments& arguments, const Console& console);
 int grazing_command(const GrazingArguments& arguments, const Console& console);
+int trip_command(const TripArguments& arguments, const Console& console);
 int tolerance_command(const ToleranceArguments& arguments, const Console& console);
 
 /// Hands a table to the user: for people the columns that fit a terminal, unless all are asked for.

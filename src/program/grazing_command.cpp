@@ -1,7 +1,8 @@
+#include "graze/grazing/map_motion.hpp"
 #include "graze/grazing/trial.hpp"
-#include "graze/results/stored_orbit.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
+#include "program/touching_orbit.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,10 +17,7 @@ namespace graze {
 namespace {
 
 /// What has been found at a point.
-struct Findings {
-    StoredOrbit stored;
-    std::optional<ParameterId> parameter;
-    CycleMap map;
+struct Findings : TouchingOrbit {
     Verdict verdict;
     std::optional<Trial> trial;
 };
@@ -53,44 +51,6 @@ private:
     JsonObject values_;
 };
 
-/// What moves the orbit from its touch: what was asked for, or what the run follows. On a curve that is first the one
-/// that has been freed, since its own may have nothing to do with the orbit, as the stiffness of a stop has not.
-std::vector<ParameterId> parameters_of(const StoredRun& run, const std::string& asked) {
-    if (!asked.empty())
-        return {run.model.independent_parameter(asked)};
-    std::vector<ParameterId> result;
-    if (run.record.kind == "curve" && run.record.coordinates.size() > 1)
-        result.push_back(run.model.independent_parameter(run.record.coordinates[1].name));
-    if (const std::string followed = followed_parameter(run.record); !followed.empty())
-        result.push_back(run.model.independent_parameter(followed));
-    return result;
-}
-
-/// A grazing is kept with its place; others are looked through for one.
-OrbitTouch touch_of(const System& system, const OrbitRecord& record) {
-    const SpecialPoint& point = record.point;
-    if (point.type == PointType::grazing)
-        return {point.segment, point.event, point.time, point.at_end};
-    const std::vector<OrbitTouch> touches = touches_of(system, point.solution.orbit);
-    if (touches.empty())
-        throw InputError(Place{"POINT", 0, 0}, fmt::format("the orbit at {} touches nothing", title_of(record)),
-                         "choose a grazing (GR), or a point of a curve of them");
-    return touches.front();
-}
-
-/// The map with the first of the parameters that moves the orbit; if none does, with the last.
-void find_map(Findings& found, const System& system, const std::string& asked) {
-    const OrbitTouch touch = touch_of(system, found.stored.record);
-    CycleMapOptions options;
-    found.map = cycle_map(system, found.stored.record.point.solution.orbit, touch, options);
-    for (const ParameterId parameter : parameters_of(found.stored.run, asked)) {
-        found.parameter = options.parameter = parameter;
-        found.map = cycle_map(system, found.stored.record.point.solution.orbit, touch, options);
-        if (found.map.clearance_rate && *found.map.clearance_rate != 0)
-            return;
-    }
-}
-
 std::string contacts_text(const Model& model, const std::vector<std::size_t>& contacts) {
     std::vector<std::string> labels;
     for (const std::size_t contact : contacts)
@@ -120,7 +80,7 @@ void add_contact(Facts& facts, const Model& model, const CycleMap& map) {
 
 void add_cycle(Facts& facts, const Findings& found) {
     const CycleMap& map = found.map;
-    if (!map.exists())
+    if (!map.exists() && !map.contact.ends)
         return;
     facts.add("cycle", map.time, map.half ? "its time (of half the orbit)" : "its time");
     if (!map.multipliers.empty())
@@ -138,6 +98,25 @@ void add_cycle(Facts& facts, const Findings& found) {
     facts.add("first_speed", found.verdict.first_speed, "of the first contact by distance^(1/2)");
     if (found.verdict.side != 0)
         facts.add("contacts_when", found.verdict.side > 0 ? "above" : "below", "the side of it with contacts");
+}
+
+/// What the map settles on at some distances beyond the touch, where something remains.
+void add_attractors(Facts& facts, const Findings& found) {
+    const CycleMap& map = found.map;
+    if (found.verdict.outcome != GrazingOutcome::persists || map.contact.order != MapOrder::square_root ||
+        !map.clearance_rate || *map.clearance_rate == 0 || !found.parameter)
+        return;
+    double size = 0;
+    for (std::size_t i = 0; i < map.gradient.size(); ++i)
+        size += std::abs(map.gradient[i]) * map.scales[i];
+    const double value = map.contact.touch.parameters[found.parameter->place()];
+    for (const int digits : {3, 5, 7}) {
+        const double clearance = -size * std::pow(10.0, -digits);
+        const MapMotion motion = map_motion(map, clearance);
+        facts.add(fmt::format("beyond_1e-{}", digits),
+                  motion.period > 0 ? fmt::format("{} in {}", motion.contacts, motion.period) : "aperiodic",
+                  fmt::format("contacts in cycles at {:.9g}", value + clearance / *map.clearance_rate));
+    }
 }
 
 void add_verdict(Facts& facts, const Findings& found) {
@@ -162,6 +141,7 @@ void add_verdict(Facts& facts, const Findings& found) {
     if (verdict.attractor != AttractorKind::none)
         facts.add("attractors", name_of(verdict.attractor), "that remain");
     facts.add("leading", verdict.leading, "multiplier that decides which");
+    add_attractors(facts, found);
     if (verdict.next_contact > 0)
         facts.add("next_contact", static_cast<double>(verdict.next_contact), "n: cycles from one contact to the next");
     facts.add("growth", verdict.growth, "next approach speed by speed^(1/2)");
@@ -208,9 +188,8 @@ JsonObject heading_of(const ResultFile& file, const Findings& found, const Facts
 
 int grazing_command(const GrazingArguments& arguments, const Console& console) {
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
-    Findings found{find_stored_orbit(file, arguments.point, {"POINT", 0, 0}), {}, {}, {}, {}};
+    Findings found{find_touching_orbit(file, arguments.point, arguments.parameter), {}, {}};
     const System system(found.stored.run.model);
-    find_map(found, system, arguments.parameter);
     found.verdict = verdict_of(found.map);
     if (arguments.verify) {
         if (!found.parameter)

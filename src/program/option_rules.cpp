@@ -63,6 +63,7 @@ const std::vector<Excludes>& exclusions() {
          nullptr,
          {"--quantity", "--samples", "--format", "--digits", "--output", "--all"},
          "name what is drawn by --x and --y, or leave the picture out"},
+        {"trip", "--plot", nullptr, {"--format", "--digits", "--output", "--all"}, "leave the picture out"},
         {"help", "--write", nullptr, {"COMMAND", "--man"}, "leave it out"},
         {"simulate", "--samples", nullptr, {"--every"}, "choose one of them"},
     };
@@ -72,6 +73,7 @@ const std::vector<Excludes>& exclusions() {
 const std::vector<Needs>& needs() {
     static const std::vector<Needs> all{
         {"orbit", "--data", {"--plot"}},
+        {"trip", "--data", {"--plot"}},
         {"simulate", "--event", {"--contact-table", "--contacts", "--minima", "--table", "--plot"}},
     };
     return all;

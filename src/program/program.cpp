@@ -57,6 +57,8 @@ int dispatch(std::span<const std::string> words, const Console& console) {
         return ladder_command(arguments.ladder, console);
     if (app.got_subcommand("grazing"))
         return grazing_command(arguments.grazing, console);
+    if (app.got_subcommand("trip"))
+        return trip_command(arguments.trip, console);
     if (app.got_subcommand("tolerance"))
         return tolerance_command(arguments.tolerance, console);
     return simulate_command(arguments.simulate, console);

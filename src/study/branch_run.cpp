@@ -4,6 +4,7 @@
 #include "graze/branch/switching.hpp"
 #include "graze/orbit/orbit_file.hpp"
 #include "study/branch_part.hpp"
+#include "study/chatter_curve.hpp"
 #include "study/ladder_run.hpp"
 #include "study/start_point.hpp"
 
@@ -245,6 +246,15 @@ bool run_branch(const Study& study, const StudyRun& run, SharedFile& file, const
         const OrbitRecord first =
             file.with([&](const ResultFile& results) { return orbit_to_start_from(*run.start, parent, results); });
         return run_ladder(run, system, first, writer, options);
+    }
+    if (run.kind == RunKind::curve && run.start && run.branch.keeps_point()) {
+        const StudyRun& parent = run_named(study, run.start->run);
+        if (parent.is_branch()) {
+            const OrbitRecord first =
+                file.with([&](const ResultFile& results) { return orbit_to_start_from(*run.start, parent, results); });
+            if (first.point.type == PointType::chatter)
+                return run_chatter_curve(run, system, first.point, writer, options);
+        }
     }
     const std::vector<BranchPart> parts = parts_of(study, run, system, file, options);
     if (parts.empty())

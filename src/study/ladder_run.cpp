@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <vector>
 
 namespace graze {
 
@@ -26,8 +27,18 @@ std::string told(const ChatterLimit& limit) {
     return text;
 }
 
+/// Those of a motion over many contacts. Unknown where they name segments that it has not.
+std::vector<double> monitors_of(const System& system, const Orbit& orbit, const StudyRun& run) {
+    const std::vector<Monitor>& monitors = run.branch.settings.monitors;
+    try {
+        return OrbitMonitors(system, orbit.signature, monitors, run.branch.settings.orbit.tolerance)(orbit);
+    } catch (const InputError&) {
+        return std::vector<double>(monitors.size(), unknown_value);
+    }
+}
+
 /// The limit, as the last point of the ladder.
-SpecialPoint point_of(const ChatterLimit& limit, const SpecialPoint& last, const StudyRun& run) {
+SpecialPoint point_of(const ChatterLimit& limit, const System& system, const SpecialPoint& last, const StudyRun& run) {
     const auto [value, error] = *limit.direct;
     SpecialPoint point = last;
     point.type = PointType::chatter;
@@ -40,7 +51,7 @@ SpecialPoint point_of(const ChatterLimit& limit, const SpecialPoint& last, const
     point.solution.residual = limit.gap;
     point.solution.certificate.admissible = true;
     point.tangent = {};
-    point.monitors.assign(run.branch.settings.monitors.size(), unknown_value);
+    point.monitors = monitors_of(system, limit.orbit, run);
     return point;
 }
 
@@ -81,7 +92,8 @@ bool run_ladder(const StudyRun& run, const System& system, const OrbitRecord& fi
                          "choose another grazing, or wider bounds");
     const ChatterLimit limit = at_place(run.start->place, run, [&] { return ladder.limit(); });
     const SpecialPoint& last = ladder.grazings().back();
-    writer.add("limit", limit.direct ? point_of(limit, last, run) : end_of(last, limit.problem, ladder.why()), false);
+    writer.add("limit", limit.direct ? point_of(limit, system, last, run) : end_of(last, limit.problem, ladder.why()),
+               false);
     writer.end("");
     return true;
 }

@@ -147,7 +147,8 @@ TEST(ChatterLimit, of_an_oscillator_is_that_of_its_closed_form) {
 TEST(ChatterLimit, does_not_depend_on_units) {
     const ChatterLimit known = limit_of_oscillator(chattering_oscillator(0.5, 1, 1), 1, 6);
     ASSERT_TRUE(known.direct) << known.problem;
-    for (const auto [length, time] : {std::pair(1e-9, 1e-6), {1e6, 1.0}, {1e-20, 1e3}, {1e15, 1e3}}) {
+    using Units = std::pair<double, double>;
+    for (const auto& [length, time] : {Units(1e-9, 1e-6), Units(1e6, 1), Units(1e-20, 1e3), Units(1e15, 1e3)}) {
         const ChatterLimit limit = limit_of_oscillator(chattering_oscillator(0.5, length, time), length, 6);
         ASSERT_TRUE(limit.direct) << limit.problem;
         EXPECT_NEAR(limit.direct->first / length, known.direct->first, known.direct->second);

@@ -403,6 +403,46 @@ TEST(Curves, of_torus_points_have_their_closed_form) {
     }
 }
 
+TEST(Curves, of_torus_points_of_the_testbed_go_from_one_resonance_to_the_other) {
+    // Close to where folds end in a touch, where the pair turns by half a circle within a thousandth of the frequency.
+    Model model = load_model("electromagnetic-testbed");
+    model.set_parameter("f", 8);
+    model.set_parameter("V0", 1);
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("V0");
+    settings.least = 0.5;
+    settings.greatest = 8;
+    settings.stop_at = {PointType::grazing, PointType::fold};
+    const Branch free = follow_branch(model, settled(model, "phase0", 600).orbit, settings);
+    ASSERT_EQ(names(free), "GR");
+    const Branch impacting = follow(model, branches_at(model, free.special[0], settings).at(0), settings);
+    const SpecialPoint fold = nearest(impacting, PointType::fold, 2.16);
+    settings.stop_at.clear();
+    settings.free_bounds = {{model.independent_parameter("f"), 5, 9}};
+    SpecialPoint start;
+    for (const int way : {1, -1})
+        for (const SpecialPoint& one : of_type(curve_of(model, fold, settings, "f", way), PointType::resonance_1))
+            start = one;
+    ASSERT_EQ(start.type, PointType::resonance_1);
+    start.type = PointType::torus;
+    std::size_t followed = 0;
+    for (const int way : {1, -1}) {
+        const Branch curve = curve_of(model, start, settings, "f", way);
+        EXPECT_EQ(curve.outcome, BranchOutcome::stopped) << curve.detail;
+        if (curve.points.size() < 2)
+            continue;
+        ++followed;
+        EXPECT_EQ(curve.special.back().type, PointType::resonance_2) << names(curve);
+        for (const PointType type : {PointType::resonance_3, PointType::resonance_4})
+            EXPECT_EQ(of_type(curve, type).size(), 1U) << names(curve);
+        for (const BranchPoint& one : curve.points) {
+            const auto& multipliers = one.solution.half_multipliers;
+            EXPECT_NEAR(std::abs(multipliers.at(0) * multipliers.at(1)), 1, 1e-9);
+        }
+    }
+    EXPECT_EQ(followed, 1U);
+}
+
 TEST(Curves, of_lost_symmetries_have_the_multiplier_of_the_half) {
     Model model = load_model("electromagnetic-testbed");
     model.set_initial("I", 0.1);

@@ -8,7 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <random>
+#include <string>
 
 namespace graze {
 namespace {
@@ -241,6 +245,48 @@ TEST(ShippedGrazings, maps_are_the_same_from_either_side) {
     for (std::size_t k = 0; k < here.size(); ++k)
         EXPECT_NEAR(here[k], there[k], 1e-8);
     EXPECT_NEAR(*one.map.clearance_rate, *other.clearance_rate, 1e-7);
+}
+
+/// Orbits with impacts of their own, which touch once more: from one touch to the next along the branches of random
+/// oscillators.
+TEST(ShippedGrazings, verdicts_hold_for_orbits_that_impact_already) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    std::map<std::string, int> counts;
+    for (int trial = 0; trial < 25; ++trial) {
+        Model model = load_model("impact-oscillator");
+        model.set_parameter("sigma", 0.5);
+        model.set_parameter("zeta", std::pow(10, -2.5 + 2.5 * uniform(random)));
+        model.set_parameter("omega", 0.4 + 4 * uniform(random));
+        model.set_parameter("e", 0.95 * uniform(random));
+        model.set_parameter("amplitude", 0.02);
+        BranchSettings settings;
+        settings.parameter = model.independent_parameter("amplitude");
+        settings.least = 0.001;
+        settings.greatest = 30;
+        settings.steps = 300;
+        Branch branch = follow_branch(model, settled(model, "phase0", 4000).orbit, settings);
+        for (int own = 0; own < 3; ++own) {
+            const auto grazings = of_type(branch, PointType::grazing);
+            const auto touch =
+                std::find_if(grazings.begin(), grazings.end(), [](const SpecialPoint& point) { return !point.at_end; });
+            if (touch == grazings.end())
+                break;
+            const Judged one = judged(model, *touch, "amplitude");
+            EXPECT_NE(one.trial.outcome, TrialOutcome::contradicted) << trial << ' ' << own << ' ' << one.trial.reason;
+            EXPECT_EQ(one.map.contact_times.size(), static_cast<std::size_t>(own));
+            ++counts[fmt::format("{} {} {}", own > 0 ? "impacting" : "free", name_of(one.verdict.outcome),
+                                 name_of(one.trial.outcome))];
+            try {
+                branch = follow(model, branches_at(model, *touch, settings).at(0), settings);
+            } catch (const InputError&) {
+                break; // contacts accumulate beyond
+            }
+        }
+    }
+    EXPECT_GE(counts["free lost agreed"], 20);
+    EXPECT_GE(counts["impacting lost agreed"] + counts["impacting persists agreed"], 6);
+    EXPECT_GE(counts["impacting persists agreed"], 2);
 }
 
 /// The predicted distance of the fold becomes right as the stop becomes stiffer, and the fold comes nearer.

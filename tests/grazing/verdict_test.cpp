@@ -4,6 +4,7 @@
 
 #include "graze/grazing/map_motion.hpp"
 #include "graze/grazing/trial.hpp"
+#include "graze/trajectory/trajectory.hpp"
 #include "linear_oscillator.hpp"
 
 #include <gtest/gtest.h>
@@ -207,6 +208,32 @@ TEST(Verdict, trial_is_undecided_where_numbers_leave_no_room_for_growth) {
     EXPECT_EQ(tried.outcome, TrialOutcome::undecided) << tried.reason;
 }
 
+TEST(Verdict, motion_is_lost_where_contact_ends_it) {
+    const LinearOscillator one = testing::one_degree(1.2, 1, 0.5);
+    const Model model = one.model(R"toml(
+[modes.free]
+watch = ["stop"]
+[modes.free.rates]
+RATES
+[[transitions]]
+mode = "free"
+event = "stop"
+next = "end"
+)toml");
+    const System system(model);
+    const Orbit orbit = one.orbit(model);
+    CycleMapOptions options;
+    options.parameter = model.independent_parameter("force");
+    const CycleMap map = cycle_map(system, orbit, touches_of(system, orbit).at(0), options);
+    EXPECT_FALSE(map.exists());
+    EXPECT_TRUE(map.contact.ends);
+    const Verdict verdict = verdict_of(map);
+    EXPECT_EQ(verdict.outcome, GrazingOutcome::lost);
+    EXPECT_EQ(verdict.side, 1);
+    const Trial trial = try_verdict(system, map, verdict, *options.parameter);
+    EXPECT_EQ(trial.outcome, TrialOutcome::agreed) << trial.reason;
+}
+
 /// Where a linear oscillator changes its class: at sin(d T) = 0 the first projection vanishes.
 TEST(Verdict, classes_of_one_degree_have_their_boundaries) {
     for (const double zeta : {0.02, 0.2, 0.6}) {
@@ -252,6 +279,52 @@ TEST(Verdict, leading_multiplier_says_which_attractors_remain) {
             EXPECT_EQ(near.period, 0U);
         }
     }
+}
+
+/// Contacts at the stop after a transient, over whole cycles.
+class Counter : public Observer {
+public:
+    explicit Counter(double from) : from_(from) {}
+    void contact(const Contact& contact) override {
+        count_ += contact.kind == ContactKind::crossing && contact.time > from_ ? 1 : 0;
+    }
+    std::size_t count() const { return count_; }
+
+private:
+    double from_;
+    std::size_t count_ = 0;
+};
+
+TEST(Verdict, attractors_of_the_map_are_those_of_simulation) {
+    int periodic = 0;
+    for (const double omega : {1.0, 1.5, 2.0, 4.0})
+        for (const double depth : {1e-4, 3e-6, 1e-7}) {
+            const LinearOscillator one = testing::one_degree(1.2, omega, 0.7);
+            const Model model = one.model();
+            const CycleMap map = map_of(one, model);
+            const double clearance = -depth * one.stop();
+            const MapMotion motion = map_motion(map, clearance);
+            if (motion.period == 0)
+                continue;
+            ++periodic;
+            std::vector<double> parameters = map.contact.touch.parameters;
+            parameters[model.independent_parameter("force").place()] += clearance / *map.clearance_rate;
+            // As the map does, from the orbit without contact, which goes with the force: attractors may be several.
+            std::vector<double> start = one.orbit(model).starts[0];
+            for (double& component : start)
+                component *= parameters[model.independent_parameter("force").place()];
+            const Simulation simulation(model, {}, {}, SimulationOptions{.tolerance = 1e-15});
+            // Cycles are counted at the start's phase, which is not that of the touch.
+            constexpr std::size_t transient = 300, rounds = 20;
+            Counter counter(transient * one.period());
+            Trajectory trajectory(simulation, parameters, counter);
+            trajectory.start(start, 0, 0, static_cast<double>(transient + rounds * motion.period) * one.period());
+            JetSet jets(simulation, LaneKind::single);
+            run(trajectory, jets);
+            EXPECT_EQ(counter.count(), rounds * motion.contacts)
+                << omega << ' ' << depth << ": " << motion.contacts << " in " << motion.period;
+        }
+    EXPECT_GE(periodic, 8);
 }
 
 } // namespace

@@ -52,4 +52,11 @@ struct ChatterLimit {
 ChatterLimit chatter_limit(const System& system, std::span<const SpecialPoint> grazings, ParameterId along,
                            double tolerance = 1e-13);
 
+/// The same beside a limit that is known, without its grazings: at other values of other parameters, say.
+/// @param known ChatterLimit::orbit, whose parameters may have been changed and whose first start may have been moved;
+/// @param event at which contacts accumulate
+/// @throws InputError for an orbit that does not fit the system, or has no contact at the event
+ChatterLimit chatter_limit_near(const System& system, const Orbit& known, std::size_t event, ParameterId along,
+                                double tolerance = 1e-13);
+
 } // namespace graze

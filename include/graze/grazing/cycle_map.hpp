@@ -41,8 +41,12 @@ struct CycleMap {
     OrbitTouch touch;
     std::size_t touches = 1; ///< places in which the orbit touches, this one included
     DiscontinuityMap contact;
-    bool half = false;               ///< the orbit is given by its half, after which the cycle ends
-    double time = 0;                 ///< of a cycle
+    bool half = false; ///< the orbit is given by its half, after which the cycle ends
+    double time = 0;   ///< of a cycle
+    /// When the touched event is met in one period of the whole orbit, since the touch: where it touches, at first, and
+    /// where the orbit has contacts of its own.
+    std::vector<double> touch_times, contact_times;
+    double period = 0;               ///< of the whole orbit
     std::vector<std::size_t> active; ///< states that are neither drifting nor unchanged by everything
     std::vector<double> scales;      ///< of those, and the following too
     std::vector<double> matrix;      ///< P, row by row

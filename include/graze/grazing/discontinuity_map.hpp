@@ -40,6 +40,7 @@ std::string_view name_of(MapOrder order);
 struct DiscontinuityMap {
     MapOrder order = MapOrder::none;
     std::string reason; ///< why there is no map, in one line; empty if there is one
+    bool ends = false;  ///< there is none since the first contact ends the motion
     TouchState touch;
     double acceleration = 0;           ///< second rate of the event's function at the touch: positive
     double restitution = 0;            ///< speed after the first jump by that before, as the function's rate has it

@@ -1,0 +1,105 @@
+#include "branch/point_kind.hpp"
+#include "graze/branch/orbit_branch.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+void BranchSettings::validate(const Model& model) const {
+    continuation.validate();
+    orbit.validate();
+    if (parameter.place() >= model.independent_parameters().size())
+        throw InputError("the branch's parameter is not one of the model's", "choose an independent parameter");
+    if (direction != 1 && direction != -1)
+        throw InputError(fmt::format("the direction {} is neither 1 nor -1", direction), "give 1 for up, -1 for down");
+    if ((least && std::isnan(*least)) || (greatest && std::isnan(*greatest)))
+        throw InputError("a bound of the branch is not a number", "give a number, or none");
+    if (least && greatest && !(*least < *greatest))
+        throw InputError("the branch's bounds leave no room", "give the smaller one first");
+    const auto held = static_cast<std::size_t>(
+        std::count_if(monitors.begin(), monitors.end(), [](const Monitor& monitor) { return monitor.fixed; }));
+    if (kept && !kind_of(kept->type).may_be_kept)
+        throw InputError(fmt::format("points of type {} ({}) cannot be followed as a curve", short_name(kept->type),
+                                     name_of(kept->type)),
+                         "choose another point, or hold a monitor that says what it is");
+    if (kept && held + 1 != free.size())
+        throw InputError(fmt::format("{} monitors are fixed, a point of type {} is kept, and {} further parameters are "
+                                     "free",
+                                     held, short_name(kept->type), free.size()),
+                         "free one parameter for the point, and one for each monitor that is fixed");
+    if (!kept && held != free.size())
+        throw InputError(fmt::format("{} monitors are fixed and {} further parameters are free", held, free.size()),
+                         "free one parameter for each monitor that is fixed");
+    for (const Monitor& monitor : monitors) {
+        if (monitor.held)
+            require_finite(*monitor.held, "the value at which a monitor is held");
+        require_finite(monitor.crossings, "a value of a monitor that is to be reported");
+        if (monitor.least && monitor.greatest && !(*monitor.least < *monitor.greatest))
+            throw InputError(fmt::format("the bounds of monitor '{}' leave no room", monitor.name),
+                             "give the smaller one first");
+        if (monitor.kind != Monitor::Kind::multiplier)
+            continue;
+        if (monitor.fixed)
+            throw InputError(fmt::format("monitor '{}' is a multiplier, which cannot be held", monitor.name),
+                             "report values of it, or give bounds at which the branch ends");
+        if (monitor.place < 1 || monitor.place >= model.states.size() + 1)
+            throw InputError(fmt::format("monitor '{}' is multiplier {}, and the model has {} states", monitor.name,
+                                         monitor.place, model.states.size()),
+                             "give 1 for the largest, 2 for the next, ...");
+    }
+    for (const ParameterId one : free)
+        if (one.place() >= model.independent_parameters().size() || one == parameter ||
+            std::count(free.begin(), free.end(), one) > 1)
+            throw InputError("a free parameter is not one of the model's, or there twice", "name other ones");
+    if (work == 0)
+        throw InputError("the points of the branch may take no steps of integration", "allow a million");
+    for (const FreeBounds& bounds : free_bounds) {
+        if (std::count(free.begin(), free.end(), bounds.parameter) == 0)
+            throw InputError("bounds are given of a further parameter that is not free",
+                             "name it among those that are, or give the branch's own parameter its bounds");
+        if ((bounds.least && std::isnan(*bounds.least)) || (bounds.greatest && std::isnan(*bounds.greatest)))
+            throw InputError("a bound of a free parameter is not a number", "give a number, or none");
+        if (bounds.least && bounds.greatest && !(*bounds.least < *bounds.greatest))
+            throw InputError(fmt::format("the bounds of the free parameter '{}' leave no room",
+                                         model.independent_parameters()[bounds.parameter.place()]),
+                             "give the smaller one first");
+    }
+}
+
+bool ends_at_point(BranchOutcome outcome) {
+    return outcome == BranchOutcome::bound || outcome == BranchOutcome::stopped ||
+           outcome == BranchOutcome::unphysical || outcome == BranchOutcome::returned;
+}
+
+std::string_view name_of(BranchOutcome outcome) {
+    switch (outcome) {
+    case BranchOutcome::steps:
+        return "all steps made";
+    case BranchOutcome::bound:
+        return "bound reached";
+    case BranchOutcome::stopped:
+        return "stopped";
+    case BranchOutcome::unphysical:
+        return "unphysical beyond";
+    case BranchOutcome::closed:
+        return "closed";
+    case BranchOutcome::returned:
+        return "returned";
+    case BranchOutcome::no_convergence:
+        return "no convergence";
+    case BranchOutcome::undefined:
+        return "undefined beyond";
+    case BranchOutcome::too_long:
+        return "too much work";
+    case BranchOutcome::no_start:
+        return "no start";
+    }
+    return "";
+}
+
+} // namespace graze

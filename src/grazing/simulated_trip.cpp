@@ -1,0 +1,190 @@
+#include "graze/grazing/trip_time.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "graze/trajectory/trajectory.hpp"
+#include "grazing/trip_start.hpp"
+#include "orbit/certify.hpp"
+#include "orbit/newton.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+/// Waits for the end of a trip.
+class TripWatch : public Observer {
+public:
+    TripWatch(const System& system, const CycleMap& map, double speed, const std::function<bool()>& interrupted)
+        : system_(system), event_(map.touch.event), half_(map.half), level_(speed), interrupted_(interrupted) {}
+
+    void contact(const Contact& contact) override {
+        if (!counts(contact) || contact.kind != ContactKind::crossing || is_over(contact.time))
+            return;
+        ++contacts_;
+        speed_ = -contact.rate_before;
+        if (level_ > 0 && speed_ >= level_)
+            note("speed", contact.time);
+    }
+    void passage(const Passage& passage) override {
+        if (!is_over(passage.time))
+            note("level", passage.time);
+    }
+    bool stop() override { return !ending_.empty() || (interrupted_ && interrupted_()); }
+
+    const std::string& ending() const { return ending_; }
+    double time() const { return time_; }
+    std::size_t contacts() const { return contacts_; }
+    double speed() const { return speed_; }
+
+private:
+    /// The image of a touch, at the end of half of an orbit, may be one of another event.
+    bool counts(const Contact& contact) const {
+        return contact.event == event_ || (half_ && !is_harmless(system_, contact.transition));
+    }
+    bool is_over(double time) const { return !ending_.empty() && time >= time_; }
+    void note(const char* ending, double time) {
+        ending_ = ending;
+        time_ = time;
+    }
+
+    const System& system_;
+    std::size_t event_;
+    bool half_;
+    double level_;
+    const std::function<bool()>& interrupted_;
+    std::string ending_;
+    double time_ = 0, speed_ = 0;
+    std::size_t contacts_ = 0;
+};
+
+Simulation simulation_of(const System& system, const TripEnd& end, const TripOptions& options) {
+    SimulationOptions numbers = integration(options.tolerance);
+    numbers.step_limit = options.step_limit;
+    std::vector<Probe> probes;
+    if (end.quantity) {
+        Probe& probe = probes.emplace_back();
+        probe.name = "end";
+        probe.expression = *end.quantity - end.level;
+    }
+    return Simulation(system, std::move(probes), {}, numbers);
+}
+
+/// A motion that begins beside a touch, at the time of the touch.
+struct Beginning {
+    std::vector<double> state, parameters;
+    TouchMeeting meeting;
+};
+
+TripTime follow(const System& system, const CycleMap& map, Beginning begin, const TripEnd& end,
+                const TripOptions& options) {
+    TripTime trip;
+    const TouchState& touch = map.contact.touch;
+    const Simulation simulation = simulation_of(system, end, options);
+    // What would begin beyond the surface begins before its contact, which is before the touch by speed over
+    // acceleration.
+    double early = 0;
+    if (begin.meeting.gap < 0) {
+        constexpr double earlier = 2, most = 0.05;
+        early = std::min(earlier * begin.meeting.speed / map.contact.acceleration, most * map.time);
+        ModeFlow flow(system, options.tolerance);
+        flow.set_parameters(begin.parameters);
+        if (flow.run(touch.mode, begin.state, -early) != ModeFlow::Ending::done) {
+            trip.ending = "undefined";
+            return trip;
+        }
+    }
+    TripWatch watch(system, map, end.speed, options.interrupted);
+    Trajectory trajectory(simulation, begin.parameters, watch);
+    trajectory.start(begin.state, touch.mode, 0, options.cycles * map.time + early);
+    JetSet jets(simulation, LaneKind::single);
+    graze::run(trajectory, jets);
+    const Outcome& outcome = trajectory.outcome();
+    trip.ended = !watch.ending().empty() || outcome.ending == Ending::singular || outcome.ending == Ending::terminal;
+    trip.ending = watch.ending().empty() ? name_of(outcome.ending) : watch.ending();
+    trip.time = (watch.ending().empty() ? outcome.time : watch.time()) - early;
+    trip.cycles = trip.time / map.time;
+    trip.contacts = watch.contacts();
+    trip.speed = watch.speed();
+    return trip;
+}
+
+Beginning beginning_of(const System& system, const CycleMap& map, ParameterId parameter, double overshoot) {
+    const TouchState& touch = map.contact.touch;
+    if (touch.state.size() != system.states() || touch.parameters.size() != system.parameters())
+        throw InputError("the map belongs to another model", "give the system that it was made from");
+    Beginning begin{touch.state, touch.parameters, {}};
+    begin.parameters[parameter.place()] += overshoot;
+    return begin;
+}
+
+void require_end(const TripEnd& end) {
+    if (!(end.speed >= 0 && std::isfinite(end.speed)))
+        throw InputError(fmt::format("the approach speed {} cannot be reached", end.speed), "give a positive one");
+    if (!std::isfinite(end.level))
+        throw InputError("the level is not finite", "give a number that the quantity passes");
+}
+
+} // namespace
+
+void TripOptions::validate() const {
+    if (!(cycles > 0 && cycles <= 1e9))
+        throw InputError(fmt::format("{} cycles are not possible", cycles), "give up to 1e9");
+    if (!(tolerance >= 1e-16 && tolerance <= 1e-2))
+        throw InputError(fmt::format("the tolerance {} is out of range", tolerance), "give 1e-16 to 1e-2");
+    if (step_limit == 0)
+        throw InputError("no steps are allowed", "give a limit of 1 or more");
+}
+
+double least_overshoot(const CycleMap& map, ParameterId parameter) {
+    if (!map.exists() || !map.clearance_rate || *map.clearance_rate == 0)
+        throw InputError("no parameter is known that moves the orbit from its touch", "give a map with one");
+    double size = 0;
+    const TouchState& touch = map.contact.touch;
+    for (std::size_t i = 0; i < touch.state.size(); ++i)
+        size += std::abs(map.contact.gradient[i]) * touch.scales[i];
+    // The touch itself is known to some digits less than numbers have.
+    constexpr double digits = 1e-15, enough = 1e3, of_states = 1e-11;
+    return std::max(of_states * size / std::abs(*map.clearance_rate),
+                    enough * digits * std::abs(touch.parameters[parameter.place()]));
+}
+
+TripTime simulated_trip(const System& system, const CycleMap& map, ParameterId parameter, double overshoot,
+                        const TripEnd& end, const TripOptions& options) {
+    options.validate();
+    require_end(end);
+    require_trip(map, overshoot, options.disturbance);
+    Beginning begin = beginning_of(system, map, parameter, overshoot);
+    for (std::size_t i = 0; i < options.disturbance.size(); ++i)
+        begin.state[i] += options.disturbance[i];
+    begin.meeting = meeting_of(map, overshoot, options.disturbance);
+    return follow(system, map, std::move(begin), end, options);
+}
+
+TripTime continued_trip(const System& system, const CycleMap& map, ParameterId parameter, double overshoot,
+                        const PredictedTrip& predicted, const TripEnd& end, const TripOptions& options) {
+    if (predicted.handed_cycles == 0)
+        return simulated_trip(system, map, parameter, overshoot, end, options);
+    options.validate();
+    require_end(end);
+    require_trip(map, overshoot, options.disturbance);
+    if (predicted.handed.size() != map.active.size())
+        throw InputError("the prediction belongs to another map", "give the map that it was made from");
+    Beginning begin = beginning_of(system, map, parameter, overshoot);
+    begin.meeting.gap = *map.clearance_rate * overshoot;
+    for (std::size_t i = 0; i < map.active.size(); ++i) {
+        begin.state[map.active[i]] += map.steady[i] * overshoot + predicted.handed[i];
+        begin.meeting.gap += map.gradient[i] * predicted.handed[i];
+    }
+    begin.meeting.speed = std::sqrt(std::max(0.0, -2 * map.contact.acceleration * begin.meeting.gap));
+    TripTime trip = follow(system, map, std::move(begin), end, options);
+    trip.time += predicted.handed_cycles * map.time;
+    trip.cycles = trip.time / map.time;
+    trip.contacts += predicted.handed_contacts;
+    return trip;
+}
+
+} // namespace graze

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "graze/flow/system.hpp"
+#include "graze/study/runner.hpp"
+#include "study/branch_part.hpp"
+
+namespace graze {
+
+/// Follows an onset of chatter in two parameters, by steps in the first of them: at each the second one is solved for.
+/// It so ends where it would turn in the first. A run of kind curve.
+/// @return whether it was finished rather than interrupted
+/// @throws InputError when none is found at the first point
+bool run_chatter_curve(const StudyRun& run, const System& system, const SpecialPoint& first, PointWriter& writer,
+                       const RunnerOptions& options);
+
+} // namespace graze

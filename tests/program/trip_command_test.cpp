@@ -1,0 +1,106 @@
+// How long motions that touch take until they are lost, as the program tells it.
+
+#include "run_graze.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+namespace graze::testing {
+
+using ::testing::HasSubstr;
+
+namespace {
+
+struct TripCommand : public ::testing::Test {
+    std::string run_only(const std::string& study, const std::vector<std::string>& runs) {
+        std::vector<std::string> words{"run", study, "--output", folder / "results", "--quiet"};
+        for (const std::string& run : runs) {
+            words.emplace_back("--only");
+            words.push_back(run);
+        }
+        const Printed printed = run_graze(words);
+        EXPECT_EQ(printed.code, 0) << printed.err;
+        return folder / "results";
+    }
+    Csv table(std::vector<std::string> words, int code = 0) {
+        words.insert(words.begin(), "trip");
+        words.insert(words.end(), {"--format", "csv"});
+        const Printed printed = run_graze(words);
+        EXPECT_EQ(printed.code, code) << printed.err;
+        return Csv(printed.out);
+    }
+    void expect_refusal(std::vector<std::string> words, const std::string& message) {
+        words.insert(words.begin(), "trip");
+        const Printed printed = run_graze(words);
+        EXPECT_EQ(printed.code, 2);
+        EXPECT_THAT(printed.err, HasSubstr(message));
+        EXPECT_EQ(printed.out, "");
+    }
+    Folder folder;
+};
+
+double number(const Csv& csv, std::size_t row, const char* column) {
+    return std::stod(csv.text(row, column));
+}
+
+} // namespace
+
+TEST_F(TripCommand, TellsTheTimesOfTheSwitch) {
+    const std::string results = run_only("mems-switch", {"free", "no_impact"});
+    const Csv csv = table({results, "GR1"});
+    ASSERT_EQ(csv.rows.size(), 10U);
+    for (std::size_t row = 0; row < csv.rows.size(); ++row) {
+        // The shipped parameter is 0.2: 1e-2 to 1e-20 of its decade.
+        EXPECT_NEAR(std::log10(number(csv, row, "overshoot")), -3 - 2 * static_cast<double>(row), 1e-12);
+        EXPECT_EQ(csv.text(row, "ending"), "speed");
+        // One turn of the phase moves as far as contacts change it: a few hundredths of a cycle at the last.
+        EXPECT_NEAR(number(csv, row, "end_cycles"), number(csv, row, "cycles"), 0.06);
+        EXPECT_EQ(csv.text(row, "simulated_time").empty(), row > 4) << row;
+    }
+    // The published motion begins 1e-4 beyond a touch of all digits; that of the branch has some less.
+    const Csv published = table({results, "no_impact:GR1", "--overshoot", "1e-4", "--until", "end"});
+    ASSERT_EQ(published.rows.size(), 1U);
+    EXPECT_NEAR(number(published, 0, "simulated_time"), 27.31773570163, 1e-6);
+    EXPECT_EQ(published.text(0, "ending"), "singular");
+    const Csv level = table({results, "GR1", "--overshoot", "1e-4", "--until", "q=0.9"});
+    EXPECT_EQ(level.text(0, "ending"), "level");
+    EXPECT_LT(number(level, 0, "end_time"), 27.31773570163);
+    const Csv speed = table({results, "GR1", "--overshoot", "1e-4", "--greatest-speed", "0.001"});
+    EXPECT_NEAR(number(speed, 0, "end_time"), 6.267394614702, 1e-6);
+    const Printed json = run_graze({"trip", results, "GR1", "--overshoot", "1e-3:1e-6", "--format", "json"});
+    EXPECT_THAT(json.out, HasSubstr("\"parameter\":\"V\""));
+    EXPECT_EQ(table({results, "GR1", "--overshoot", "1e-3:1e-6"}).rows.size(), 4U);
+}
+
+TEST_F(TripCommand, SaysWhereTheEndHasNotCome) {
+    const std::string results = run_only("mems-switch", {"free", "no_impact"});
+    const Csv csv = table({results, "GR1", "--overshoot", "1e-6", "--until", "end", "--cycles", "2"}, 3);
+    EXPECT_EQ(csv.text(0, "ending"), "end-time");
+    EXPECT_EQ(csv.text(0, "end_time"), "");
+}
+
+TEST_F(TripCommand, RefusesWhereThereIsNoTrip) {
+    const std::string results = run_only("mems-switch", {"free", "no_impact"});
+    expect_refusal({results, "no_impact:EP1"}, "touches nothing");
+    expect_refusal({results, "GR1", "--overshoot", "-1e-4"}, "contacts begin above: give a positive overshoot");
+    expect_refusal({results, "GR1", "--overshoot", "1e-4:-1e-6"}, "not of one sign");
+    expect_refusal({results, "GR1", "--overshoot", "0"}, "nothing happens");
+    expect_refusal({results, "GR1", "--until", "q"}, "it names no level");
+    expect_refusal({results, "GR1", "--until", "qq=1"}, "qq");
+    expect_refusal({results, "GR1", "--until", "end", "--greatest-speed", "1"}, "--until");
+    expect_refusal({results, "GR1", "--data", "file"}, "--plot");
+    const std::string beam = run_only("microbeam", {"free", "no_contact"});
+    expect_refusal({beam, "no_contact:GR1"}, "POINT: the verdict is folds: there is no trip");
+}
+
+TEST_F(TripCommand, DrawsTimes) {
+    const std::string results = run_only("mems-switch", {"free", "no_impact"});
+    const Printed printed = run_graze(
+        {"trip", results, "GR1", "--until", "end", "--plot", folder / "trip.svg", "--data", folder / "trip.gp"});
+    EXPECT_EQ(printed.code, 0) << printed.err;
+    EXPECT_THAT(contents(folder / "trip.svg"), HasSubstr("</svg>"));
+    EXPECT_THAT(contents(folder / "trip.gp"), HasSubstr("logscale x"));
+}
+
+} // namespace graze::testing

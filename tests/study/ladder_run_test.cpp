@@ -1,0 +1,148 @@
+#include "graze/branch/ladder.hpp"
+#include "graze/study/runner.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace graze {
+namespace {
+
+using testing::HasSubstr;
+
+/// A slow force presses the mass against the stop: what does it do before it stays there?
+const std::string free_text = R"(
+name = "s"
+model = "impact-oscillator"
+set = { zeta = 0.5, omega = 0.3, e = 0.5, sigma = 1.5 }
+[runs.free]
+kind = "continue"
+along = { sigma = [0.1, 3] }
+direction = "down"
+)";
+const std::string ladder_text = R"(
+[runs.ladder]
+kind = "ladder"
+start = { run = "free", point = "GR1" }
+along = { sigma = [0.1, 3] }
+rungs = 6
+)";
+
+class LadderRun : public testing::Test {
+protected:
+    void SetUp() override {
+        path_ = (std::filesystem::temp_directory_path() /
+                 ("graze-ladder-" + std::to_string(getpid()) + "-" +
+                  testing::UnitTest::GetInstance()->current_test_info()->name() + ".sqlite"))
+                    .string();
+    }
+    void TearDown() override {
+        for (const char* ending : {"", "-wal", "-shm", ".lock"})
+            std::filesystem::remove(path_ + ending);
+    }
+    std::vector<RunReport> run(const std::string& text) {
+        ResultFile file(path_, ResultFile::Access::write);
+        return run_study(parse_study(text, "s.toml"), file, {});
+    }
+    std::string refusal(const std::string& text) {
+        try {
+            for (const RunReport& report : run(text))
+                if (!report.problem.empty())
+                    return report.problem + "; " + report.remedy;
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    }
+    std::string path_;
+};
+
+TEST_F(LadderRun, keeps_all_grazings_and_where_they_lead) {
+    run(free_text + ladder_text);
+    const ResultFile file(path_, ResultFile::Access::read);
+    ASSERT_EQ(file.find_run("ladder")->status, RunStatus::complete);
+    double before = 2;
+    for (int k = 1; k <= 6; ++k) {
+        const auto grazing = file.orbit("ladder", "GR" + std::to_string(k));
+        ASSERT_TRUE(grazing) << k;
+        EXPECT_EQ(grazing->part, "rung " + std::to_string(k));
+        EXPECT_LT(grazing->point.parameter, before);
+        before = grazing->point.parameter;
+        // One contact more each; the first one touches between sections.
+        EXPECT_EQ(grazing->point.solution.orbit.segments(), k == 1 ? 1u : static_cast<unsigned>(k - 1));
+    }
+    EXPECT_FALSE(file.orbit("ladder", std::string("GR7")));
+    EXPECT_EQ(file.orbit("ladder", std::string("GR1"))->point.parameter,
+              file.orbit("free", std::string("GR1"))->point.parameter);
+    const auto limit = file.orbit("ladder", std::string("CH1"));
+    ASSERT_TRUE(limit);
+    EXPECT_EQ(limit->part, "limit");
+    EXPECT_NEAR(limit->point.parameter, 0.883314285620, 1e-10); // see the test of ChatterLimit
+    EXPECT_LT(limit->point.bracket.second - limit->point.bracket.first, 1e-10);
+    EXPECT_THAT(limit->point.detail, HasSubstr("e = 0.5"));
+    EXPECT_LT(limit->point.solution.residual, 1e-3);
+}
+
+TEST_F(LadderRun, its_limit_is_followed_in_two_parameters) {
+    const std::string curve = R"(
+[runs.onset]
+kind = "curve"
+start = { run = "ladder", point = "CH1" }
+along = { omega = [0.28, 0.34], sigma = [0.1, 3] }
+direction = "both"
+)";
+    run(free_text + ladder_text + curve);
+    const ResultFile file(path_, ResultFile::Access::read);
+    const auto orbits = file.orbits("onset", false);
+    ASSERT_GT(orbits.size(), 20u);
+    EXPECT_EQ(orbits.front().label, "CH1");
+    EXPECT_THAT(orbits.back().point.detail, HasSubstr("bound: omega = 0.28"));
+    EXPECT_FALSE(file.orbit("onset", std::string("CH2")));
+    // At both ends it is the limit of a ladder of its own.
+    const Model model = parse_study(free_text, "s.toml").runs.front().model;
+    const std::size_t omega = model.independent_parameter("omega").place(),
+                      sigma = model.independent_parameter("sigma").place();
+    for (const char* end : {"EP1", "EP2"}) {
+        const auto point = file.orbit("onset", std::string(end));
+        ASSERT_TRUE(point) << end;
+        const std::vector<double>& parameters = point->point.solution.orbit.parameters;
+        EXPECT_NEAR(parameters[omega], end == std::string("EP1") ? 0.34 : 0.28, 1e-12);
+        Model there = model;
+        there.set_parameter("omega", parameters[omega]);
+        AttractorOptions settle;
+        settle.section = there.sections.front().name;
+        BranchSettings settings;
+        settings.parameter = there.independent_parameter("sigma");
+        settings.direction = -1;
+        settings.least = 0.1;
+        settings.stop_at = {PointType::grazing};
+        const Branch branch = follow_branch(there, find_orbit(there, settle).orbit, settings);
+        const ChatterLimit limit = climb(there, branch.special.back(), settings, 5).limit();
+        ASSERT_TRUE(limit.direct) << limit.problem;
+        EXPECT_NEAR(parameters[sigma], limit.direct->first, 1e-10);
+    }
+}
+
+TEST_F(LadderRun, says_what_it_needs_and_what_it_cannot_do) {
+    const auto with = [&](const std::string& text) {
+        return refusal(free_text + "[runs.l]\nkind = \"ladder\"\n" + text);
+    };
+    const std::string start = "start = { run = \"free\", point = \"GR1\" }\n", along = "along = { sigma = [0.1, 3] }\n";
+    EXPECT_THAT(with(along), HasSubstr("does not say where the ladder begins"));
+    EXPECT_THAT(with(start), HasSubstr("does not say what is followed"));
+    EXPECT_THAT(with(start + along + "rungs = 1"), HasSubstr("give a whole number from 2 to 1000"));
+    EXPECT_THAT(with(start + along + "stop = [\"GR\"]"), HasSubstr("runs of kind \"ladder\" have no `stop`"));
+    EXPECT_THAT(with(start + along + "set = { e = 0.6 }"), HasSubstr("have no `set`"));
+    EXPECT_THAT(with(start + "along = { sigma = [2, 3] }"), HasSubstr("lies outside of its bounds"));
+    EXPECT_THAT(with("start = { run = \"free\", point = \"EP1\" }\n" + along), HasSubstr("touches nothing"));
+    // Nothing grazes again between these bounds.
+    EXPECT_THAT(with(start + "along = { sigma = [1.04, 3] }\nrungs = 5"), HasSubstr("no ladder begins there: bound"));
+}
+
+} // namespace
+} // namespace graze
