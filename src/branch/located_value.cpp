@@ -206,8 +206,8 @@ private:
                     break;
             }
             if (!improved) {
-                problem = tried_.problem.empty() ? fmt::format("residuals do not fall below {:.3g}", residual)
-                                                 : tried_.problem;
+                problem =
+                    tried_.problem.empty() ? "residuals do not fall" : tried_.problem; // the same for many devices
                 return false;
             }
             std::swap(at_, tried_);
@@ -240,8 +240,7 @@ private:
             return false;
         const double correction = size_of(unknowns - predicted), way = size_of(change);
         if (correction > std::max(largest_part * way, no_way)) {
-            result.problem = fmt::format("what Newton's method leads to is {:.3g} of the way off what is predicted",
-                                         correction / way);
+            result.problem = "Newton's method leads too far away from what is predicted";
             return false;
         }
         return true;
