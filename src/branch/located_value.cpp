@@ -18,7 +18,8 @@ namespace graze {
 
 namespace {
 
-constexpr int most_halvings = 8; ///< of one correction
+constexpr int most_halvings = 8;    ///< of one correction
+constexpr double longest_way = 0.5; ///< of one part, in units of the orbit's sizes
 
 std::vector<ParameterId> with_control(const Model& model, ParameterId control, const std::vector<ParameterId>& others) {
     const std::vector<std::string> names = model.independent_parameters();
@@ -80,6 +81,7 @@ public:
                 "choose another point, or another parameter whose value is to follow");
         neighbour_ = at_;
         point_.solution.orbit = equations_.orbit_of(at_.unknowns);
+        own_ = point_;
         make_condition(neighbour_);
         if (!condition_->evaluate(equations_, neighbour_) || !directions_at(neighbour_, neighbour_directions_))
             throw InputError(fmt::format("the value of {} does not follow from the other parameters",
@@ -97,7 +99,7 @@ public:
     double value() const { return value_; }
     const std::vector<double>& values() const { return values_; }
     const std::vector<double>& derivatives() const { return derivatives_; }
-    const Orbit& orbit() const { return point_.solution.orbit; }
+    const Orbit& orbit() const { return own_.solution.orbit; }
 
     LocatedSolution solve(std::span<const double> values) {
         require_size(values.size(), others_.size(), "values of parameters");
@@ -113,8 +115,10 @@ public:
         }
         if (result.parts > 0)
             describe(result);
-        if (moved) // as it was, whatever has been asked for
+        if (moved) { // as it was, whatever has been asked for
+            point_ = own_;
             make_condition(neighbour_);
+        }
         return result;
     }
 
@@ -202,8 +206,8 @@ private:
                     break;
             }
             if (!improved) {
-                problem = tried_.problem.empty() ? fmt::format("residuals do not fall below {:.3g}", residual)
-                                                 : tried_.problem;
+                problem =
+                    tried_.problem.empty() ? "residuals do not fall" : tried_.problem; // the same for many devices
                 return false;
             }
             std::swap(at_, tried_);
@@ -224,11 +228,11 @@ private:
     /// to another solution.
     bool go(const OrbitEvaluation& from, const Eigen::MatrixXd& directions, const Eigen::VectorXd& wanted,
             LocatedSolution& result) {
-        constexpr double longest = 0.5, no_way = 1e-6, largest_part = 0.3; // in units of the orbit's sizes
+        constexpr double no_way = 1e-6, largest_part = 0.3;
         const Eigen::VectorXd change = directions * (wanted - from.unknowns.tail(wanted.size()));
         const Eigen::VectorXd predicted = from.unknowns + change;
         Eigen::VectorXd unknowns = predicted;
-        if (!(size_of(change) <= longest)) {
+        if (!(size_of(change) <= longest_way)) {
             result.problem = "the orbit changes too much on the way";
             return false;
         }
@@ -236,10 +240,35 @@ private:
             return false;
         const double correction = size_of(unknowns - predicted), way = size_of(change);
         if (correction > std::max(largest_part * way, no_way)) {
-            result.problem = fmt::format("what Newton's method leads to is {:.3g} of the way off what is predicted",
-                                         correction / way);
+            result.problem = "Newton's method leads too far away from what is predicted";
             return false;
         }
+        return true;
+    }
+
+    /// A touch that has left its segment is looked for in the others of the predicted orbit.
+    bool pass_on(const OrbitEvaluation& from, const Eigen::MatrixXd& directions, const Eigen::VectorXd& wanted) {
+        constexpr double near = 1e-2; // of the function's size along the arc
+        if (point_.type != PointType::grazing || point_.at_end)
+            return false;
+        const Eigen::VectorXd change = directions * (wanted - from.unknowns.tail(wanted.size()));
+        if (!(size_of(change) <= longest_way) || !equations_.evaluate(from.unknowns + change, at_))
+            return false;
+        double nearest = near;
+        bool found = false;
+        SpecialPoint passed = point_;
+        passed.solution.orbit = equations_.orbit_of(at_.unknowns);
+        for (const OrbitMinimum& minimum : certify(equations_, at_).minima)
+            if (minimum.event == point_.event && std::abs(minimum.value) < nearest * minimum.size) {
+                nearest = std::abs(minimum.value) / minimum.size;
+                passed.segment = minimum.segment;
+                passed.time = minimum.time;
+                found = true;
+            }
+        if (!found || passed.segment == point_.segment)
+            return false;
+        point_ = std::move(passed);
+        make_condition(at_);
         return true;
     }
 
@@ -256,7 +285,8 @@ private:
                 part = std::min(part, 1 - done);
                 const Eigen::VectorXd wanted =
                     done + part < 1 ? Eigen::VectorXd(start + (done + part) * (target - start)) : target;
-                if (!go(from, directions, wanted, result))
+                if (!go(from, directions, wanted, result) &&
+                    !(pass_on(from, directions, wanted) && go(from, directions, wanted, result)))
                     break;
                 ++result.parts;
                 from = at_;
@@ -285,7 +315,7 @@ private:
     }
 
     LocatedValueOptions options_;
-    SpecialPoint point_;
+    SpecialPoint point_, own_; ///< whose condition is held; that of the nominal solution
     std::vector<ParameterId> others_;
     ParameterId control_;
     Simulation simulation_;

@@ -109,6 +109,62 @@ TEST(LocatedValue, of_the_mems_switch_is_the_published_one_and_its_derivatives_a
     }
 }
 
+TEST(LocatedValue, of_the_microactuator_has_the_derivatives_that_its_dimensions_demand) {
+    // alpha V^2 / d^2 is a force: V goes with d^(3/2) when all lengths do, with the root of all forces, and with
+    // alpha^(-1/2).
+    Model model = load_model("impact-microactuator");
+    model.set_parameter("V", 0.1);
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("V");
+    settings.least = 0;
+    settings.greatest = 3;
+    settings.stop_at = {PointType::grazing};
+    const Branch branch = follow_branch(model, settled(model, "longest", 4000).orbit, settings);
+    ASSERT_FALSE(branch.special.empty());
+    ASSERT_EQ(branch.special.back().type, PointType::grazing);
+    const LocatedValue touch(model, branch.special.back(), settings.parameter,
+                             parameters_but(model, settings.parameter));
+    const std::vector<std::string> names = model.independent_parameters();
+    const auto relative = [&](const std::vector<std::string>& of) {
+        double sum = 0;
+        for (std::size_t i = 0; i < touch.others().size(); ++i)
+            for (const std::string& name : of)
+                if (names[touch.others()[i].place()] == name)
+                    sum += touch.derivatives()[i] * touch.values()[i] / touch.value();
+        return sum;
+    };
+    EXPECT_NEAR(relative({"d", "delta"}), 1.5, 1e-10);
+    EXPECT_NEAR(relative({"k", "c", "m1", "m2", "N"}), 0.5, 1e-10);
+    EXPECT_NEAR(relative({"alpha"}), -0.5, 1e-11);
+}
+
+TEST(LocatedValue, follows_a_touch_into_another_segment) {
+    Model model;
+    const SpecialPoint point = mems_grazing(model);
+    const ParameterId voltage = model.independent_parameter("V"), frequency = model.independent_parameter("omega");
+    LocatedValue touch(model, point, voltage, {frequency});
+    // Below 0.976 the touch comes before the voltage is switched on.
+    const LocatedSolution found = touch(std::vector{0.96});
+    ASSERT_TRUE(found.found) << found.problem;
+    EXPECT_TRUE(found.admissible) << found.problem;
+    // The same by the branch of that frequency.
+    model.set_parameter("omega", 0.96);
+    BranchSettings settings;
+    settings.parameter = voltage;
+    settings.greatest = 0.4;
+    settings.stop_at = {PointType::grazing};
+    model.set_parameter("V", 0.1);
+    const Branch branch = follow_branch(model, settled(model, "phase0").orbit, settings);
+    ASSERT_FALSE(branch.special.empty());
+    ASSERT_EQ(branch.special.back().type, PointType::grazing);
+    const auto mode_of = [](const SpecialPoint& one) { return one.solution.orbit.signature[one.segment].mode; };
+    EXPECT_NE(mode_of(branch.special.back()), mode_of(point));
+    EXPECT_NEAR(found.value, branch.special.back().parameter, 1e-12);
+    // And it is where it was.
+    EXPECT_EQ(touch(std::vector{1.01}).value,
+              LocatedValue(load_model("mems-switch"), point, voltage, {frequency})(std::vector{1.01}).value);
+}
+
 TEST(LocatedValue, follows_folds_and_flips_too) {
     // x' = p - x^2 + a y, y' = -y: a fold at p = b (of a shift); as an orbit of a phase.
     const Model model = model_from(R"toml(
