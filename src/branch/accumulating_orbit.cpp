@@ -20,6 +20,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+/// Of the integration: errors of flights grow with each contact, and are no part of the error that is told.
+constexpr double finest = 1e-13;
 /// Share of a round for which the surface is left before contacts are looked for: there the height is of third order.
 constexpr double leaving = 1e-3;
 /// Of a round: so long is followed, as contacts of a guess may come late.
@@ -37,8 +39,8 @@ std::vector<double> numbers_of(const VectorXd& values) {
 
 AccumulatingOrbit::AccumulatingOrbit(const System& system, const Orbit& like, std::size_t mode, std::size_t event,
                                      ParameterId along, double tolerance)
-    : simulation_(system, {}, {}, integration(tolerance)), flow_(flow_of(simulation_)), like_(like), along_(along),
-      mode_(mode), event_(event), first_mode_(mode_) {
+    : simulation_(system, {}, {}, integration(std::min(tolerance, finest))), flow_(flow_of(simulation_)), like_(like),
+      along_(along), mode_(mode), event_(event), first_mode_(mode_) {
     const Model& model = simulation_.model();
     if (like.symmetry)
         if (const Transition* contact = model.find_transition(mode_, event)) {
@@ -313,6 +315,10 @@ bool AccumulatingOrbit::solve() {
     uncertainty_ =
         rest.uncertainty * scales_[parameter_place()] / std::abs(jacobian_(values.size() - 1, parameter_place()));
     solved_ = last < enough && std::isfinite(uncertainty_);
+    if (solved_) {
+        solution_ = unknowns_;
+        solution_count_ = count_;
+    }
     return solved_;
 }
 
@@ -320,17 +326,18 @@ void AccumulatingOrbit::add_contact() {
     ++count_;
 }
 
-Orbit AccumulatingOrbit::shown(double& gap) {
+std::optional<Orbit> AccumulatingOrbit::shown(double& gap) {
     constexpr double little = 1e-4; // of a round
     const auto n = parameter_place();
     Rest rest;
-    Orbit orbit;
-    for (std::size_t count = 2; count <= count_ && set(unknowns_) && follow(count, rest); ++count) {
+    std::optional<Orbit> result;
+    unknowns_ = solution_;
+    for (std::size_t count = 2; count <= solution_count_ && set(unknowns_) && follow(count, rest); ++count) {
         const auto taken = [&](const auto& values) {
             return std::vector(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rest.segments));
         };
-        orbit = {taken(rest.motion.segments), parameters_, taken(rest.motion.starts), taken(rest.motion.durations),
-                 like_.symmetry};
+        const Orbit orbit{taken(rest.motion.segments), parameters_, taken(rest.motion.starts),
+                          taken(rest.motion.durations), like_.symmetry};
         const VectorXd after = vector_of(rest.motion.starts[rest.segments]);
         gap = 0;
         for (Eigen::Index i = 0; i < n; ++i) {
@@ -338,10 +345,11 @@ Orbit AccumulatingOrbit::shown(double& gap) {
             if (closes_[static_cast<std::size_t>(i)])
                 gap = std::max(gap, std::abs(period > 0 ? std::remainder(apart, period) : apart) / scales_[i]);
         }
+        result = orbit;
         if (-heights(after)[2] < little * orbit.round() * heights(after)[3])
             break;
     }
-    return orbit;
+    return result;
 }
 
 } // namespace graze

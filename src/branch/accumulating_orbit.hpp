@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ public:
     /// Newton's method. @return false where it does not converge
     bool solve();
     bool has_solution() const { return solved_; }
+    std::size_t contacts_of_solution() const { return solution_count_; }
     /// From now on, with one contact more.
     void add_contact();
 
@@ -37,8 +39,9 @@ public:
     /// Of the parameter, by round-off of heights.
     double uncertainty() const { return uncertainty_; }
     const SelfSimilarContacts& contacts() const { return contacts_; }
-    /// The motion over contacts until little is left. @param gap between its ends, relative to the sizes of the states
-    Orbit shown(double& gap);
+    /// The last solution's motion over contacts until little is left. @param gap between its ends, relative to the
+    /// sizes of the states. @return none where it cannot be followed
+    std::optional<Orbit> shown(double& gap);
 
 private:
     /// The motion after a number of contacts.
@@ -74,6 +77,8 @@ private:
     std::size_t mode_, event_, first_mode_;
     std::vector<Function> heights_; ///< each with its gradient
     std::vector<double> periods_, parameters_;
+    Eigen::VectorXd solution_; ///< the last one, with the number of its contacts
+    std::size_t solution_count_ = 0;
     Eigen::VectorXd scales_, unknowns_, rows_; ///< of states, then the parameter; of the equations
     Eigen::MatrixXd jacobian_;                 ///< in units of the scales
     std::vector<bool> closes_;                 ///< states that come back

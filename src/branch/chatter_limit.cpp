@@ -80,20 +80,17 @@ public:
     /// @param state near that in which contacts accumulate
     bool run(double guess, std::size_t contacts, const std::vector<double>& state, ChatterLimit& limit) {
         constexpr std::size_t most_contacts = 80, fewest = 6;
-        // The more contacts, the better the guess has to be, and the nearer the first solution is to it.
-        for (std::size_t first = std::max<std::size_t>(contacts, 4); first > 1; --first) {
-            if (!orbit_.begin(guess, first, state, limit.problem))
-                return false;
-            if (orbit_.solve())
-                break;
-        }
+        if (!start(guess, contacts, state, limit.problem))
+            return false;
+        std::vector<std::pair<double, double>> estimates;
         double least = std::numeric_limits<double>::infinity();
         while (values_.size() < most_contacts && orbit_.has_solution()) {
             values_.push_back(orbit_.parameter());
             noise_.push_back(orbit_.uncertainty());
             limit.contacts = orbit_.contacts();
             if (values_.size() >= fewest) {
-                const auto one = estimate(limit.contacts);
+                estimates.push_back(estimate(limit.contacts));
+                const auto one = agreed(estimates);
                 if (one.second < least)
                     limit.direct = one;
                 least = std::min(least, one.second);
@@ -104,20 +101,52 @@ public:
             orbit_.add_contact();
             orbit_.solve();
         }
-        if (values_.size() < fewest) {
-            limit.problem = values_.empty()
-                                ? "no orbit with accumulating contacts was found"
-                                : fmt::format("orbits with accumulating contacts were found for {} numbers of contacts "
-                                              "before the rest, which is too few",
-                                              values_.size());
+        const auto orbit = limit.direct ? orbit_.shown(limit.gap) : std::nullopt;
+        if (!orbit) {
+            limit.direct.reset();
+            limit.problem = fmt::format("an orbit with accumulating contacts was followed over {} of them before the "
+                                        "rest, which is too few to tell the limit",
+                                        orbit_.contacts_of_solution());
             return false;
         }
-        limit.orbit = orbit_.shown(limit.gap);
+        limit.orbit = *orbit;
         limit.orbit.parameters[orbit_.along().place()] = limit.direct->first;
         return true;
     }
 
 private:
+    /// The more contacts, the better the guess has to be, and the nearer the first solution is to it.
+    bool start(double guess, std::size_t contacts, const std::vector<double>& state, std::string& problem) {
+        std::vector<std::size_t> numbers;
+        for (const std::size_t more : {0U, 4U, 8U, 16U})
+            numbers.push_back(std::max<std::size_t>(contacts, 4) + more);
+        for (std::size_t fewer = numbers.front() - 1; fewer > 1; --fewer)
+            numbers.push_back(fewer);
+        for (const std::size_t number : numbers) {
+            if (!orbit_.begin(guess, number, state, problem))
+                return false;
+            if (orbit_.solve())
+                return true;
+        }
+        problem = "no orbit with accumulating contacts was found";
+        return false;
+    }
+
+    /// The last estimate, with the greatest of the last errors and how far the last estimates are apart: a small error
+    /// by chance is none.
+    static std::pair<double, double> agreed(const std::vector<std::pair<double, double>>& estimates) {
+        constexpr std::size_t compared = 3;
+        if (estimates.size() < compared)
+            return {estimates.back().first, std::numeric_limits<double>::infinity()};
+        double error = 0, low = estimates.back().first, high = low;
+        for (std::size_t k = estimates.size() - compared; k < estimates.size(); ++k) {
+            error = std::max(error, estimates[k].second);
+            low = std::min(low, estimates[k].first);
+            high = std::max(high, estimates[k].first);
+        }
+        return {estimates.back().first, error + (high - low)};
+    }
+
     std::pair<double, double> estimate(const SelfSimilarContacts& known) const {
         const double first = known.times * known.ratio;
         const std::array factors{first, first * known.times, first * known.times * known.times};

@@ -17,6 +17,8 @@ SpecialPoint as_grazing(const System& system, const SpecialPoint& point) {
                              "start from a grazing within an arc");
         return point;
     }
+    if (point.type == PointType::chatter)
+        throw InputError("the point is the onset of chatter already", "start from a grazing (GR)");
     for (const OrbitTouch& touch : touches_of(system, point.solution.orbit))
         if (!touch.at_end) {
             SpecialPoint grazing = point;

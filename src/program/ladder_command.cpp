@@ -122,26 +122,28 @@ int ladder_command(const LadderArguments& arguments, const Console& console) {
     const System system(stored.run.model);
     std::vector<Leaving> leaving;
     StatusLine line(console, console.terminal);
-    try {
-        const Ladder ladder =
-            climb(system, stored.record.point, settings, static_cast<std::size_t>(arguments.rungs),
-                  [&](std::size_t rung, const Branch& branch) {
-                      leaving.push_back({first_of(branch, PointType::fold), first_of(branch, PointType::flip)});
-                      if (line.is_due())
-                          line.show(fmt::format("grazing {} of {}", rung, arguments.rungs));
-                      return true;
-                  });
-        const ChatterLimit limit = ladder.limit();
-        deliver(table_of(ladder, leaving, parameter, unit), arguments.output, heading_of(file, stored, ladder, limit),
-                console);
-        if (arguments.output.format == TableFormat::table)
-            tell(ladder, limit, parameter, console);
-        return ladder.grazings().size() > 1 ? exit_success : exit_irregular;
-    } catch (const InputError& error) {
-        if (!error.place().file.empty())
-            throw;
-        throw InputError(place, error.problem(), error.remedy());
-    }
+    const auto at_point = [&](const auto& work) {
+        try {
+            return work();
+        } catch (const InputError& error) {
+            throw error.place().file.empty() ? InputError(place, error.problem(), error.remedy()) : error;
+        }
+    };
+    const Ladder ladder = at_point([&] {
+        return climb(system, stored.record.point, settings, static_cast<std::size_t>(arguments.rungs),
+                     [&](std::size_t rung, const Branch& branch) {
+                         leaving.push_back({first_of(branch, PointType::fold), first_of(branch, PointType::flip)});
+                         if (line.is_due())
+                             line.show(fmt::format("grazing {} of {}", rung, arguments.rungs));
+                         return true;
+                     });
+    });
+    const ChatterLimit limit = at_point([&] { return ladder.limit(); });
+    deliver(table_of(ladder, leaving, parameter, unit), arguments.output, heading_of(file, stored, ladder, limit),
+            console);
+    if (arguments.output.format == TableFormat::table)
+        tell(ladder, limit, parameter, console);
+    return ladder.grazings().size() > 1 ? exit_success : exit_irregular;
 }
 
 } // namespace graze

@@ -143,6 +143,9 @@ std::vector<BranchPart> parts_from_orbit(const StudyRun& run, const System& syst
                                          const OrbitRecord& record) {
     const StartFrom& start = *run.start;
     const SpecialPoint& point = record.point;
+    if (point.type == PointType::chatter)
+        throw InputError(start.place, "contacts accumulate at an onset of chatter: no orbit begins there",
+                         "start from a grazing of the ladder, or follow the onset with kind = \"curve\"");
     if (run.kind == RunKind::curve)
         return parts_of_curve(run, point);
     const bool same_parameter = (parent.kind == RunKind::follow || parent.kind == RunKind::ladder) &&

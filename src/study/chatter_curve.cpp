@@ -2,6 +2,7 @@
 
 #include "graze/branch/chatter_limit.hpp"
 #include "study/branch_run.hpp"
+#include "study/ladder_run.hpp"
 
 #include <fmt/format.h>
 
@@ -26,8 +27,10 @@ public:
             bounds_ = *bounds;
     }
 
-    /// @return the limit at a value of the first parameter, from one or two that are near; none where there is none
-    std::optional<ChatterLimit> at(double value, const Orbit& near, const Orbit* before) const {
+    const System& system() const { return system_; }
+    /// @return the limit at a value of the first parameter, from one or two that are near; none, and why, where there
+    /// is none
+    std::optional<ChatterLimit> at(double value, const Orbit& near, const Orbit* before, std::string& why) const {
         Orbit guess = near;
         const std::size_t place = settings_.parameter.place();
         if (before) {
@@ -43,7 +46,10 @@ public:
         }
         guess.parameters[place] = value;
         const ChatterLimit limit = chatter_limit_near(system_, guess, event_, free_, settings_.orbit.tolerance);
-        if (!limit.direct || !is_inside(limit.direct->first))
+        why = limit.problem;
+        if (limit.direct && !is_inside(limit.direct->first))
+            why = fmt::format("bound: {}", system_.model().independent_parameters()[free_.place()]);
+        if (!why.empty())
             return std::nullopt;
         return limit;
     }
@@ -76,7 +82,8 @@ private:
 };
 
 /// @param again whether the other part of the run has the same first point
-SpecialPoint point_of(const ChatterLimit& limit, const StudyRun& run, std::size_t event, std::size_t step, bool again) {
+SpecialPoint point_of(const ChatterLimit& limit, const StudyRun& run, const System& system, std::size_t event,
+                      std::size_t step, bool again) {
     SpecialPoint point;
     point.type = step == 0 && !again ? PointType::chatter : PointType::regular;
     point.detail = fmt::format("{}+- {:.1e}", step == 0 ? "start; " : "", limit.direct->second);
@@ -88,7 +95,7 @@ SpecialPoint point_of(const ChatterLimit& limit, const StudyRun& run, std::size_
     point.parameter = limit.orbit.parameters[run.branch.settings.parameter.place()];
     point.bracket = {unknown_value, unknown_value};
     point.step = step;
-    point.monitors.assign(run.branch.settings.monitors.size(), unknown_value);
+    point.monitors = monitors_of(system, limit.orbit, run);
     return point;
 }
 
@@ -102,8 +109,8 @@ bool follow_one_way(const StudyRun& run, const ChatterCurve& curve, const std::s
     double step = largest / 4;
     Orbit here = first.orbit;
     std::optional<Orbit> before;
-    writer.add(part, point_of(first, run, event, 0, again), false);
-    std::string why = std::string(name_of(BranchOutcome::steps));
+    writer.add(part, point_of(first, run, curve.system(), event, 0, again), false);
+    std::string why = std::string(name_of(BranchOutcome::steps)), problem;
     for (std::size_t made = 1; made <= settings.steps;) {
         if (options.interrupted && options.interrupted())
             return false;
@@ -112,34 +119,60 @@ bool follow_one_way(const StudyRun& run, const ChatterCurve& curve, const std::s
             why = fmt::format("bound: {} = {:.9g}", run.model.independent_parameters()[place], value);
             break;
         }
-        const auto limit = curve.at(next, here, before ? &*before : nullptr);
+        const auto limit = curve.at(next, here, before ? &*before : nullptr, problem);
         if (!limit) {
             step /= 2;
             if (step >= smallest * largest)
                 continue;
-            why = "no onset of chatter is found beyond, or the other parameter leaves its bounds";
+            why = problem;
             break;
         }
         before = here;
         here = limit->orbit;
-        writer.add(part, point_of(*limit, run, event, made++, again), false);
+        writer.add(part, point_of(*limit, run, curve.system(), event, made++, again), false);
         step = std::min(growth * step, largest);
     }
     writer.end(why);
     return true;
 }
 
+/// What has no meaning for the onset of chatter is refused, not left out.
+void require_plain(const StudyRun& run, const SpecialPoint& first) {
+    const auto refuse = [&](const std::string& problem, const std::string& remedy) {
+        throw InputError(run.start->place, fmt::format("run '{}' follows an onset of chatter: {}", run.name, problem),
+                         remedy);
+    };
+    const BranchSettings& settings = run.branch.settings;
+    if (!run.start->onto.empty())
+        refuse(fmt::format("it is no point of type {}", run.start->onto), "leave `onto` out");
+    if (settings.free.size() > 1)
+        refuse("it needs no further free parameters", "leave `free` out");
+    for (const Monitor& monitor : settings.monitors)
+        if (monitor.fixed || !monitor.crossings.empty() || monitor.least || monitor.greatest)
+            refuse(fmt::format("monitor '{}' cannot be fixed, reported or bounded", monitor.name), "leave that out");
+    if (!settings.stop_at.empty())
+        refuse("it meets no other points", "leave `stop` out");
+    const double value = first.solution.orbit.parameters[settings.parameter.place()];
+    if ((settings.least && value < *settings.least) || (settings.greatest && value > *settings.greatest))
+        refuse(fmt::format("its start, {:.9g}, lies outside of the bounds of '{}'", value,
+                           run.model.independent_parameters()[settings.parameter.place()]),
+               "give wider bounds in `along`");
+}
+
 } // namespace
 
 bool run_chatter_curve(const StudyRun& run, const System& system, const SpecialPoint& first, PointWriter& writer,
                        const RunnerOptions& options) {
+    require_plain(run, first);
     const ChatterCurve curve(run, system, first.event);
     const Orbit& orbit = first.solution.orbit;
+    std::string why;
     const auto begin = at_place(run.start->place, run, [&] {
-        return curve.at(orbit.parameters[run.branch.settings.parameter.place()], orbit, nullptr);
+        return curve.at(orbit.parameters[run.branch.settings.parameter.place()], orbit, nullptr, why);
     });
     if (!begin)
-        throw InputError(run.start->place, fmt::format("run '{}': no onset of chatter is found at its start", run.name),
+        throw InputError(run.start->place,
+                         fmt::format("run '{}': no onset of chatter is found at its start: {}", run.name, why),
                          "choose another point, or wider bounds");
     bool again = false;
     for (const std::string& part : direction_names(run)) {

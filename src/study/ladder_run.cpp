@@ -27,16 +27,6 @@ std::string told(const ChatterLimit& limit) {
     return text;
 }
 
-/// Those of a motion over many contacts. Unknown where they name segments that it has not.
-std::vector<double> monitors_of(const System& system, const Orbit& orbit, const StudyRun& run) {
-    const std::vector<Monitor>& monitors = run.branch.settings.monitors;
-    try {
-        return OrbitMonitors(system, orbit.signature, monitors, run.branch.settings.orbit.tolerance)(orbit);
-    } catch (const InputError&) {
-        return std::vector<double>(monitors.size(), unknown_value);
-    }
-}
-
 /// The limit, as the last point of the ladder.
 SpecialPoint point_of(const ChatterLimit& limit, const System& system, const SpecialPoint& last, const StudyRun& run) {
     const auto [value, error] = *limit.direct;
@@ -66,6 +56,15 @@ SpecialPoint end_of(const SpecialPoint& last, const std::string& problem, const 
 }
 
 } // namespace
+
+std::vector<double> monitors_of(const System& system, const Orbit& orbit, const StudyRun& run) {
+    const std::vector<Monitor>& monitors = run.branch.settings.monitors;
+    try {
+        return OrbitMonitors(system, orbit.signature, monitors, run.branch.settings.orbit.tolerance)(orbit);
+    } catch (const InputError&) {
+        return std::vector<double>(monitors.size(), unknown_value);
+    }
+}
 
 bool run_ladder(const StudyRun& run, const System& system, const OrbitRecord& first, PointWriter& writer,
                 const RunnerOptions& options) {

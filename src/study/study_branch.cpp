@@ -233,7 +233,7 @@ void check_branch(const StudyReader& reader, const StudyRun& run, const TomlEntr
         throw InputError(entry.place, fmt::format("{} does not say where the curve begins", entry.path),
                          "give start = { run = \"BRANCH\", point = \"SN1\" }");
     if (run.kind == RunKind::ladder && (!run.start || run.start->point.empty()))
-        throw InputError(entry.place, fmt::format("{} does not say where the ladder begins", entry.path),
+        throw InputError(entry.place, fmt::format("{} does not say at which point the ladder begins", entry.path),
                          "give start = { run = \"BRANCH\", point = \"GR1\" }");
     if (run.is_followed() && !keys.contains("along"))
         throw InputError(entry.place, fmt::format("{} does not say what is followed", entry.path),

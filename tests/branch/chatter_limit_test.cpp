@@ -175,7 +175,7 @@ TEST(ChatterLimit, of_the_microactuator) {
     // After each contact a frame slips for a time that falls with the speed: in the end nothing is left of that but
     // 0.5.
     EXPECT_NEAR(limit.contacts.restitution, 0.5, 1e-3);
-    EXPECT_LT(limit.direct->second, 2e-11);
+    EXPECT_LT(limit.direct->second, 5e-11);
     EXPECT_NEAR(limit.extrapolated.value().first, limit.direct->first, limit.extrapolated->second);
 }
 

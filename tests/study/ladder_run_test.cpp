@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -128,12 +129,73 @@ direction = "both"
     }
 }
 
+TEST_F(LadderRun, of_few_contacts_has_a_limit_or_says_why_not) {
+    // A fast force: contacts do not accumulate, though one grazing follows the other.
+    run(R"(
+name = "s"
+model = "impact-oscillator"
+set = { zeta = 0.05, omega = 2.4, e = 0.7, sigma = 0.02, amplitude = 1 }
+[runs.free]
+kind = "continue"
+along = { sigma = [-1, 1] }
+direction = "down"
+[runs.ladder]
+kind = "ladder"
+start = { run = "free", point = "GR1" }
+along = { sigma = [-1, 1] }
+)");
+    const ResultFile file(path_, ResultFile::Access::read);
+    const auto orbits = file.orbits("ladder", true);
+    ASSERT_GT(orbits.size(), 1u);
+    EXPECT_EQ(orbits.back().part, "limit");
+    if (orbits.back().point.type == PointType::chatter)
+        EXPECT_TRUE(std::isfinite(orbits.back().point.bracket.second));
+    else
+        EXPECT_THAT(orbits.back().point.detail, HasSubstr("no limit: "));
+}
+
+TEST_F(LadderRun, onset_is_followed_until_there_is_none_or_it_is_not_found) {
+    const std::string curve = R"(
+[runs.onset]
+kind = "curve"
+start = { run = "ladder", point = "CH1" }
+along = { zeta = [0.3, 0.7], sigma = [0.1, 3] }
+direction = "both"
+)";
+    run(free_text + ladder_text + curve);
+    {
+        const ResultFile file(path_, ResultFile::Access::read);
+        for (const OrbitRecord& record : file.orbits("onset", false)) {
+            EXPECT_FALSE(record.point.solution.orbit.starts.empty());
+            EXPECT_TRUE(std::isfinite(record.point.parameter));
+        }
+    }
+    const auto with = [&](const std::string& more, const std::string& start) {
+        return refusal(free_text + ladder_text +
+                       "[runs.onset]\nkind = \"curve\"\nstart = { run = \"ladder\", point = \"CH1\"" + start + " }\n" +
+                       more);
+    };
+    const std::string along = "along = { zeta = [0.3, 0.7], sigma = [0.1, 3] }\n";
+    EXPECT_THAT(with(along, ", onto = \"PD\""), HasSubstr("it is no point of type PD"));
+    EXPECT_THAT(with(along + "stop = [\"SN\"]", ""), HasSubstr("it meets no other points"));
+    EXPECT_THAT(with(along + "monitors = { reach = { maximum = \"x\", report = 0.5 } }", ""),
+                HasSubstr("cannot be fixed"));
+    EXPECT_THAT(with("along = { zeta = [0.6, 0.7], sigma = [0.1, 3] }", ""), HasSubstr("lies outside of the bounds"));
+    EXPECT_THAT(refusal(free_text + ladder_text + R"(
+[runs.orbits]
+kind = "continue"
+start = { run = "ladder", point = "CH1" }
+along = { sigma = [0.1, 3] }
+)"),
+                HasSubstr("no orbit begins there"));
+}
+
 TEST_F(LadderRun, says_what_it_needs_and_what_it_cannot_do) {
     const auto with = [&](const std::string& text) {
         return refusal(free_text + "[runs.l]\nkind = \"ladder\"\n" + text);
     };
     const std::string start = "start = { run = \"free\", point = \"GR1\" }\n", along = "along = { sigma = [0.1, 3] }\n";
-    EXPECT_THAT(with(along), HasSubstr("does not say where the ladder begins"));
+    EXPECT_THAT(with(along), HasSubstr("does not say at which point the ladder begins"));
     EXPECT_THAT(with(start), HasSubstr("does not say what is followed"));
     EXPECT_THAT(with(start + along + "rungs = 1"), HasSubstr("give a whole number from 2 to 1000"));
     EXPECT_THAT(with(start + along + "stop = [\"GR\"]"), HasSubstr("runs of kind \"ladder\" have no `stop`"));
