@@ -98,6 +98,29 @@ void declare_output(CLI::App& command, OutputArguments& output) {
     add(command, "Output", "--output", output.file, "FILE", "Write the table there instead of to standard output");
 }
 
+/// Output of tables that may be too wide for a terminal.
+void declare_table(CLI::App& command, OutputArguments& output) {
+    declare_output(command, output);
+    command.add_flag("--all", output.all, "All columns of a table, also those that do not fit a terminal")
+        ->group("Output");
+}
+
+void declare_data(CLI::App& command, std::string& data) {
+    add(command, "Picture", "--data", data, "FILE",
+        "Keep data and commands, to be changed and drawn by `gnuplot FILE`");
+}
+
+/// A command about one point of a branch.
+template <class PointArguments>
+CLI::App& declare_of_point(CLI::App& app, const char* name, const char* text, const char* examples,
+                           PointArguments& arguments) {
+    CLI::App& command = *app.add_subcommand(name, text);
+    command.footer(examples);
+    command.add_option("FILE", arguments.file, "Result file, or the folder of a study")->type_name("")->required();
+    command.add_option("POINT", arguments.point, "LABEL, RUN:LABEL or RUN:NUMBER")->type_name("")->required();
+    return command;
+}
+
 void declare_points(CLI::App& app, PointsArguments& arguments) {
     CLI::App& command = *app.add_subcommand("points", points_text());
     command.footer(points_examples);
@@ -111,46 +134,32 @@ void declare_points(CLI::App& app, PointsArguments& arguments) {
 }
 
 void declare_orbit(CLI::App& app, OrbitArguments& arguments) {
-    CLI::App& command = *app.add_subcommand("orbit", orbit_text);
-    command.footer(orbit_examples);
-    command.add_option("FILE", arguments.file, "Result file, or the folder of a study")->type_name("")->required();
-    command.add_option("POINT", arguments.point, "LABEL, RUN:LABEL or RUN:NUMBER")->type_name("")->required();
+    CLI::App& command = declare_of_point(app, "orbit", orbit_text, orbit_examples, arguments);
     const char* group = "What to show";
     add(command, group, "--quantity", arguments.quantities, "EXPR",
         "More columns: quantities of the model, or any expressions in its names");
     add(command, group, "--samples", arguments.samples, "N", "About so many rows of the whole period (200)")
         ->check(whole_number(1, 1'000'000));
-    declare_output(command, arguments.output);
-    command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal")
-        ->group("Output");
+    declare_table(command, arguments.output);
     group = "Picture";
     add(command, group, "--plot", arguments.plot, "FILE", "Draw it instead, as svg, png or pdf");
     add(command, group, "--x", arguments.x, "NAME", "Horizontal axis: a value, or t for histories (a state)");
     add(command, group, "--y", arguments.y, "NAME",
         "Vertical axes, one panel each (its velocity; of histories all states)");
-    add(command, group, "--data", arguments.data, "FILE",
-        "Keep data and commands, to be changed and drawn by `gnuplot FILE`");
+    declare_data(command, arguments.data);
 }
 
 void declare_grazing(CLI::App& app, GrazingArguments& arguments) {
-    CLI::App& command = *app.add_subcommand("grazing", grazing_text);
-    command.footer(grazing_examples);
-    command.add_option("FILE", arguments.file, "Result file, or the folder of a study")->type_name("")->required();
-    command.add_option("POINT", arguments.point, "LABEL, RUN:LABEL or RUN:NUMBER")->type_name("")->required();
+    CLI::App& command = declare_of_point(app, "grazing", grazing_text, grazing_examples, arguments);
     const char* group = "What to show";
     add(command, group, "--parameter", arguments.parameter, "NAME",
         "That moves the orbit from its touch (the one that its run follows)");
     command.add_flag("--verify", arguments.verify, "Check the verdict by simulation beside the touch")->group(group);
-    declare_output(command, arguments.output);
-    command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal")
-        ->group("Output");
+    declare_table(command, arguments.output);
 }
 
 void declare_trip(CLI::App& app, TripArguments& arguments) {
-    CLI::App& command = *app.add_subcommand("trip", trip_text);
-    command.footer(trip_examples);
-    command.add_option("FILE", arguments.file, "Result file, or the folder of a study")->type_name("")->required();
-    command.add_option("POINT", arguments.point, "LABEL, RUN:LABEL or RUN:NUMBER")->type_name("")->required();
+    CLI::App& command = declare_of_point(app, "trip", trip_text, trip_examples, arguments);
     const char* group = "What to compute";
     add(command, group, "--parameter", arguments.parameter, "NAME",
         "That moves the orbit from its touch (the one that its run follows)");
@@ -166,35 +175,24 @@ void declare_trip(CLI::App& app, TripArguments& arguments) {
         ->excludes(until);
     add(command, group, "--cycles", arguments.cycles, "N", "Cycles that are simulated at most (2000)")
         ->check(whole_number(1, 1'000'000));
-    declare_output(command, arguments.output);
-    command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal")
-        ->group("Output");
+    declare_table(command, arguments.output);
     group = "Picture";
     add(command, group, "--plot", arguments.plot, "FILE", "Draw times instead, as svg, png or pdf");
-    add(command, group, "--data", arguments.data, "FILE",
-        "Keep data and commands, to be changed and drawn by `gnuplot FILE`");
+    declare_data(command, arguments.data);
 }
 
 void declare_ladder(CLI::App& app, LadderArguments& arguments) {
-    CLI::App& command = *app.add_subcommand("ladder", ladder_text);
-    command.footer(ladder_examples);
-    command.add_option("FILE", arguments.file, "Result file, or the folder of a study")->type_name("")->required();
-    command.add_option("POINT", arguments.point, "LABEL, RUN:LABEL or RUN:NUMBER")->type_name("")->required();
+    CLI::App& command = declare_of_point(app, "ladder", ladder_text, ladder_examples, arguments);
     const char* group = "How far";
     add(command, group, "--rungs", arguments.rungs, "N", "Grazings at most, that one included (8)")
         ->check(CLI::Range(2, 1000));
     add(command, group, "--parameter", arguments.parameter, "NAME",
         "That varies (the one that its run follows, within its bounds)");
-    declare_output(command, arguments.output);
-    command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal")
-        ->group("Output");
+    declare_table(command, arguments.output);
 }
 
 void declare_tolerance(CLI::App& app, ToleranceArguments& arguments) {
-    CLI::App& command = *app.add_subcommand("tolerance", tolerance_text);
-    command.footer(tolerance_examples);
-    command.add_option("FILE", arguments.file, "Result file, or the folder of a study")->type_name("")->required();
-    command.add_option("POINT", arguments.point, "LABEL, RUN:LABEL or RUN:NUMBER")->type_name("")->required();
+    CLI::App& command = declare_of_point(app, "tolerance", tolerance_text, tolerance_examples, arguments);
     const char* group = "What to find";
     add(command, group, "--parameter", arguments.parameter, "NAME",
         "Whose value follows from the others (the one that the run follows)");
@@ -209,14 +207,11 @@ void declare_tolerance(CLI::App& app, ToleranceArguments& arguments) {
     add(command, group, "--seed", arguments.seed, "N", "Of what is drawn (1)")->check(whole_number(0, 1'000'000'000));
     add(command, group, "--jobs", arguments.jobs, "N", "Threads (one for each core); results do not depend on them")
         ->check(whole_number(1, 1024));
-    declare_output(command, arguments.output);
-    command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal")
-        ->group("Output");
+    declare_table(command, arguments.output);
     group = "Picture";
     add(command, group, "--plot", arguments.plot, "FILE", "Draw how the devices are distributed, too: svg, png or pdf")
         ->check(not_empty());
-    add(command, group, "--data", arguments.data, "FILE",
-        "Keep data and commands, to be changed and drawn by `gnuplot FILE`");
+    declare_data(command, arguments.data);
 }
 
 } // namespace
