@@ -100,17 +100,15 @@ bool AccumulatingOrbit::begin(double parameter, std::size_t count, const std::ve
     const auto n = index(state.size());
     unknowns_.resize(n + 1);
     unknowns_ << vector_of(state), parameter;
-    if (!set(unknowns_))
-        return false;
     VectorXd start = vector_of(state);
-    if (!project(start) || !(heights(start)[3] > 0)) {
+    if (!set(unknowns_) || !project(start) || !(heights(start)[3] > 0)) {
         problem = "near the touch there is no state in which contacts can accumulate just where the motion leaves: the "
                   "height's third rate is not positive there";
         return false;
     }
     unknowns_.head(n) = start;
     rows_ = (slopes(start).topRows(3) * scales_.head(n).asDiagonal()).rowwise().norm();
-    return (rows_.array() > 0).all();
+    return true; // with rows that are not zero, or there would be no projection
 }
 
 /// The nearest state, in units of the scales, in which the height and its first two rates are zero.

@@ -49,9 +49,7 @@ public:
         why = limit.problem;
         if (limit.direct && !is_inside(limit.direct->first))
             why = fmt::format("bound: {}", system_.model().independent_parameters()[free_.place()]);
-        if (!why.empty())
-            return std::nullopt;
-        return limit;
+        return limit.direct && why.empty() ? std::optional(limit) : std::nullopt;
     }
     bool is_inside(double second) const {
         return !(bounds_.least && second < *bounds_.least) && !(bounds_.greatest && second > *bounds_.greatest);
