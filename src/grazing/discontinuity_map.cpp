@@ -120,6 +120,8 @@ DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& to
     const std::size_t n = system.states();
     TouchGeometry geometry = functions.at(touch.state, touch.parameters);
     const TouchSizes sizes(touch, geometry);
+    if (asked == AskedContacts::rigid_beside)
+        settle(functions, map.touch, geometry);
     map.reason = problem_of(system, touch, geometry, sizes);
     if (!map.reason.empty())
         return map;
@@ -150,7 +152,7 @@ DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& to
                                  system.model().modes[chain.modes.front()].name);
         return map;
     }
-    if (asked == AskedContacts::rigid) {
+    if (asked != AskedContacts::all) {
         map.reason = "the contact is not rigid";
         return map;
     }
