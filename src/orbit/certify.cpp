@@ -88,6 +88,9 @@ public:
             const bool beyond = lowest_[w] < -smallest_clearance * sizes_[w];
             if (falls_[w] < duration - late && beyond)
                 return fmt::format("event '{}' comes within segment {}", event.name, segment_ + 1);
+            // Without a fall: it has been left to that side with its start, without speed.
+            if (event.kind == EventKind::barrier && std::isinf(falls_[w]) && lowest_[w] < -zero)
+                return fmt::format("segment {} leaves event '{}' on its other side", segment_ + 1, event.name);
             if (!is_own(w) && event.kind == EventKind::barrier && ends[w] < -zero)
                 return fmt::format("segment {} ends beyond event '{}'", segment_ + 1, event.name);
         }
@@ -244,7 +247,8 @@ private:
         for (std::size_t w = 0; w < mode.watched.size(); ++w)
             if (!watcher.is_own(w) && !watcher.is_harmless_here(w))
                 certificate_.end_values.push_back({s, mode.watched[w], values_[w], rate_of(w, last.field)});
-        if (!is_held(HeldLimit::Kind::vanishing, s)) // of no time nothing can be said but round-off
+        if (!held_ || !held_->holds_without_time(
+                          s, equations_->signature().size())) // of no time nothing can be said but round-off
             object(watcher.verdict(begin, values_));
         for (const OrbitMinimum& minimum : watcher.minima())
             certificate_.minima.push_back(minimum);
@@ -280,7 +284,10 @@ private:
         const std::size_t next = mode_after(s);
         const double margin = guard_margin(system_->transition(segment.index), next, inputs_, work_);
         certificate_.guard_margins.push_back(margin);
-        if (margin < 0 && !is_held(HeldLimit::Kind::guard, s))
+        // What guards see of a contact without speed may be nothing but round-off.
+        const bool decided_by_round_off =
+            is_held(HeldLimit::Kind::guard, s) || (is_held(HeldLimit::Kind::stop, s) && held_->without_time > 0);
+        if (margin < 0 && !decided_by_round_off)
             object(fmt::format("the guard after segment {} leads to another mode", s + 1));
         system_->mode(next).rates.evaluate(inputs_, field_, work_);
         const auto& mode = system_->mode(segment.mode);
