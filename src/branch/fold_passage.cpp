@@ -27,7 +27,7 @@ SpecialPoint as_fold(const SpecialPoint& point) {
     if (point.type == PointType::fold)
         return point;
     const std::vector<PointType> known = curves_at(point);
-    if (std::find(known.begin(), known.end(), PointType::fold) == known.end())
+    if (point.type == PointType::branch_point || std::find(known.begin(), known.end(), PointType::fold) == known.end())
         throw InputError(fmt::format("a point of type {} ({}) is no fold", short_name(point.type), name_of(point.type)),
                          "choose a fold (SN), or a point of a curve of folds");
     return as_type(point, PointType::fold);
@@ -40,8 +40,8 @@ public:
                 const TripOptions& options, double start)
         : EndWatch(system.model(), end, std::nullopt, options.interrupted), fold_(fold), until_passed_(until_passed),
           closing_(fold.orbit.signature.back()), w_(start), periods_(system.periods()(fold.orbit.parameters)) {
-        each_ = static_cast<std::size_t>(
-            std::count(fold.orbit.signature.begin(), fold.orbit.signature.end(), closing_));
+        each_ =
+            static_cast<std::size_t>(std::count(fold.orbit.signature.begin(), fold.orbit.signature.end(), closing_));
     }
 
     void contact(const Contact& contact) override {
@@ -141,9 +141,9 @@ FoldPassage fold_passage(const System& system, const SpecialPoint& point, Parame
 double cycles_of_passage(const FoldPassage& fold, double overshoot) {
     if (!(overshoot * fold.side > 0 && std::isfinite(overshoot)))
         throw InputError(
-            overshoot == 0 ? std::string("at the fold itself nothing passes")
-                           : fmt::format("with the parameter {:+g} from the fold there are two orbits, and no trip",
-                                         overshoot),
+            overshoot == 0
+                ? std::string("at the fold itself nothing passes")
+                : fmt::format("with the parameter {:+g} from the fold there are two orbits, and no trip", overshoot),
             fold.side > 0 ? "they are gone above: give a positive overshoot"
                           : "they are gone below: give a negative overshoot");
     return pi / fold.root(overshoot);

@@ -99,8 +99,8 @@ TEST(FoldPassage, takes_as_long_as_simulation_and_as_the_map_by_itself) {
 }
 
 TEST(FoldPassage, of_henons_map_and_of_the_logistic_one) {
-    // x -> y, y -> a - b x - y^2 has fixed points y^2 + (1 + b) y = a, so that they fold at y = -(1 + b)/2; with v along
-    // (1, 1) from there and the other multiplier b, the adjoint (-b, 1)/(1 - b): v' = v + (da - v^2)/(1 - b).
+    // x -> y, y -> a - b x - y^2 has fixed points y^2 + (1 + b) y = a, so that they fold at y = -(1 + b)/2; with v
+    // along (1, 1) from there and the other multiplier b, the adjoint (-b, 1)/(1 - b): v' = v + (da - v^2)/(1 - b).
     const double b = 0.3, y = 0.2;
     const Model henon =
         map_model(fmt::format("a = {:.17g}\nb = {:.17g}", y * y + (1 + b) * y, b), {"y", "a - b*x - y^2"});

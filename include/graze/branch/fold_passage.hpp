@@ -13,19 +13,20 @@ namespace graze {
 ///
 ///     w' = w + b (p - value) + a w^2.
 struct FoldPassage {
-    Orbit orbit;             ///< of the fold, whole
-    ParameterId parameter;   ///< p
-    double value = 0;        ///< of the parameter at the fold
-    double coefficient = 0;  ///< a > 0, by the length of states in the model's units: orbits at w < 0 are stable
-    double rate = 0;         ///< b, by the parameter's unit
-    int side = 0;            ///< of the parameter on which there is no orbit: 1 above, -1 below
-    double cycle = 0;        ///< time of one
-    bool attracting = false; ///< all other multipliers lie within the unit circle: what passes comes from a stable orbit
+    Orbit orbit;            ///< of the fold, whole
+    ParameterId parameter;  ///< p
+    double value = 0;       ///< of the parameter at the fold
+    double coefficient = 0; ///< a > 0, by the length of states in the model's units: orbits at w < 0 are stable
+    double rate = 0;        ///< b, by the parameter's unit
+    int side = 0;           ///< of the parameter on which there is no orbit: 1 above, -1 below
+    double cycle = 0;       ///< time of one
+    bool attracting =
+        false; ///< all other multipliers lie within the unit circle: what passes comes from a stable orbit
     std::vector<double> critical, adjoint; ///< w = adjoint (start - fold's), start = fold's + w critical
     double gate = 0; ///< the passage that a simulation is asked for goes from w = -gate to w = gate
 
-    /// Of the normal form's exponent: a multiplier is 1 - 2 root of the stable orbit as far before the fold, and what is
-    /// beyond takes pi/root cycles to pass.
+    /// Of the normal form's exponent: a multiplier is 1 - 2 root of the stable orbit as far before the fold, and what
+    /// is beyond takes pi/root cycles to pass.
     double root(double overshoot) const;
 };
 
@@ -49,12 +50,13 @@ struct SimulatedPassage {
     TripTime trip;       ///< until the end that was asked for
 };
 
-/// Least overshoot that a simulation can tell from none: the value of a fold is known to fewer digits than numbers have.
+/// Least overshoot that a simulation can tell from none: the value of a fold is known to fewer digits than numbers
+/// have.
 double least_overshoot(const FoldPassage& fold);
 
 /// @param end its speed counts contacts with any barrier; without speed and quantity the passage is the end
 /// @throws InputError as above
-SimulatedPassage simulated_passage(const System& system, const FoldPassage& fold, double overshoot,
-                                   const TripEnd& end, bool until_passed, const TripOptions& options = {});
+SimulatedPassage simulated_passage(const System& system, const FoldPassage& fold, double overshoot, const TripEnd& end,
+                                   bool until_passed, const TripOptions& options = {});
 
 } // namespace graze
