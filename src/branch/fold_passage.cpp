@@ -117,7 +117,7 @@ FoldPassage fold_passage(const System& system, const SpecialPoint& point, Parame
         throw InputError("the normal form of the fold cannot be computed" +
                              (at.problem.empty() ? std::string() : ": " + at.problem),
                          "choose another fold");
-    const std::string& name = system.model().independent_parameters()[parameter.place()];
+    const std::string name = system.model().independent_parameters()[parameter.place()];
     if (form->rate == 0)
         throw InputError(fmt::format("'{}' does not move the orbit from its fold", name),
                          "name a parameter that does by --parameter NAME");
