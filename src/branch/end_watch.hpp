@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -15,16 +16,14 @@ namespace graze {
 /// Waits for what ends a trip: a contact of some approach speed, the level of a quantity.
 class EndWatch : public Observer {
 public:
-    /// @param event whose contacts have the speed; none: every barrier's
-    EndWatch(const Model& model, const TripEnd& end, std::optional<std::size_t> event,
+    /// @param event whose contacts have the speed, if any; @param images others that throw back count too
+    EndWatch(const TripEnd& end, std::optional<std::size_t> event, bool images,
              const std::function<bool()>& interrupted)
-        : speed_limit_(end.speed), interrupted_(interrupted) {
-        for (std::size_t e = 0; e < model.events.size(); ++e)
-            counted_.push_back(event ? e == *event : model.events[e].kind == EventKind::barrier);
-    }
+        : event_(event), images_(images), speed_limit_(end.speed), interrupted_(interrupted) {}
 
     void contact(const Contact& contact) override {
-        if (contact.kind != ContactKind::crossing || !counted_[contact.event] || is_over(contact.time))
+        const bool counts = contact.event == event_ || (images_ && contact.rate_after >= 0);
+        if (contact.kind != ContactKind::crossing || !counts || is_over(contact.time))
             return;
         ++contacts_;
         speed_ = -contact.rate_before;
@@ -48,6 +47,13 @@ public:
         return trip;
     }
 
+    /// As if nothing had happened.
+    void forget() {
+        ending_.clear();
+        time_ = speed_ = 0;
+        contacts_ = 0;
+    }
+
 private:
     bool is_over(double time) const { return !ending_.empty() && time >= time_; }
     void note(const char* ending, double time) {
@@ -55,7 +61,8 @@ private:
         time_ = time;
     }
 
-    std::vector<bool> counted_;
+    std::optional<std::size_t> event_;
+    bool images_;
     double speed_limit_;
     std::function<bool()> interrupted_;
     std::string ending_;

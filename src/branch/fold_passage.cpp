@@ -38,7 +38,7 @@ class ReturnWatch : public EndWatch {
 public:
     ReturnWatch(const System& system, const FoldPassage& fold, const TripEnd& end, bool until_passed,
                 const TripOptions& options, double start)
-        : EndWatch(system.model(), end, std::nullopt, options.interrupted), fold_(fold), until_passed_(until_passed),
+        : EndWatch(end, std::nullopt, false, options.interrupted), fold_(fold), until_passed_(until_passed),
           closing_(fold.orbit.signature.back()), w_(start), periods_(system.periods()(fold.orbit.parameters)) {
         each_ =
             static_cast<std::size_t>(std::count(fold.orbit.signature.begin(), fold.orbit.signature.end(), closing_));
@@ -96,6 +96,19 @@ bool is_attracting(const OrbitSolution& solution) {
                         [](std::complex<double> one) { return std::abs(one) > 1 + beside; });
 }
 
+/// Of a fold that is nearly a cusp the cubic term c w^3 comes before.
+double gate_of(const OrbitEquations& equations, const OrbitEvaluation& at, const FoldForm& form) {
+    constexpr double cubic_share = 0.3, no_size = 1e-6;
+    const double gate = gate_share / form.coefficient;
+    double size = 0; // of the states that move, by which the third derivatives are taken
+    for (std::size_t i = 0; i < form.critical.size(); ++i)
+        size = std::max(size, std::abs(form.critical[i]) * at.scales[static_cast<Eigen::Index>(i)]);
+    if (size < no_size * gate)
+        return gate; // an orbit at zero has none
+    const auto cubic = cusp_coefficient(equations, at);
+    return cubic && *cubic != 0 ? std::min(gate, cubic_share * form.coefficient / std::abs(*cubic)) : gate;
+}
+
 } // namespace
 
 double FoldPassage::root(double overshoot) const {
@@ -129,12 +142,7 @@ FoldPassage fold_passage(const System& system, const SpecialPoint& point, Parame
     result.attracting = is_attracting(fold.solution);
     result.critical = form->critical;
     result.adjoint = form->adjoint;
-    result.gate = gate_share / form->coefficient;
-    // Of a fold that is nearly a cusp the next order comes before.
-    constexpr double largest = 0.1;
-    for (std::size_t i = 0; i < result.critical.size(); ++i)
-        if (const double along = std::abs(result.critical[i]); along > 0)
-            result.gate = std::min(result.gate, largest * at.scales[static_cast<Eigen::Index>(i)] / along);
+    result.gate = gate_of(equations, at, *form);
     return result;
 }
 

@@ -112,6 +112,9 @@ TripPoint trip_point(const ResultFile& file, const std::string& point, const std
 }
 
 AskedEnd end_of(const TripPoint& point, const TripArguments& arguments) {
+    if (arguments.greatest_speed && point.fold)
+        throw InputError(Place{"--greatest-speed", 0, 0}, "a fold has no contact of its own",
+                         "name a level, --until EXPR=LEVEL, or --until end");
     if (arguments.greatest_speed)
         return {{*arguments.greatest_speed, {}, 0}, fmt::format("speed {:.4g}", *arguments.greatest_speed), true};
     if (arguments.until == "end")

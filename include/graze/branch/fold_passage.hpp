@@ -54,7 +54,7 @@ struct SimulatedPassage {
 /// have.
 double least_overshoot(const FoldPassage& fold);
 
-/// @param end its speed counts contacts with any barrier; without speed and quantity the passage is the end
+/// @param end whose speed must be 0: a fold has no contact of its own; @param until_passed or there, if that is first
 /// @throws InputError as above
 SimulatedPassage simulated_passage(const System& system, const FoldPassage& fold, double overshoot, const TripEnd& end,
                                    bool until_passed, const TripOptions& options = {});
