@@ -23,7 +23,7 @@ bool Wanted::is_empty() const {
 
 std::optional<std::size_t> Design::find_dimension(std::string_view dimension) const {
     const auto found = std::find_if(dimensions.begin(), dimensions.end(),
-                                    [&](const Dimension& one) { return one.name == dimension; });
+                                    [&](const DesignDimension& one) { return one.name == dimension; });
     if (found == dimensions.end())
         return std::nullopt;
     return static_cast<std::size_t>(found - dimensions.begin());

@@ -248,7 +248,7 @@ DesignTolerance DesignReader::tolerance_of(const TomlEntry& entry) const {
 }
 
 void DesignReader::read_dimension(const TomlEntry& entry) {
-    Dimension dimension;
+    DesignDimension dimension;
     dimension.name = entry.name;
     dimension.parameter = parameter_of(entry, entry.name);
     if (dimension.parameter == design_.control_parameter && !design_.control.empty())

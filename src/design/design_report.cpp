@@ -118,7 +118,7 @@ private:
 
     void add_yield() {
         YieldSettings& settings = report_.yield_settings;
-        for (const Dimension& one : design_.dimensions)
+        for (const DesignDimension& one : design_.dimensions)
             if (one.tolerance)
                 settings.tolerances.push_back(
                     one.tolerance->at(one.parameter, orbit_.parameters[one.parameter.place()]));

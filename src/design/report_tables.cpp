@@ -101,7 +101,7 @@ void add_yield(FactRows& facts, const DesignReport& report, const Design& design
     facts.add("linear_yield", yield.linear_within, "", "the same by the derivatives alone");
     if (!yield.contributions.empty()) {
         const Contribution& first = yield.contributions.front();
-        for (const Dimension& one : design.dimensions)
+        for (const DesignDimension& one : design.dimensions)
             if (one.parameter == first.parameter)
                 facts.add("most_sensitive", one.name,
                           fmt::format("causes {:.3g} percent of the variance", 100 * first.share));
@@ -181,7 +181,7 @@ void add_mapped(Table& table, const MappedValue& one) {
     table.add(one.problem);
 }
 
-Table tuning_table(const Tuning& tuning, const Design& design, const Dimension& stop, const std::string& unit) {
+Table tuning_table(const Tuning& tuning, const Design& design, const DesignDimension& stop, const std::string& unit) {
     Table table({{design.control, unit}, {stop.name, stop.unit}, {"usable", ""}, {"problem", ""}});
     for (const TuningPoint& one : tuning.points) {
         table.add(one.value);
@@ -226,7 +226,7 @@ Table facts_of(const Design& design, const TripPoint& trip, const DesignReport& 
     const std::string unit = unit_of(model, design.control);
     const Orbit& orbit = trip.point.solution.orbit;
     FactRows facts;
-    for (const Dimension& one : design.dimensions)
+    for (const DesignDimension& one : design.dimensions)
         facts.add(one.name, orbit.parameters[one.parameter.place()], one.unit, one.text);
     facts.add("trip_value", report.value, unit, fmt::format("of {}, at {} of run '{}'", design.control, trip.label, trip.run));
     facts.add("class", class_name(report.found.outcome),
@@ -268,7 +268,7 @@ std::vector<NamedTable> tables_of(const Design& design, const TripPoint& trip, c
     tables.push_back({"earlier", earlier_table(trip, design.control, unit)});
     tables.push_back({"trip-times", times_table(report, unit, model.time_unit)});
     for (const DimensionCurve& curve : report.curves) {
-        const Dimension& one = design.dimensions[curve.dimension];
+        const DesignDimension& one = design.dimensions[curve.dimension];
         Table table({{one.name, one.unit}, {design.control, unit}, {"class", ""}, {"problem", ""}});
         for (const MappedValue& point : curve.points) {
             table.add(point.x);
@@ -277,7 +277,7 @@ std::vector<NamedTable> tables_of(const Design& design, const TripPoint& trip, c
         tables.push_back({"curve-" + one.name, std::move(table)});
     }
     for (const DimensionPlane& plane : report.planes) {
-        const Dimension &x = design.dimensions[plane.across], &y = design.dimensions[plane.up];
+        const DesignDimension &x = design.dimensions[plane.across], &y = design.dimensions[plane.up];
         Table table({{x.name, x.unit}, {y.name, y.unit}, {design.control, unit}, {"class", ""}, {"problem", ""}});
         for (const MappedValue& point : plane.points) {
             table.add(point.x);

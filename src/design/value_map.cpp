@@ -90,7 +90,7 @@ private:
 };
 
 /// Ends of what can be tuned, from the nominal position outwards: where a solution is missing, or beyond the range.
-void set_limits(Tuning& tuning, const Dimension& stop, std::size_t nominal) {
+void set_limits(Tuning& tuning, const DesignDimension& stop, std::size_t nominal) {
     const auto problem_at = [&](const TuningPoint& point) -> std::string {
         if (!point.found || !point.admissible)
             return point.problem.empty() ? "the model would not come there" : point.problem;
@@ -123,7 +123,7 @@ void MapSettings::validate() const {
     solver.validate();
 }
 
-std::vector<MappedValue> value_curve(const TripPoint& trip, const Dimension& dimension, const MapSettings& settings) {
+std::vector<MappedValue> value_curve(const TripPoint& trip, const DesignDimension& dimension, const MapSettings& settings) {
     settings.validate();
     std::vector<MappedValue> result(settings.points);
     MapWork work(trip, {dimension.parameter}, settings);
@@ -136,7 +136,7 @@ std::vector<MappedValue> value_curve(const TripPoint& trip, const Dimension& dim
     return result;
 }
 
-std::vector<MappedValue> value_plane(const TripPoint& trip, const Dimension& across, const Dimension& up,
+std::vector<MappedValue> value_plane(const TripPoint& trip, const DesignDimension& across, const DesignDimension& up,
                                      const MapSettings& settings) {
     settings.validate();
     const std::size_t points = settings.points;
@@ -152,7 +152,7 @@ std::vector<MappedValue> value_plane(const TripPoint& trip, const Dimension& acr
     return result;
 }
 
-Tuning tuning_curve(const TripPoint& trip, const Dimension& stop, const MapSettings& settings) {
+Tuning tuning_curve(const TripPoint& trip, const DesignDimension& stop, const MapSettings& settings) {
     settings.validate();
     Tuning tuning;
     // Values between those that the ends of the stop's range have, or the last devices before them.

@@ -39,7 +39,7 @@ public:
         figure_.title = title();
         figure_.columns = 2;
         figure_.symbols.push_back(design_.control);
-        for (const Dimension& one : design_.dimensions)
+        for (const DesignDimension& one : design_.dimensions)
             figure_.symbols.push_back(one.name);
         for (std::size_t i = 0; i < std::min(most_curves, report_.curves.size()); ++i)
             add_curve(report_.curves[i]);
@@ -69,7 +69,7 @@ private:
         return text;
     }
 
-    FigurePanel value_panel(const Dimension& dimension) const {
+    FigurePanel value_panel(const DesignDimension& dimension) const {
         FigurePanel panel;
         panel.x_label = dimension.name;
         panel.x_unit = dimension.unit;
@@ -80,7 +80,7 @@ private:
         return panel;
     }
 
-    double nominal(const Dimension& dimension) const {
+    double nominal(const DesignDimension& dimension) const {
         return trip_.point.solution.orbit.parameters[dimension.parameter.place()];
     }
 
@@ -96,7 +96,7 @@ private:
 
     /// A line for each class; it goes on to the first point of another one.
     void add_curve(const DimensionCurve& curve) {
-        const Dimension& dimension = design_.dimensions[curve.dimension];
+        const DesignDimension& dimension = design_.dimensions[curve.dimension];
         FigurePanel panel = value_panel(dimension);
         for (const ClassStyle& style : classes) {
             FigureSeries series;
@@ -118,7 +118,7 @@ private:
     }
 
     void add_plane(const DimensionPlane& plane) {
-        const Dimension &x = design_.dimensions[plane.across], &y = design_.dimensions[plane.up];
+        const DesignDimension &x = design_.dimensions[plane.across], &y = design_.dimensions[plane.up];
         FigurePanel panel;
         panel.title = fmt::format("{} at which it trips", design_.control);
         panel.x_label = x.name;
@@ -134,7 +134,7 @@ private:
     }
 
     /// A field of dots, coloured by class, beneath the contours.
-    static void add_classes(FigurePanel& panel, const DimensionPlane& plane, const Dimension& x, const Dimension& y) {
+    static void add_classes(FigurePanel& panel, const DimensionPlane& plane, const DesignDimension& x, const DesignDimension& y) {
         const auto points = static_cast<double>(std::lround(std::sqrt(static_cast<double>(plane.points.size()))));
         const double half_x = 0.5 * (x.greatest - x.least) / (points - 1);
         const double half_y = 0.5 * (y.greatest - y.least) / (points - 1);
@@ -204,7 +204,7 @@ private:
     }
 
     void add_tuning(const Tuning& tuning) {
-        const Dimension& stop = design_.dimensions[*design_.adjustable];
+        const DesignDimension& stop = design_.dimensions[*design_.adjustable];
         FigurePanel panel;
         panel.title = "Tuning";
         panel.x_label = design_.control;

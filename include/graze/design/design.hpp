@@ -28,7 +28,7 @@ struct DesignTolerance {
 };
 
 /// A parameter that the designer may choose.
-struct Dimension {
+struct DesignDimension {
     std::string name, unit, text;
     ParameterId parameter;
     double least = 0, greatest = 0;
@@ -85,7 +85,7 @@ struct Design {
     ParameterId control_parameter;
     Approach approach;
     TripRequest trip;
-    std::vector<Dimension> dimensions;
+    std::vector<DesignDimension> dimensions;
     std::vector<std::pair<std::size_t, std::size_t>> planes; ///< pairs of dimensions; empty: the first two
     std::optional<std::size_t> adjustable;                   ///< the dimension that is tuned on the finished device
     std::size_t curve_points = 41, plane_points = 31;        ///< along each dimension

@@ -31,10 +31,10 @@ struct MapSettings {
 
 /// The trip value and the class against one dimension, each a Newton solve from the trip point.
 /// @return in rising order of the dimension; fewer when interrupted
-std::vector<MappedValue> value_curve(const TripPoint& trip, const Dimension& dimension, const MapSettings& settings);
+std::vector<MappedValue> value_curve(const TripPoint& trip, const DesignDimension& dimension, const MapSettings& settings);
 
 /// The same in the plane of two dimensions, row by row: y is the same along a row.
-std::vector<MappedValue> value_plane(const TripPoint& trip, const Dimension& across, const Dimension& up,
+std::vector<MappedValue> value_plane(const TripPoint& trip, const DesignDimension& across, const DesignDimension& up,
                                      const MapSettings& settings);
 
 /// Where an adjustable stop must be for a trip value.
@@ -54,6 +54,6 @@ struct Tuning {
 /// The tuning curve of one dimension: its value as a function of the trip value, as far as the range goes and the
 /// device would trip there.
 /// @throws InputError where the stop does not follow from the trip value
-Tuning tuning_curve(const TripPoint& trip, const Dimension& stop, const MapSettings& settings);
+Tuning tuning_curve(const TripPoint& trip, const DesignDimension& stop, const MapSettings& settings);
 
 } // namespace graze
