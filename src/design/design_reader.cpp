@@ -177,19 +177,24 @@ void DesignReader::read_control() {
 /// What of the approach needs the model.
 void DesignReader::read_branch() {
     Approach& approach = design_.approach;
-    if (const auto range = approach_.find("range"); range != approach_.end())
-        std::tie(approach.least, approach.greatest) = reader_.range(design_.model, range->second);
-    if (const auto event = approach_.find("event"); event != approach_.end())
+    Mistakes mistakes;
+    const auto with = [&](const char* name, auto work) { with_key(mistakes, approach_, name, work); };
+    with("range", [&](const TomlEntry& e) {
+        std::tie(approach.least, approach.greatest) = reader_.range(design_.model, e);
+    });
+    with("event", [&](const TomlEntry& e) {
         if (!design_.model.find_event(approach.event))
-            reader_.fail(event->second,
-                         fmt::format("model '{}' has no event '{}'", design_.model.name, approach.event),
+            reader_.fail(e, fmt::format("model '{}' has no event '{}'", design_.model.name, approach.event),
                          study_name_remedy(approach.event, names_of(design_.model.events)));
-    if (const auto from = approach_.find("from"); from != approach_.end())
-        reader_.each_of(from->second, {}, [&](const TomlEntry& item) {
+    });
+    with("from", [&](const TomlEntry& e) {
+        reader_.each_of(e, {}, [&](const TomlEntry& item) {
             const double value = number(item);
             at(item.place, [&] { design_.model.set_initial(item.name, value); });
             approach.from.emplace_back(item.name, value);
         });
+    });
+    mistakes.throw_noted();
 }
 
 void DesignReader::read_trip(const TomlEntry& entry) {

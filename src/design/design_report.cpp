@@ -20,7 +20,7 @@ public:
 
     DesignReport make() {
         add_sensitivities();
-        report_.found = class_at(trip_, orbit_);
+        report_.found = class_at(trip_);
         part("trip times", [&] {
             report_.times = trip_times(trip_, orbit_, report_.found, design_.trip, options_.interrupted);
         });

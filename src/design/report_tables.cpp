@@ -108,6 +108,45 @@ void add_yield(FactRows& facts, const DesignReport& report, const Design& design
     }
 }
 
+/// Whether all that was wanted has been found, and what is in the way.
+void add_wishes(FactRows& facts, const MetWishes& wishes) {
+    facts.add("wishes", name_of(wishes.found.outcome),
+              wishes.found.reason.empty() ? "the device has all that is wanted" : wishes.found.reason);
+    for (std::size_t i = 0; i < wishes.found.wants.size(); ++i) {
+        const FoundWant& one = wishes.found.wants[i];
+        const std::string text = fmt::format("{}{}", one.met ? "met" : "not met", one.binds ? ", binds" : "");
+        if (one.value)
+            facts.add("want_" + wishes.list.wants[i].name, *one.value, "", text);
+        else
+            facts.add("want_" + wishes.list.wants[i].name, "none", text);
+    }
+}
+
+Table wishes_table(const MetWishes& wishes) {
+    Table table({{"what", ""}, {"least", ""}, {"greatest", ""}, {"value", ""}, {"met", ""}, {"binds", ""}, {"weight", ""}});
+    for (std::size_t i = 0; i < wishes.found.wants.size(); ++i) {
+        const FoundWant& one = wishes.found.wants[i];
+        table.add(wishes.list.wants[i].name);
+        table.add_extended(wishes.list.wants[i].least);
+        table.add_extended(wishes.list.wants[i].most);
+        table.add(one.value.value_or(nothing));
+        table.add(one.met ? "yes" : "no");
+        table.add(one.binds ? "yes" : "no");
+        table.add(one.weight);
+    }
+    for (std::size_t i = 0; i < wishes.found.dimensions.size(); ++i) {
+        const FoundDimension& one = wishes.found.dimensions[i];
+        table.add(wishes.list.dimensions[i].name);
+        table.add_extended(wishes.list.dimensions[i].lowest);
+        table.add_extended(wishes.list.dimensions[i].highest);
+        table.add(one.value);
+        table.add("");
+        table.add(one.binds ? "yes" : "no");
+        table.add(one.weight);
+    }
+    return table;
+}
+
 Table earlier_table(const TripPoint& trip, const std::string& control, const std::string& unit) {
     Table table({{"run", ""}, {"label", ""}, {"type", ""}, {control, unit}, {"changes", ""}, {"detail", ""}});
     for (const EarlierPoint& one : trip.earlier) {
@@ -226,6 +265,8 @@ Table facts_of(const Design& design, const TripPoint& trip, const DesignReport& 
     const std::string unit = unit_of(model, design.control);
     const Orbit& orbit = trip.point.solution.orbit;
     FactRows facts;
+    if (report.wishes)
+        add_wishes(facts, *report.wishes);
     for (const DesignDimension& one : design.dimensions)
         facts.add(one.name, orbit.parameters[one.parameter.place()], one.unit, one.text);
     facts.add("trip_value", report.value, unit, fmt::format("of {}, at {} of run '{}'", design.control, trip.label, trip.run));
@@ -265,6 +306,8 @@ std::vector<NamedTable> tables_of(const Design& design, const TripPoint& trip, c
     std::vector<NamedTable> tables;
     tables.push_back({"facts", facts_of(design, trip, report)});
     tables.push_back({"sensitivities", sensitivity_table(design, report, unit)});
+    if (report.wishes)
+        tables.push_back({"wishes", wishes_table(*report.wishes)});
     tables.push_back({"earlier", earlier_table(trip, design.control, unit)});
     tables.push_back({"trip-times", times_table(report, unit, model.time_unit)});
     for (const DimensionCurve& curve : report.curves) {

@@ -75,7 +75,8 @@ EarlierPoint earlier_of(const OrbitRecord& record, const std::string& run, Param
     return {run,        record.label,
             point.detail, point.type,
             point.solution.orbit.parameters[control.place()],
-            kind_of(point.type).changes};
+            kind_of(point.type).changes,
+            point};
 }
 
 const SpecialPoint& with_condition(const SpecialPoint& point, const Place& place, const std::string& label) {
@@ -149,25 +150,40 @@ std::string_view class_name(GrazingOutcome outcome) {
     return outcome == GrazingOutcome::lost ? "trips" : name_of(outcome);
 }
 
-TripClass class_at(const TripPoint& trip, const Orbit& orbit) {
+TripPoint moved_to(const TripPoint& trip, const Orbit& orbit) {
+    TripPoint moved = trip;
+    moved.earlier.clear();
+    moved.point.solution.orbit = orbit;
+    moved.point.parameter = orbit.parameters[trip.control.place()];
+    if (!trip.is_touch() || trip.point.at_end)
+        return moved;
+    // Where it was, unless it has gone to another segment.
+    std::optional<OrbitTouch> touch;
+    for (const OrbitTouch& one : touches_of(trip.system, orbit))
+        if (one.event == trip.point.event && (!touch || one.segment == trip.point.segment))
+            touch = one;
+    if (touch) {
+        moved.point.segment = touch->segment;
+        moved.point.time = touch->time;
+        moved.point.at_end = touch->at_end;
+    }
+    return moved;
+}
+
+TripClass class_at(const TripPoint& trip) {
     TripClass result;
+    const SpecialPoint& point = trip.point;
     if (!trip.is_touch()) {
-        const bool fold = trip.point.type == PointType::fold;
+        const bool fold = point.type == PointType::fold;
         result.outcome = fold ? GrazingOutcome::folds : GrazingOutcome::undecided;
         result.reason = fold ? "the branch of orbits turns: nothing remains beyond"
-                             : fmt::format("what remains beyond a {} is not said", name_of(trip.point.type));
+                             : fmt::format("what remains beyond a {} is not said", name_of(point.type));
         return result;
     }
     CycleMapOptions options;
     options.parameter = trip.control;
-    // Where it was, unless it has gone to another segment.
-    OrbitTouch touch{trip.point.segment, trip.point.event, trip.point.time, trip.point.at_end};
-    for (const OrbitTouch& one : touches_of(trip.system, orbit, options))
-        if (one.event == touch.event) {
-            touch = one;
-            break;
-        }
-    result.map = cycle_map(trip.system, orbit, touch, options);
+    result.map = cycle_map(trip.system, point.solution.orbit, {point.segment, point.event, point.time, point.at_end},
+                           options);
     result.verdict = verdict_of(*result.map);
     result.outcome = result.verdict.outcome;
     result.reason = result.verdict.reason;

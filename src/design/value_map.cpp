@@ -33,7 +33,7 @@ MappedValue mapped(const TripPoint& trip, LocatedValue& located, std::span<const
     result.value = solution.value;
     result.admissible = solution.admissible;
     if (solution.admissible)
-        result.outcome = class_at(trip, solution.orbit).outcome;
+        result.outcome = class_at(moved_to(trip, solution.orbit)).outcome;
     return result;
 }
 

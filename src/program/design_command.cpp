@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -132,6 +133,30 @@ void write_all(Workplace& place, const Design& design, const TripPoint& trip, co
     }
 }
 
+/// Where a device trips; its way there is kept in the file. @return none when interrupted
+std::optional<TripPoint> locate(const Design& design, const std::string& path, const DesignReportOptions& options) {
+    const Study study = approach_study(design);
+    ResultFile file(path, ResultFile::Access::write);
+    if (!follow(study, file, options))
+        return std::nullopt;
+    return find_trip_point(design, study, file);
+}
+
+MetWishes wished(const Design& design, const TripPoint& trip, const DesignReportOptions& options) {
+    WishesOptions wishes;
+    wishes.interrupted = options.interrupted;
+    wishes.progress = [&](std::size_t devices) {
+        options.progress(fmt::format("{} devices tried for what is wanted", devices));
+    };
+    return meet_wishes(design, trip, wishes);
+}
+
+/// What calls for a look at the numbers.
+bool is_irregular(const DesignReport& report) {
+    return report.trial.outcome == TrialOutcome::contradicted || (report.yield && report.yield->failed > 0) ||
+           (report.wishes && report.wishes->found.outcome != WishOutcome::met);
+}
+
 int interrupted(const Console& console) {
     console.err << "graze: interrupted; nothing but the way to the trip point is kept\n";
     return InterruptGuard::exit_code();
@@ -148,12 +173,10 @@ int design_command(const DesignArguments& arguments, const Console& console) {
         console.out << shipped_design_text(arguments.design);
         return exit_success;
     }
-    const Design design = load_design(arguments.design);
-    const Study study = approach_study(design);
-    const std::string folder = arguments.folder.empty() ? design.name : arguments.folder;
+    const Design first = load_design(arguments.design);
+    const std::string folder = arguments.folder.empty() ? first.name : arguments.folder;
     make_folder(folder, "--output");
-    Workplace place(design, folder);
-    ResultFile file(place.path("results.sqlite"), ResultFile::Access::write);
+    Workplace place(first, folder);
     const InterruptGuard guard;
     StatusLine line(console, console.terminal);
     DesignReportOptions options;
@@ -164,23 +187,37 @@ int design_command(const DesignArguments& arguments, const Console& console) {
         if (line.is_due())
             line.show(what);
     };
-    if (!follow(study, file, options))
+    std::optional<TripPoint> trip = locate(first, place.path("results.sqlite"), options);
+    if (!trip)
         return interrupted(console);
-    const TripPoint trip = find_trip_point(design, study, file);
-    const DesignReport report = report_of(design, trip, options);
+    std::optional<MetWishes> wishes;
+    Design design = first;
+    if (!first.wanted.is_empty()) {
+        wishes = wished(first, *trip, options);
+        if (wishes->found.outcome == WishOutcome::interrupted)
+            return interrupted(console);
+        if (wishes->found.outcome != WishOutcome::nowhere) {
+            // The way there is gone by the finished device too: what comes before its trip point is known then.
+            design = with_values(first, wishes->values());
+            trip = locate(design, place.path("designed.sqlite"), options);
+            if (!trip)
+                return interrupted(console);
+        }
+    }
+    DesignReport report = report_of(design, *trip, options);
+    report.wishes = std::move(wishes);
     if (report.interrupted)
         return interrupted(console);
-    write_all(place, design, trip, report, arguments, console);
+    write_all(place, design, *trip, report, arguments, console);
     if (!arguments.quiet) {
-        deliver(facts_of(design, trip, report), arguments.output, {}, console);
+        deliver(facts_of(design, *trip, report), arguments.output, {}, console);
         if (arguments.output.format == TableFormat::table)
             for (const std::string& path : place.written())
                 console.out << path << '\n';
     }
     if (report.yield)
         tell(*report.yield, console);
-    const bool irregular = report.trial.outcome == TrialOutcome::contradicted || (report.yield && report.yield->failed);
-    return irregular ? exit_irregular : exit_success;
+    return is_irregular(report) ? exit_irregular : exit_success;
 }
 
 } // namespace graze

@@ -7,6 +7,7 @@
 #include "graze/design/trip_point.hpp"
 #include "graze/design/trip_times.hpp"
 #include "graze/design/value_map.hpp"
+#include "graze/design/wishes.hpp"
 #include "graze/results/table.hpp"
 
 #include <functional>
@@ -49,6 +50,7 @@ struct DesignReport {
     std::optional<Yield> yield;
     std::string no_yield; ///< why there is none, if tolerances were given
     YieldSettings yield_settings;
+    std::optional<MetWishes> wishes; ///< that led to this device, if the design wants anything
     bool interrupted = false;
 };
 

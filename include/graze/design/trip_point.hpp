@@ -23,6 +23,7 @@ struct EarlierPoint {
     PointType type = PointType::regular;
     double value = 0;     ///< of the control parameter
     bool changes = false; ///< the motion beyond it is another one: the device may trip there first
+    SpecialPoint point{};
 };
 
 /// Where the device trips: a touch, or another point whose condition can be held, as a fold.
@@ -51,8 +52,9 @@ struct TripClass {
 /// "trips", "persists", "folds" or "undecided", as designers say.
 std::string_view class_name(GrazingOutcome outcome);
 
-/// The class at a point, or at a neighbour of it for other parameters (LocatedSolution). A touch that has left its
-/// segment is found again.
-TripClass class_at(const TripPoint& trip, const Orbit& orbit);
+/// The trip point of a neighbour with other parameters, whose orbit is known (LocatedSolution). A touch that has left its
+/// segment is found again; what comes earlier there is not known.
+TripPoint moved_to(const TripPoint& trip, const Orbit& orbit);
+TripClass class_at(const TripPoint& trip);
 
 } // namespace graze
