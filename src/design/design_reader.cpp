@@ -115,8 +115,8 @@ void DesignReader::read_approach(const TomlEntry& entry) {
                                       : "give study = \"NAME\", or leave it out and give range = [A, B]");
     for (const char* name : {"from", "range", "cycles"})
         if (of_study && approach_.contains(name))
-            throw InputError(approach_.at(name).place, fmt::format("the study says already how its runs go: '{}'", name),
-                             "leave it out");
+            throw InputError(approach_.at(name).place,
+                             fmt::format("the study says already how its runs go: '{}'", name), "leave it out");
     if (!of_study && !approach_.contains("range"))
         throw InputError(entry.place, fmt::format("{} has no range", entry.path),
                          "give range = [A, B]: where the control parameter begins, and how far it goes");
@@ -179,9 +179,8 @@ void DesignReader::read_branch() {
     Approach& approach = design_.approach;
     Mistakes mistakes;
     const auto with = [&](const char* name, auto work) { with_key(mistakes, approach_, name, work); };
-    with("range", [&](const TomlEntry& e) {
-        std::tie(approach.least, approach.greatest) = reader_.range(design_.model, e);
-    });
+    with("range",
+         [&](const TomlEntry& e) { std::tie(approach.least, approach.greatest) = reader_.range(design_.model, e); });
     with("event", [&](const TomlEntry& e) {
         if (!design_.model.find_event(approach.event))
             reader_.fail(e, fmt::format("model '{}' has no event '{}'", design_.model.name, approach.event),
@@ -257,7 +256,8 @@ void DesignReader::read_dimension(const TomlEntry& entry) {
     dimension.name = entry.name;
     dimension.parameter = parameter_of(entry, entry.name);
     if (dimension.parameter == design_.control_parameter && !design_.control.empty())
-        throw InputError(entry.place, fmt::format("'{}' is the control parameter, whose trip value follows", entry.name),
+        throw InputError(entry.place,
+                         fmt::format("'{}' is the control parameter, whose trip value follows", entry.name),
                          "choose other parameters");
     const Parameter& parameter = design_.model.parameters[*design_.model.find_parameter(entry.name)];
     dimension.unit = parameter.unit;

@@ -21,9 +21,8 @@ public:
     DesignReport make() {
         add_sensitivities();
         report_.found = class_at(trip_);
-        part("trip times", [&] {
-            report_.times = trip_times(trip_, orbit_, report_.found, design_.trip, options_.interrupted);
-        });
+        part("trip times",
+             [&] { report_.times = trip_times(trip_, orbit_, report_.found, design_.trip, options_.interrupted); });
         part("the way back", [&] { add_reset(); });
         part("trial", [&] {
             DeviceTrialOptions trial;
@@ -32,14 +31,16 @@ public:
         });
         for (std::size_t i = 0; i < design_.dimensions.size(); ++i)
             part("curve of " + design_.dimensions[i].name, [&] {
-                report_.curves.push_back({i, value_curve(trip_, design_.dimensions[i], settings(design_.curve_points))});
+                report_.curves.push_back(
+                    {i, value_curve(trip_, design_.dimensions[i], settings(design_.curve_points))});
             });
-        for (const auto& [x, y] : design_.planes)
-            part(fmt::format("plane of {} and {}", design_.dimensions[x].name, design_.dimensions[y].name), [&] {
-                report_.planes.push_back({x, y,
-                                          value_plane(trip_, design_.dimensions[x], design_.dimensions[y],
-                                                      settings(design_.plane_points))});
+        for (const auto& plane : design_.planes) {
+            const DesignDimension &x = design_.dimensions[plane.first], &y = design_.dimensions[plane.second];
+            part(fmt::format("plane of {} and {}", x.name, y.name), [&] {
+                report_.planes.push_back(
+                    {plane.first, plane.second, value_plane(trip_, x, y, settings(design_.plane_points))});
             });
+        }
         if (design_.adjustable)
             part("tuning", [&] { add_tuning(); });
         part("devices", [&] { add_yield(); });

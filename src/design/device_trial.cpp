@@ -31,9 +31,10 @@ private:
 
 /// Contacts of one period of an orbit with an event.
 std::size_t own_contacts(const Model& model, const Orbit& whole, std::size_t event) {
-    return static_cast<std::size_t>(std::count_if(whole.signature.begin(), whole.signature.end(), [&](const Segment& s) {
-        return s.end == SegmentEnd::event && model.transitions[s.index].event == event;
-    }));
+    return static_cast<std::size_t>(
+        std::count_if(whole.signature.begin(), whole.signature.end(), [&](const Segment& s) {
+            return s.end == SegmentEnd::event && model.transitions[s.index].event == event;
+        }));
 }
 
 /// Whether the orbit that was there before the trip point is, and the motion remains on it.
@@ -48,9 +49,9 @@ void try_below(DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, co
         return;
     }
     if (!solution.certificate.admissible || !is_stable(solution)) {
-        trial.seen_below = solution.certificate.admissible ? "the orbit is not stable"
-                                                           : "the orbit is none of the model's: " +
-                                                                 solution.certificate.reason;
+        trial.seen_below = solution.certificate.admissible
+                               ? "the orbit is not stable"
+                               : "the orbit is none of the model's: " + solution.certificate.reason;
         return;
     }
     const Orbit whole = whole_orbit(trip.system, solution.orbit);
@@ -71,11 +72,12 @@ void try_below(DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, co
                                 ? options.cycles * own_contacts(trip.system.model(), whole, trip.point.event)
                                 : count.contacts();
     // A contact that begins or ends the simulated time may be counted or not.
-    const bool as_many = count.contacts() <= own + 1 && count.contacts() + 1 >= own && (own > 0 || count.contacts() == 0);
+    const bool as_many =
+        count.contacts() <= own + 1 && count.contacts() + 1 >= own && (own > 0 || count.contacts() == 0);
     trial.rests_below = as_many;
-    trial.seen_below = as_many ? fmt::format("a stable motion for {} periods, without any touch of another kind",
-                                             options.cycles)
-                               : fmt::format("{} contacts in {} periods", count.contacts(), options.cycles);
+    trial.seen_below =
+        as_many ? fmt::format("a stable motion for {} periods, without any touch of another kind", options.cycles)
+                : fmt::format("{} contacts in {} periods", count.contacts(), options.cycles);
 }
 
 void try_above(DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, const TripRequest& request,
@@ -112,8 +114,8 @@ DeviceTrial try_device(const TripPoint& trip, const Orbit& orbit, const TripClas
     }
     const bool fold = !trip.is_touch() && found.outcome == GrazingOutcome::folds;
     const bool expected = found.outcome == GrazingOutcome::lost || fold;
-    trial.outcome = trial.rests_below && trial.trips_above == expected ? TrialOutcome::agreed
-                                                                       : TrialOutcome::contradicted;
+    trial.outcome =
+        trial.rests_below && trial.trips_above == expected ? TrialOutcome::agreed : TrialOutcome::contradicted;
     return trial;
 }
 

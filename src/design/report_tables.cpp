@@ -123,7 +123,8 @@ void add_wishes(FactRows& facts, const MetWishes& wishes) {
 }
 
 Table wishes_table(const MetWishes& wishes) {
-    Table table({{"what", ""}, {"least", ""}, {"greatest", ""}, {"value", ""}, {"met", ""}, {"binds", ""}, {"weight", ""}});
+    Table table(
+        {{"what", ""}, {"least", ""}, {"greatest", ""}, {"value", ""}, {"met", ""}, {"binds", ""}, {"weight", ""}});
     for (std::size_t i = 0; i < wishes.found.wants.size(); ++i) {
         const FoundWant& one = wishes.found.wants[i];
         table.add(wishes.list.wants[i].name);
@@ -269,7 +270,8 @@ Table facts_of(const Design& design, const TripPoint& trip, const DesignReport& 
         add_wishes(facts, *report.wishes);
     for (const DesignDimension& one : design.dimensions)
         facts.add(one.name, orbit.parameters[one.parameter.place()], one.unit, one.text);
-    facts.add("trip_value", report.value, unit, fmt::format("of {}, at {} of run '{}'", design.control, trip.label, trip.run));
+    facts.add("trip_value", report.value, unit,
+              fmt::format("of {}, at {} of run '{}'", design.control, trip.label, trip.run));
     facts.add("class", class_name(report.found.outcome),
               report.found.reason.empty() ? fmt::format("at a {}", name_of(trip.point.type)) : report.found.reason);
     if (report.found.map && report.found.map->exists()) {
@@ -289,7 +291,8 @@ Table facts_of(const Design& design, const TripPoint& trip, const DesignReport& 
     }
     if (report.tuning) {
         facts.add("tuned_least", report.tuning->least, unit, "by the adjustable stop; " + report.tuning->ends_below);
-        facts.add("tuned_greatest", report.tuning->greatest, unit, "by the adjustable stop; " + report.tuning->ends_above);
+        facts.add("tuned_greatest", report.tuning->greatest, unit,
+                  "by the adjustable stop; " + report.tuning->ends_above);
     } else if (!report.no_tuning.empty()) {
         facts.add("tuning", "none", report.no_tuning);
     }

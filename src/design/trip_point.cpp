@@ -72,8 +72,10 @@ bool is_wanted(const Design& design, const Model& model, const SpecialPoint& poi
 
 EarlierPoint earlier_of(const OrbitRecord& record, const std::string& run, ParameterId control) {
     const SpecialPoint& point = record.point;
-    return {run,        record.label,
-            point.detail, point.type,
+    return {run,
+            record.label,
+            point.detail,
+            point.type,
             point.solution.orbit.parameters[control.place()],
             kind_of(point.type).changes,
             point};
@@ -115,9 +117,8 @@ TripPoint find_trip_point(const Design& design, const Study& study, const Result
         if (planned.kind != RunKind::follow && name != last)
             continue;
         // Of a run from which another one starts, what comes before that.
-        const auto next = std::find_if(study.runs.begin(), study.runs.end(), [&](const StudyRun& one) {
-            return one.start && one.start->run == name;
-        });
+        const auto next = std::find_if(study.runs.begin(), study.runs.end(),
+                                       [&](const StudyRun& one) { return one.start && one.start->run == name; });
         const std::string leaves = name != last && next != study.runs.end() ? next->start->point : "";
         for (const std::string& label : run.special_labels()) {
             const OrbitRecord record = orbit_of_run(file, run.record, label, approach.place);
@@ -139,7 +140,7 @@ TripPoint find_trip_point(const Design& design, const Study& study, const Result
         passed += fmt::format("{}{} at {:.6g}", passed.empty() ? "" : ", ", one.label, one.value);
     throw InputError(approach.place,
                      fmt::format("the branch has come to its end without {}; on its way: {}",
-                                 !approach.point.empty()   ? approach.point
+                                 !approach.point.empty()  ? approach.point
                                  : approach.event.empty() ? "a touch"
                                                           : fmt::format("a touch of '{}'", approach.event),
                                  passed.empty() ? "nothing" : passed),
@@ -182,8 +183,8 @@ TripClass class_at(const TripPoint& trip) {
     }
     CycleMapOptions options;
     options.parameter = trip.control;
-    result.map = cycle_map(trip.system, point.solution.orbit, {point.segment, point.event, point.time, point.at_end},
-                           options);
+    result.map =
+        cycle_map(trip.system, point.solution.orbit, {point.segment, point.event, point.time, point.at_end}, options);
     result.verdict = verdict_of(*result.map);
     result.outcome = result.verdict.outcome;
     result.reason = result.verdict.reason;

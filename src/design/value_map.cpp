@@ -16,9 +16,8 @@ namespace graze {
 namespace {
 
 double spread_over(double least, double greatest, std::size_t i, std::size_t points) {
-    return i + 1 == points
-               ? greatest
-               : least + (greatest - least) * (static_cast<double>(i) / static_cast<double>(points - 1));
+    return i + 1 == points ? greatest
+                           : least + (greatest - least) * (static_cast<double>(i) / static_cast<double>(points - 1));
 }
 
 MappedValue mapped(const TripPoint& trip, LocatedValue& located, std::span<const double> values) {
@@ -123,7 +122,8 @@ void MapSettings::validate() const {
     solver.validate();
 }
 
-std::vector<MappedValue> value_curve(const TripPoint& trip, const DesignDimension& dimension, const MapSettings& settings) {
+std::vector<MappedValue> value_curve(const TripPoint& trip, const DesignDimension& dimension,
+                                     const MapSettings& settings) {
     settings.validate();
     std::vector<MappedValue> result(settings.points);
     MapWork work(trip, {dimension.parameter}, settings);

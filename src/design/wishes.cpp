@@ -85,8 +85,7 @@ public:
     WishList make() {
         const Orbit& orbit = trip_.point.solution.orbit;
         for (const DesignDimension& one : design_.dimensions)
-            list_.dimensions.push_back(
-                {one.name, orbit.parameters[one.parameter.place()], one.least, one.greatest, 0});
+            list_.dimensions.push_back({one.name, orbit.parameters[one.parameter.place()], one.least, one.greatest, 0});
         add_value();
         add_class();
         add_time();
@@ -101,27 +100,30 @@ private:
 
     void add(const std::string& name, double least, double most,
              std::function<WantedValue(std::span<const double>)> value, double scale = 0) {
-        list_.wants.push_back({name, least, most, scale,
-                               [this, value = std::move(value)](std::span<const double> values) {
-                                   if (options_.progress)
-                                       options_.progress(++tried_);
-                                   return value(values);
-                               }});
+        list_.wants.push_back(
+            {name, least, most, scale, [this, value = std::move(value)](std::span<const double> values) {
+                 if (options_.progress)
+                     options_.progress(++tried_);
+                 return value(values);
+             }});
     }
 
     /// A value of a device that has one, without a gradient.
     void add_of_device(const std::string& name, double least, double most, double scale,
                        std::function<std::optional<double>(const TripPoint&)> value) {
-        add(name, least, most, [devices = devices_, value = std::move(value)](std::span<const double> values) {
-            WantedValue result;
-            if (const TripPoint* device = devices->at(values))
-                result.value = value(*device);
-            else
-                result.problem = devices->problem();
-            if (!result.value && result.problem.empty())
-                result.problem = "the device has no such value";
-            return result;
-        }, scale);
+        add(
+            name, least, most,
+            [devices = devices_, value = std::move(value)](std::span<const double> values) {
+                WantedValue result;
+                if (const TripPoint* device = devices->at(values))
+                    result.value = value(*device);
+                else
+                    result.problem = devices->problem();
+                if (!result.value && result.problem.empty())
+                    result.problem = "the device has no such value";
+                return result;
+            },
+            scale);
     }
 
     void add_value() {
@@ -180,19 +182,18 @@ private:
     void add_reset() {
         if (!wanted().least_reset)
             return;
-        const std::vector<double> overshoots =
-            overshoots_of(design_.trip, trip_.value(), class_at(trip_).verdict.side);
+        const std::vector<double> overshoots = overshoots_of(design_.trip, trip_.value(), class_at(trip_).verdict.side);
         ResetOptions way;
         way.overshoot = overshoots.front();
         way.least = design_.approach.least < trip_.value() ? design_.approach.least : 0;
         way.interrupted = options_.interrupted;
         const Reset reset = reset_of(trip_, trip_.point.solution.orbit, way);
         if (!reset.point)
-            throw InputError(design_.approach.place,
-                             fmt::format("a reset value is wanted, and there is none: {}",
-                                         reset.reason.empty() ? "the tripped motion is lost by a " + reset.how
-                                                              : reset.reason),
-                             "leave `reset` out of what is wanted");
+            throw InputError(
+                design_.approach.place,
+                fmt::format("a reset value is wanted, and there is none: {}",
+                            reset.reason.empty() ? "the tripped motion is lost by a " + reset.how : reset.reason),
+                "leave `reset` out of what is wanted");
         TripPoint back = trip_;
         back.point = *reset.point;
         auto resets = std::make_shared<ValueOfDevices>(back, parameters_of(design_));

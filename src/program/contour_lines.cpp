@@ -49,9 +49,9 @@ std::vector<PlanePoint> contour_line(const ContourGrid& grid, double level) {
                                                      {grid.x[i + 1], grid.y[j]},
                                                      {grid.x[i + 1], grid.y[j + 1]},
                                                      {grid.x[i], grid.y[j + 1]}}};
-            const std::array<double, 4> values{
-                grid.values[j * across + i], grid.values[j * across + i + 1], grid.values[(j + 1) * across + i + 1],
-                grid.values[(j + 1) * across + i]};
+            const std::array<double, 4> values{grid.values[j * across + i], grid.values[j * across + i + 1],
+                                               grid.values[(j + 1) * across + i + 1],
+                                               grid.values[(j + 1) * across + i]};
             if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
                 continue;
             std::vector<PlanePoint> crossings;

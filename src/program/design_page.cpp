@@ -55,9 +55,8 @@ public:
 
 private:
     std::string title() const {
-        std::string text =
-            fmt::format("{}: {} at {} = {:.6g}{}{}", design_.name, class_name(report_.found.outcome), design_.control,
-                        report_.value, unit_.empty() ? "" : " ", unit_);
+        std::string text = fmt::format("{}: {} at {} = {:.6g}{}{}", design_.name, class_name(report_.found.outcome),
+                                       design_.control, report_.value, unit_.empty() ? "" : " ", unit_);
         for (const TripTimeRow& row : report_.times.rows)
             if (const TripTime* best = row.best()) {
                 text += fmt::format(", in {:.4g}{}{} at {:.2g} beyond", best->time, time_unit_.empty() ? "" : " ",
@@ -134,7 +133,8 @@ private:
     }
 
     /// A field of dots, coloured by class, beneath the contours.
-    static void add_classes(FigurePanel& panel, const DimensionPlane& plane, const DesignDimension& x, const DesignDimension& y) {
+    static void add_classes(FigurePanel& panel, const DimensionPlane& plane, const DesignDimension& x,
+                            const DesignDimension& y) {
         const auto points = static_cast<double>(std::lround(std::sqrt(static_cast<double>(plane.points.size()))));
         const double half_x = 0.5 * (x.greatest - x.least) / (points - 1);
         const double half_y = 0.5 * (y.greatest - y.least) / (points - 1);
@@ -215,9 +215,9 @@ private:
         FigureSeries line;
         line.style = FigureSeries::Style::line;
         for (const TuningPoint& one : tuning.points)
-            line.points.push_back(
-                {one.value,
-                 one.found && one.value >= tuning.least && one.value <= tuning.greatest ? one.position : nothing});
+            line.points.push_back({one.value, one.found && one.value >= tuning.least && one.value <= tuning.greatest
+                                                  ? one.position
+                                                  : nothing});
         panel.series = {line, mark({report_.value, nominal(stop)}, "the device")};
         panel.marks = {tuning.least, tuning.greatest};
         figure_.panels.push_back(std::move(panel));

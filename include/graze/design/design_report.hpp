@@ -56,7 +56,7 @@ struct DesignReport {
 
 struct DesignReportOptions {
     int jobs = 1;
-    std::function<bool()> interrupted;                    ///< asked from any thread
+    std::function<bool()> interrupted;                     ///< asked from any thread
     std::function<void(const std::string& what)> progress; ///< what is being done; called from the calling thread
 };
 

@@ -11,12 +11,12 @@ namespace graze {
 
 /// What simulation says of a device just below and just above its trip value.
 struct DeviceTrial {
-    double below = 0, above = 0;     ///< values of the control parameter
-    bool rests_below = false;        ///< the orbit is there and stable, and the motion stays on it without a touch
-    bool trips_above = false;        ///< the motion came to the end that counts as tripped
+    double below = 0, above = 0;        ///< values of the control parameter
+    bool rests_below = false;           ///< the orbit is there and stable, and the motion stays on it without a touch
+    bool trips_above = false;           ///< the motion came to the end that counts as tripped
     std::string seen_below, seen_above; ///< in words
     TrialOutcome outcome = TrialOutcome::undecided; ///< whether that is what the class says
-    TripTime trip;                   ///< above
+    TripTime trip;                                  ///< above
 };
 
 struct DeviceTrialOptions {

@@ -9,8 +9,8 @@
 namespace graze {
 
 struct ResetOptions {
-    double overshoot = 0; ///< beyond the trip value, at which the device has tripped; with its sign
-    double least = 0;     ///< of the control parameter, down to which the tripped motion is followed
+    double overshoot = 0;      ///< beyond the trip value, at which the device has tripped; with its sign
+    double least = 0;          ///< of the control parameter, down to which the tripped motion is followed
     std::size_t cycles = 2000; ///< for it to settle
     std::function<bool()> interrupted;
 };
@@ -19,8 +19,8 @@ struct ResetOptions {
 struct Reset {
     std::optional<double> value; ///< where the tripped motion is lost; none: `reason` says why
     std::string reason;
-    std::string how;       ///< what happens there, such as "fold"
-    std::string motion;    ///< the tripped motion's signature, if it is an orbit
+    std::string how;                   ///< what happens there, such as "fold"
+    std::string motion;                ///< the tripped motion's signature, if it is an orbit
     std::optional<SpecialPoint> point; ///< of that, whose condition can be held
 
     /// Trip value less reset value.

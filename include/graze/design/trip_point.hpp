@@ -45,15 +45,15 @@ TripPoint find_trip_point(const Design& design, const Study& study, const Result
 /// What happens at a trip point, by the map of the cycle.
 struct TripClass {
     GrazingOutcome outcome = GrazingOutcome::undecided;
-    std::string reason;         ///< why undecided, or why without a map
+    std::string reason;          ///< why undecided, or why without a map
     std::optional<CycleMap> map; ///< of a touch
-    Verdict verdict;            ///< of that
+    Verdict verdict;             ///< of that
 };
 /// "trips", "persists", "folds" or "undecided", as designers say.
 std::string_view class_name(GrazingOutcome outcome);
 
-/// The trip point of a neighbour with other parameters, whose orbit is known (LocatedSolution). A touch that has left its
-/// segment is found again; what comes earlier there is not known.
+/// The trip point of a neighbour with other parameters, whose orbit is known (LocatedSolution). A touch that has left
+/// its segment is found again; what comes earlier there is not known.
 TripPoint moved_to(const TripPoint& trip, const Orbit& orbit);
 TripClass class_at(const TripPoint& trip);
 

@@ -23,7 +23,7 @@ struct MapSettings {
     std::size_t points = 41; ///< in each direction
     int jobs = 1;            ///< threads, on which nothing depends
     LocatedValueOptions solver;
-    std::function<bool()> interrupted; ///< asked from any thread
+    std::function<bool()> interrupted;              ///< asked from any thread
     std::function<void(std::size_t done)> progress; ///< called from the calling thread
     /// @throws InputError naming what is out of range
     void validate() const;
@@ -31,7 +31,8 @@ struct MapSettings {
 
 /// The trip value and the class against one dimension, each a Newton solve from the trip point.
 /// @return in rising order of the dimension; fewer when interrupted
-std::vector<MappedValue> value_curve(const TripPoint& trip, const DesignDimension& dimension, const MapSettings& settings);
+std::vector<MappedValue> value_curve(const TripPoint& trip, const DesignDimension& dimension,
+                                     const MapSettings& settings);
 
 /// The same in the plane of two dimensions, row by row: y is the same along a row.
 std::vector<MappedValue> value_plane(const TripPoint& trip, const DesignDimension& across, const DesignDimension& up,
