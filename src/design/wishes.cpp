@@ -82,16 +82,19 @@ public:
         : design_(design), trip_(trip), options_(options),
           devices_(std::make_shared<ValueOfDevices>(trip, parameters_of(design))) {}
 
-    WishList make() {
+    /// @param hasty with the trip time, which jumps from cycle to cycle: nothing that a solver likes
+    WishList make(bool hasty) {
+        list_ = {};
         const Orbit& orbit = trip_.point.solution.orbit;
         for (const DesignDimension& one : design_.dimensions)
             list_.dimensions.push_back({one.name, orbit.parameters[one.parameter.place()], one.least, one.greatest, 0});
         add_value();
         add_class();
-        add_time();
         add_reset();
         add_clear();
         add_sensitivities();
+        if (hasty)
+            add_time();
         return std::move(list_);
     }
 
@@ -263,8 +266,24 @@ MetWishes meet_wishes(const Design& design, const TripPoint& trip, const WishesO
     solver.evaluations = options.evaluations;
     solver.interrupted = options.interrupted;
     MetWishes result;
-    result.list = maker.make();
+    result.list = maker.make(false);
     result.found = design_for(result.list, solver);
+    if (design.wanted.longest_time && result.found.outcome != WishOutcome::interrupted &&
+        result.found.outcome != WishOutcome::nowhere) {
+        WishList whole = maker.make(true);
+        FoundWant time;
+        const std::vector<double> found = result.values();
+        time.value = whole.wants.back().value(found).value;
+        time.met = time.value && *time.value <= *design.wanted.longest_time;
+        if (time.value && !time.met)
+            time.violation = *time.value / *design.wanted.longest_time - 1;
+        // The time is looked for only where it is what is missing.
+        if (!time.met && result.found.outcome == WishOutcome::met)
+            result.found = design_for(whole, solver);
+        else
+            result.found.wants.push_back(time);
+        result.list = std::move(whole);
+    }
     for (Want& one : result.list.wants)
         one.value = nullptr; // they refer to what ends here
     return result;
