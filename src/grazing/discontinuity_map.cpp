@@ -5,6 +5,7 @@
 #include "grazing/compliant_contact.hpp"
 #include "grazing/contact_chain.hpp"
 #include "grazing/local_map.hpp"
+#include "grazing/next_order.hpp"
 #include "grazing/touch_geometry.hpp"
 #include "orbit/eigen_index.hpp"
 
@@ -141,6 +142,9 @@ DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& to
     if (!sizes.is_zero_gain(chain.gain)) {
         map.order = MapOrder::square_root;
         map.direction = without_remnants(chain.gain, sizes.scales());
+        if (chain.contacts.size() == 1 && asked == AskedContacts::all)
+            if (const auto second = next_order_of_impact(functions, map.touch, geometry, sizes, chain.contacts.front()))
+                map.second = list_of(*second, n);
         return map;
     }
     if (chain.modes.size() != 2 || !chain.only_changes_modes) {

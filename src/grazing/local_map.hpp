@@ -5,7 +5,8 @@
 
 namespace graze {
 
-/// What is asked of a contact. Compliant ones take a while, since second derivatives of the fields are needed.
+/// What is asked of a contact. Compliant ones and next orders take a while, since second derivatives of the fields are
+/// needed.
 enum class AskedContacts {
     all,
     rigid,
