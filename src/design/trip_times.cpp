@@ -137,7 +137,7 @@ TripTimes trip_times(const TripPoint& trip, const Orbit& orbit, const TripClass&
         return times;
     }
     constexpr double digits = 1e-12; // of the parameter, to which a fold is known
-    for (const double overshoot : overshoots_of(request, value, 1)) {
+    for (const double overshoot : overshoots_of(request, value, found.verdict.side)) {
         if (std::abs(overshoot) < digits * std::abs(value) || (interrupted && interrupted()))
             continue;
         TripTimeRow& row = times.rows.emplace_back();

@@ -93,7 +93,10 @@ void set_limits(Tuning& tuning, const DesignDimension& stop, std::size_t nominal
     const auto problem_at = [&](const TuningPoint& point) -> std::string {
         if (!point.found || !point.admissible)
             return point.problem.empty() ? "the model would not come there" : point.problem;
-        return point.position < stop.least || point.position > stop.greatest ? "the stop's range ends" : "";
+        // The ends themselves are found again but for round-off.
+        const double rounding = 1e-9 * (stop.greatest - stop.least);
+        const bool beyond = point.position < stop.least - rounding || point.position > stop.greatest + rounding;
+        return beyond ? "the stop's range ends" : "";
     };
     std::size_t low = nominal, high = nominal;
     tuning.ends_below = tuning.ends_above = "the stop's range ends";

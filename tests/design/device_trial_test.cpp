@@ -1,0 +1,31 @@
+// Devices are tried by simulation on both sides of their trip value.
+
+#include "graze/design/device_trial.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "switches.hpp"
+
+namespace graze::testing {
+
+TEST(DeviceTrial, OfTheMemsSwitchAgreesWithItsClass) {
+    const Design design = load_design("mems-switch");
+    const TripPoint trip = trip_of(design);
+    const DeviceTrial trial = try_device(trip, trip.point.solution.orbit, class_at(trip), design.trip);
+    EXPECT_EQ(trial.outcome, TrialOutcome::agreed);
+    EXPECT_LT(trial.below, trip.value());
+    EXPECT_GT(trial.above, trip.value());
+    EXPECT_EQ(trial.trip.ending, "singular");
+}
+
+TEST(DeviceTrial, ContradictsAClassThatIsWrong) {
+    const Design design = load_design("mems-switch");
+    const TripPoint trip = trip_of(design);
+    TripClass wrong = class_at(trip);
+    wrong.outcome = GrazingOutcome::persists;
+    EXPECT_EQ(try_device(trip, trip.point.solution.orbit, wrong, design.trip).outcome, TrialOutcome::contradicted);
+    wrong.outcome = GrazingOutcome::undecided;
+    EXPECT_EQ(try_device(trip, trip.point.solution.orbit, wrong, design.trip).outcome, TrialOutcome::undecided);
+    EXPECT_THROW(try_device(trip, trip.point.solution.orbit, wrong, design.trip, {2, 200, {}}), InputError);
+}
+
+} // namespace graze::testing
