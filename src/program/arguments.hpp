@@ -105,7 +105,7 @@ struct GrazingArguments {
 };
 
 struct TripArguments {
-    std::string file, point, parameter, until, plot, data;
+    std::string file, point, beside, parameter, until, plot, data;
     std::vector<std::string> overshoots, disturbances;
     std::optional<double> greatest_speed;
     long cycles = 2000;
