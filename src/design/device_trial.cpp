@@ -72,7 +72,11 @@ Orbit before_fold(const TripPoint& trip, const Orbit& orbit, double value) {
 void try_below(DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, const DeviceTrialOptions& options) {
     OrbitOptions numbers;
     numbers.error_estimate = false;
-    Orbit candidate = trip.point.type == PointType::fold ? before_fold(trip, orbit, trial.below) : orbit;
+    const bool fold = trip.point.type == PointType::fold;
+    Orbit candidate = fold ? before_fold(trip, orbit, trial.below) : orbit;
+    // Beside a fold are two orbits: the stable one is tried where it was met.
+    if (fold)
+        trial.below = candidate.parameters[trip.control.place()];
     candidate.parameters[trip.control.place()] = trial.below;
     const OrbitSolution solution = solve_orbit(trip.system, candidate, numbers);
     if (solution.outcome != OrbitOutcome::converged) {
