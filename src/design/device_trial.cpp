@@ -55,13 +55,14 @@ Orbit before_fold(const TripPoint& trip, const Orbit& orbit, double value) {
         settings.parameter = trip.control;
         settings.steps = most;
         settings.orbit.error_estimate = false;
-        settings.stop_when_unphysical = false;
         OrbitBranch branch(trip.system, orbit, settings);
         if (!branch.start_along(along, first))
             continue;
         do {
             const BranchPoint& point = branch.point();
-            if (point.stable && (value - point.parameter) * trip.fold_side >= 0)
+            if (!point.stable)
+                break;
+            if ((value - point.parameter) * trip.fold_side >= 0)
                 return point.solution.orbit;
         } while (branch.step());
     }
