@@ -56,13 +56,22 @@ public:
         result = gradient.row(0).dot(vector);
         return std::isfinite(result);
     }
-    /// l^T F_p for the first free parameter, up to a positive factor.
+    /// l^T F_p for the first free parameter, in its own unit.
     double by_parameter(const VectorXd& left, const OrbitEvaluation& at) const {
         const auto rows = index(equations_.layout().states()) + 1;
         double sum = 0;
         for (Eigen::Index k = 0; k < index(at.pieces.size()); ++k)
             sum += left.segment(k * rows, rows).dot(at.system.block(static_cast<std::size_t>(k)).parameters.col(0));
-        return sum;
+        return sum / at.scales[index(equations_.layout().parameter(0))];
+    }
+    /// What starts gain along a vector, and the row that takes a change of the start to what closes of it.
+    VectorXd start_along(const VectorXd& vector) const {
+        const auto n = index(equations_.layout().states());
+        return vector.head(n).cwiseProduct(columns_.head(n));
+    }
+    VectorXd closing_row(const VectorXd& left) const {
+        const auto n = index(equations_.layout().states());
+        return (closing_.leftCols(n).transpose() * left).cwiseQuotient(columns_.head(n));
     }
 
     /// F_2(v, .), as a matrix. @return false where the motion cannot be followed
@@ -187,6 +196,10 @@ struct Fold {
     double product = 0;
 };
 
+std::vector<double> list_of(const VectorXd& vector) {
+    return {vector.begin(), vector.end()};
+}
+
 } // namespace
 
 std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEvaluation& at) {
@@ -197,10 +210,14 @@ std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEv
     double second = 0;
     if (!fold.right.allFinite() || !expansion.second(fold.left, fold.right, second))
         return std::nullopt;
-    const double coefficient = second / (2 * fold.product);
-    if (!std::isfinite(coefficient))
+    // The equations are what the next start is less what the motion makes of this one.
+    const double coefficient = -second / (2 * fold.product), sign = coefficient < 0 ? -1 : 1;
+    const double rate = -sign * expansion.by_parameter(fold.left, at) / fold.product;
+    if (!std::isfinite(coefficient) || !std::isfinite(rate))
         return std::nullopt;
-    return FoldForm{std::abs(coefficient), second * expansion.by_parameter(fold.left, at) < 0};
+    const VectorXd critical = sign * expansion.start_along(fold.right),
+                   adjoint = sign / fold.product * expansion.closing_row(fold.left);
+    return FoldForm{sign * coefficient, rate < 0, rate, list_of(critical), list_of(adjoint)};
 }
 
 /// As the coefficient of a flip, but that what the square of the motion along the null vector asks for is solved for

@@ -28,8 +28,11 @@ std::optional<double> torus_coefficient(const OrbitEquations& equations, const O
 /// What happens at a fold, w -> w + b (p - p_0) + a w^2: two orbits on one side of the parameter, of which one is
 /// stable if there is no other unstable direction, at w^2 = -b (p - p_0)/a to first order.
 struct FoldForm {
-    double coefficient = 0; ///< |a|: its sign is that of the critical vector
+    double coefficient = 0; ///< a > 0, which the sign of the critical vector decides: orbits at w < 0 are stable
     bool above = false;     ///< two orbits at greater values of the first free parameter, none at smaller ones
+    double rate = 0;        ///< b, by the first free parameter in its own unit
+    /// The critical vector in the first start, and the adjoint one, in the model's units: w = adjoint (start - fold's).
+    std::vector<double> critical, adjoint;
 };
 /// @param at evaluation at an orbit with a multiplier 1, with a free parameter. @return none where it cannot be
 /// computed

@@ -1,5 +1,6 @@
 #include "graze/branch/yield.hpp"
 
+#include "branch/random_number.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
 
@@ -18,28 +19,11 @@ namespace graze {
 
 namespace {
 
-/// A number that looks random, of another one (G. L. Steele, D. Lea and C. H. Flood, "Fast splittable pseudorandom
-/// number generators", 2014).
-std::uint64_t mixed(std::uint64_t x) {
-    x += 0x9e3779b97f4a7c15ULL;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-    return x ^ (x >> 31);
-}
-
-/// In (0, 1), without either end.
-double drawn(std::uint64_t seed, std::size_t device, std::size_t place) {
-    const std::uint64_t bits = mixed(mixed(mixed(seed) ^ static_cast<std::uint64_t>(device)) ^ place);
-    return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
-}
-
 /// Of mean zero.
 double departure(const Tolerance& tolerance, std::uint64_t seed, std::size_t device, std::size_t place) {
-    const double first = drawn(seed, device, 2 * place);
     if (tolerance.spread == Spread::uniform)
-        return tolerance.size * (2 * first - 1);
-    const double second = drawn(seed, device, 2 * place + 1);
-    return tolerance.size * std::sqrt(-2 * std::log(first)) * std::cos(2 * std::numbers::pi * second);
+        return tolerance.size * (2 * drawn(seed, device, 2 * place) - 1);
+    return tolerance.size * drawn_normal(seed, device, place);
 }
 
 /// How many standard deviations on either side of the mean hold such a share of a normal distribution.

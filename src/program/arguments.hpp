@@ -105,7 +105,7 @@ struct GrazingArguments {
 };
 
 struct TripArguments {
-    std::string file, point, parameter, until, plot, data;
+    std::string file, point, beside, parameter, until, plot, data;
     std::vector<std::string> overshoots, disturbances;
     std::optional<double> greatest_speed;
     long cycles = 2000;
@@ -117,6 +117,13 @@ struct ToleranceArguments {
     std::vector<std::string> vary;
     std::size_t devices = 10'000, seed = 1;
     int jobs = 0; ///< 0: as many as there are cores
+    OutputArguments output;
+};
+
+struct DesignArguments {
+    std::string design, folder;
+    int jobs = 0; ///< 0: as many as there are cores
+    bool quiet = false, list = false, show = false, no_pictures = false;
     OutputArguments output;
 };
 
@@ -148,6 +155,7 @@ struct Arguments {
     TripArguments trip;
     LadderArguments ladder;
     ToleranceArguments tolerance;
+    DesignArguments design;
     CheckArguments check;
     ModelsArguments models;
     SimulateArguments simulate;

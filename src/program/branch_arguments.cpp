@@ -58,17 +58,19 @@ constexpr const char* grazing_examples = R"(Examples:
   graze grazing results chain:GR1 --verify         checked by motions just beyond
   graze grazing results GR1 --format json          every number, with all its digits)";
 
-constexpr const char* trip_text = R"(Say how long it takes until a motion that touches is lost.
+constexpr const char* trip_text = R"(Say how long it takes until a motion is lost, at a touch or a fold.
 At a touch whose verdict (graze grazing) is that the motion is lost: cycles and time from the touch, with the parameter
 moved beyond by each overshoot, until contacts are hard. The map of a cycle tells it for any overshoot, also for those that
 no simulation can see; the columns with `end` go on by simulation until the end that is asked for, and `simulated_time`
-is simulation alone, where the digits of the parameter allow it. POINT is written as for graze orbit.)";
+is simulation alone, where the digits of the parameter allow it. At a fold (SN): cycles and time of the passage by its
+normal form, for any overshoot, and by simulation from before the fold to beyond it. POINT is written as for graze orbit.)";
 
 constexpr const char* trip_examples = R"(Examples:
   graze trip results GR1                           ten overshoots from 1e-2 to 1e-20 of the parameter's size
   graze trip results GR1 --until end               until the motion comes to its own end, as by snap-through
   graze trip results GR1 --overshoot 1e-3:1e-9 --until q=0.9
-  graze trip results GR1 --until end --plot trip.svg)";
+  graze trip results SN1 --overshoot 1e-2:1e-6     passage through a fold
+  graze trip results GR1 --beside SN1 --until end --plot trip.svg)";
 
 constexpr const char* tolerance_text = R"(Say how far a special point depends on the other parameters.
 The value of the run's parameter at which the point lies, such as the voltage at which a switch trips, is a function of
@@ -162,13 +164,16 @@ void declare_trip(CLI::App& app, TripArguments& arguments) {
     CLI::App& command = declare_of_point(app, "trip", trip_text, trip_examples, arguments);
     const char* group = "What to compute";
     add(command, group, "--parameter", arguments.parameter, "NAME",
-        "That moves the orbit from its touch (the one that its run follows)");
+        "That moves the orbit from the point (the one that its run follows)");
+    add(command, group, "--beside", arguments.beside, "POINT",
+        "The same at another point, with overshoots of the same size");
     add(command, group, "--overshoot", arguments.overshoots, "VALUES",
-        "Of the parameter beyond its touch, with sign: a list, or FIRST:LAST for each decade");
+        "Of the parameter beyond the point, with sign: a list, or FIRST:LAST for each decade");
     add(command, group, "--disturbance", arguments.disturbances, "STATE=VALUE",
         "Added to the state of the touch in which the motion begins (none)");
     auto* until = add(command, group, "--until", arguments.until, "EXPR=LEVEL",
-                      "End there, or where the motion ends by itself: end (contacts as hard as the map can tell)");
+                      "End there, or where the motion ends by itself: end (contacts as hard as the map can tell; the "
+                      "fold is passed)");
     add(command, group, "--greatest-speed", arguments.greatest_speed, "SPEED",
         "End at a contact of this approach speed")
         ->check(CLI::PositiveNumber)
@@ -185,7 +190,7 @@ void declare_ladder(CLI::App& app, LadderArguments& arguments) {
     CLI::App& command = declare_of_point(app, "ladder", ladder_text, ladder_examples, arguments);
     const char* group = "How far";
     add(command, group, "--rungs", arguments.rungs, "N", "Grazings at most, that one included (8)")
-        ->check(CLI::Range(2, 1000));
+        ->check(whole_number(2, 1000));
     add(command, group, "--parameter", arguments.parameter, "NAME",
         "That varies (the one that its run follows, within its bounds)");
     declare_table(command, arguments.output);

@@ -4,15 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <utility>
 #include <vector>
 
 namespace graze {
 
-namespace {
-
-/// What moves the orbit from its touch: what was asked for, or what the run follows. On a curve that is first the one
-/// that has been freed, since its own may have nothing to do with the orbit, as the stiffness of a stop has not.
-std::vector<ParameterId> parameters_of(const StoredRun& run, const std::string& asked) {
+std::vector<ParameterId> moving_parameters(const StoredRun& run, const std::string& asked) {
     if (!asked.empty())
         return {run.model.independent_parameter(asked)};
     std::vector<ParameterId> result;
@@ -22,6 +19,8 @@ std::vector<ParameterId> parameters_of(const StoredRun& run, const std::string& 
         result.push_back(run.model.independent_parameter(followed));
     return result;
 }
+
+namespace {
 
 /// A grazing is kept with its place; others are looked through for one.
 OrbitTouch touch_of(const System& system, const OrbitRecord& record) {
@@ -40,7 +39,7 @@ void find_map(TouchingOrbit& found, const System& system, const std::string& ask
     const OrbitTouch touch = touch_of(system, found.stored.record);
     CycleMapOptions options;
     found.map = cycle_map(system, found.stored.record.point.solution.orbit, touch, options);
-    for (const ParameterId parameter : parameters_of(found.stored.run, asked)) {
+    for (const ParameterId parameter : moving_parameters(found.stored.run, asked)) {
         found.parameter = options.parameter = parameter;
         found.map = cycle_map(system, found.stored.record.point.solution.orbit, touch, options);
         if (found.map.clearance_rate && *found.map.clearance_rate != 0)
@@ -51,7 +50,11 @@ void find_map(TouchingOrbit& found, const System& system, const std::string& ask
 } // namespace
 
 TouchingOrbit find_touching_orbit(const ResultFile& file, const std::string& point, const std::string& parameter) {
-    TouchingOrbit found{find_stored_orbit(file, point, {"POINT", 0, 0}), {}, {}};
+    return touching_orbit(find_stored_orbit(file, point, {"POINT", 0, 0}), parameter);
+}
+
+TouchingOrbit touching_orbit(StoredOrbit stored, const std::string& parameter) {
+    TouchingOrbit found{std::move(stored), {}, {}};
     find_map(found, System(found.stored.run.model), parameter);
     return found;
 }

@@ -1,10 +1,9 @@
-#include "graze/grazing/trip_time.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/figure.hpp"
+#include "program/interrupt.hpp"
 #include "program/picture.hpp"
-#include "program/quantity.hpp"
-#include "program/touching_orbit.hpp"
+#include "program/loss_point.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -20,98 +19,102 @@ namespace graze {
 
 namespace {
 
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
+
 /// What is known of one overshoot.
 struct TripRow {
     double overshoot = 0;
+    // Of a touch.
     PredictedTrip predicted;           ///< until the map's level
     TripTime continued;                ///< until the end that was asked for
     std::optional<TripTime> simulated; ///< likewise
+    // Of a fold.
+    double cycles = nothing, gate_cycles = nothing;
+    std::optional<SimulatedPassage> passage;
 };
 
-/// What ends a trip, for people too.
-struct AskedEnd {
-    TripEnd end;
-    std::string words;
+/// All rows of one point.
+struct Trips {
+    LossPoint point;
+    AskedEnd end;
+    std::vector<TripRow> rows{};
+    bool all_ended = true;
 };
 
-constexpr std::size_t most_rows = 1000;
-
-[[noreturn]] void refuse_overshoot(const std::string& text, const std::string& what) {
-    throw InputError(Place{"--overshoot " + text, 0, 0}, what, "write 1e-3,1e-6 or 1e-2:1e-20");
-}
-
-/// A value for each decade from the first to the last.
-void add_decades(std::vector<double>& values, double first, double last, const std::string& text) {
-    if (!(first * last > 0))
-        refuse_overshoot(text, "the ends of the range are not of one sign");
-    const double decades = std::abs(std::log10(first / last));
-    if (!(decades < most_rows))
-        refuse_overshoot(text, "the range is too long");
-    const auto count = static_cast<int>(std::floor(decades + 1e-9));
-    for (int i = 0; i <= count; ++i)
-        // By text, so that powers of ten are what people write.
-        values.push_back(first * std::stod(fmt::format("1e{}", std::abs(first) > std::abs(last) ? -i : i)));
-}
-
-/// Those asked for, or ten from 1e-2 to 1e-20 of the size of the parameter, on the side with contacts.
-std::vector<double> overshoots_of(const TouchingOrbit& found, const std::vector<std::string>& asked) {
-    std::vector<double> values;
-    for (const std::string& text : split_list(asked)) {
-        const std::size_t colon = text.find(':');
-        const auto number = [&](const std::string& part) {
-            return value_of(found.stored.run.model, part, "--overshoot");
-        };
-        if (colon == std::string::npos)
-            values.push_back(number(text));
-        else
-            add_decades(values, number(text.substr(0, colon)), number(text.substr(colon + 1)), text);
-    }
-    if (values.size() > most_rows)
-        refuse_overshoot("", fmt::format("{} overshoots are too many", values.size()));
+/// Those asked for, or ten from 1e-2 to 1e-20 of the size of the parameter, on the side on which the motion is lost.
+std::vector<double> overshoots_of(const LossPoint& point, const std::vector<std::string>& asked) {
+    std::vector<double> values = numbers_by_decades(point.model(), asked, "--overshoot");
     if (!values.empty())
         return values;
-    const double value = std::abs(found.map.contact.touch.parameters[found.parameter->place()]);
+    const double value = std::abs(point.value);
     const int size = value > 0 ? static_cast<int>(std::floor(std::log10(value))) : 0;
-    const char* sign = *found.map.clearance_rate < 0 ? "" : "-";
+    const char* sign = point.side > 0 ? "" : "-";
     constexpr int least = 20;
     for (int digits = 2; digits <= least; digits += 2)
         values.push_back(std::stod(fmt::format("{}1e{}", sign, size - digits)));
     return values;
 }
 
-AskedEnd end_of(const Model& model, const TripArguments& arguments, double level) {
-    if (arguments.greatest_speed)
-        return {{*arguments.greatest_speed, {}, 0}, fmt::format("speed {:.4g}", *arguments.greatest_speed)};
-    if (arguments.until.empty())
-        return {{level, {}, 0}, fmt::format("speed {:.4g}", level)};
-    if (arguments.until == "end")
-        return {{}, "the end"};
-    const std::size_t equals = arguments.until.rfind('=');
-    if (equals == std::string::npos)
-        throw InputError(Place{"--until " + arguments.until, 0, 0}, "it names no level",
-                         "write EXPR=LEVEL, such as q=0.9, or end");
-    AskedEnd asked{{}, arguments.until};
-    asked.end.quantity = requested_quantity(model, arguments.until.substr(0, equals), "--until").value;
-    asked.end.level = value_of(model, arguments.until.substr(equals + 1), "--until");
-    return asked;
+TripOptions options_of(const LossPoint& point, const TripArguments& arguments) {
+    TripOptions options;
+    options.cycles = static_cast<double>(arguments.cycles);
+    options.disturbance = disturbance_of(point.model(), arguments.disturbances);
+    options.interrupted = [] { return InterruptGuard::requested(); };
+    if (point.fold && !options.disturbance.empty())
+        throw InputError(Place{"--disturbance", 0, 0}, "a passage through a fold begins before it",
+                         "leave it out, or choose a touch (GR)");
+    return options;
+}
+
+/// One more row. @return false when it was interrupted
+bool add_row(Trips& trips, double overshoot, const TripOptions& options) {
+    const LossPoint& point = trips.point;
+    TripRow row;
+    row.overshoot = overshoot;
+    bool ended = true;
+    if (point.fold) {
+        row.cycles = cycles_of_passage(*point.fold, overshoot);
+        row.gate_cycles = cycles_of_passage(*point.fold, overshoot, -point.fold->gate, point.fold->gate);
+        if (row.cycles < options.cycles && std::abs(overshoot) >= least_overshoot(*point.fold)) {
+            row.passage =
+                simulated_passage(point.system, *point.fold, overshoot, trips.end.end, !trips.end.given, options);
+            ended = trips.end.given ? row.passage->trip.ended : row.passage->passed;
+        }
+    } else {
+        PredictionOptions prediction;
+        const double speed = trips.end.end.speed;
+        prediction.level = speed > 0 ? std::min(point.level, speed) : point.level;
+        prediction.disturbance = options.disturbance;
+        row.predicted = predicted_trip(point.map, point.verdict, overshoot, prediction);
+        row.continued =
+            continued_trip(point.system, point.map, point.parameter, overshoot, row.predicted, trips.end.end, options);
+        if (overshoot == 0 || std::abs(overshoot) >= least_overshoot(point.map, point.parameter))
+            row.simulated = simulated_trip(point.system, point.map, point.parameter, overshoot, trips.end.end, options);
+        ended = row.continued.ended;
+    }
+    if (InterruptGuard::requested())
+        return false;
+    trips.all_ended = trips.all_ended && ended;
+    trips.rows.push_back(std::move(row));
+    return true;
 }
 
 /// A number of the table: missing where the end has not come.
 double if_ended(const TripTime& trip, double value) {
-    return trip.ended ? value : std::numeric_limits<double>::quiet_NaN();
+    return trip.ended ? value : nothing;
 }
 
-Table table_of(const std::vector<TripRow>& rows, const Model& model, const std::string& parameter) {
-    const std::string unit = model.parameters[*model.find_parameter(parameter)].unit;
-    Table table({{"overshoot", unit},
+Table table_of_touch(const Trips& trips) {
+    const std::string& time = trips.point.model().time_unit;
+    Table table({{"overshoot", trips.point.unit},
                  {"first_speed", ""},
                  {"cycles", ""},
-                 {"time", model.time_unit},
+                 {"time", time},
                  {"end_cycles", ""},
-                 {"end_time", model.time_unit},
+                 {"end_time", time},
                  {"ending", ""},
-                 {"simulated_time", model.time_unit}});
-    for (const TripRow& row : rows) {
+                 {"simulated_time", time}});
+    for (const TripRow& row : trips.rows) {
         table.add(row.overshoot);
         table.add(row.predicted.first_speed);
         table.add(if_ended(row.predicted, row.predicted.cycles));
@@ -119,8 +122,69 @@ Table table_of(const std::vector<TripRow>& rows, const Model& model, const std::
         table.add(if_ended(row.continued, row.continued.cycles));
         table.add(if_ended(row.continued, row.continued.time));
         table.add(row.continued.ending);
-        table.add(row.simulated ? if_ended(*row.simulated, row.simulated->time)
-                                : std::numeric_limits<double>::quiet_NaN());
+        table.add(row.simulated ? if_ended(*row.simulated, row.simulated->time) : nothing);
+    }
+    return table;
+}
+
+Table table_of_fold(const Trips& trips) {
+    const std::string& time = trips.point.model().time_unit;
+    std::vector<Table::Column> columns{
+        {"overshoot", trips.point.unit}, {"cycles", ""},          {"time", time}, {"gate_cycles", ""},
+        {"simulated_cycles", ""},        {"simulated_time", time}};
+    if (trips.end.given) {
+        columns.push_back({"end_time", time});
+        columns.push_back({"ending", ""});
+    }
+    Table table(std::move(columns));
+    for (const TripRow& row : trips.rows) {
+        table.add(row.overshoot);
+        table.add(row.cycles);
+        table.add(row.cycles * trips.point.cycle);
+        table.add(row.gate_cycles);
+        table.add(row.passage && row.passage->passed ? row.passage->cycles : nothing);
+        table.add(row.passage && row.passage->passed ? row.passage->time : nothing);
+        if (!trips.end.given)
+            continue;
+        table.add(row.passage ? if_ended(row.passage->trip, row.passage->trip.time) : nothing);
+        table.add(row.passage ? row.passage->trip.ending : "");
+    }
+    return table;
+}
+
+/// What a row says first of all, of a touch as of a fold: by the map or the normal form, and by simulation.
+struct Summary {
+    double cycles = nothing, time = nothing, end_time = nothing;
+};
+Summary summary_of(const Trips& trips, const TripRow& row) {
+    if (!trips.point.fold)
+        return {if_ended(row.predicted, row.predicted.cycles), if_ended(row.predicted, row.predicted.time),
+                if_ended(row.continued, row.continued.time)};
+    Summary result{row.cycles, row.cycles * trips.point.cycle, nothing};
+    if (row.passage && trips.end.given)
+        result.end_time = if_ended(row.passage->trip, row.passage->trip.time);
+    else if (row.passage && row.passage->passed)
+        result.end_time = row.passage->time;
+    return result;
+}
+
+Table table_of_both(const Trips& one, const Trips& other) {
+    const std::string &time = one.point.model().time_unit, &other_time = other.point.model().time_unit;
+    Table table({{"overshoot", one.point.unit},
+                 {"cycles", ""},
+                 {"time", time},
+                 {"end_time", time},
+                 {"beside_cycles", ""},
+                 {"beside_time", other_time},
+                 {"beside_end_time", other_time}});
+    for (std::size_t i = 0; i < std::min(one.rows.size(), other.rows.size()); ++i) {
+        table.add(one.rows[i].overshoot);
+        for (const Trips* trips : {&one, &other}) {
+            const Summary summary = summary_of(*trips, trips->rows[i]);
+            table.add(summary.cycles);
+            table.add(summary.time);
+            table.add(summary.end_time);
+        }
     }
     return table;
 }
@@ -133,19 +197,15 @@ FigureSeries series_of(const std::string& title, FigureSeries::Style style, std:
     return series;
 }
 
-Figure figure_of(const std::vector<TripRow>& rows, const Model& model, const std::string& parameter,
-                 const std::string& level, const std::string& end) {
-    FigurePanel panel;
-    panel.x_label = rows.front().overshoot > 0 ? parameter + " beyond its touch" : parameter + " short of its touch";
-    panel.x_unit = model.parameters[*model.find_parameter(parameter)].unit;
-    panel.y_label = "time";
-    panel.y_unit = model.time_unit;
-    panel.logarithmic_x = true;
-    panel.roomy_x = panel.roomy_y = true;
-    FigureSeries map = series_of("map, until " + level, FigureSeries::Style::dashed, 0);
-    FigureSeries continued = series_of("map, then simulation, until " + end, FigureSeries::Style::line, 1);
-    FigureSeries simulated = series_of("simulation alone, until " + end, FigureSeries::Style::circles, 2);
-    for (const TripRow& row : rows) {
+void add_touch(FigurePanel& panel, const Trips& trips, const std::string& which) {
+    const double speed = trips.end.end.speed;
+    const std::string level =
+        fmt::format("speed {:.4g}", speed > 0 ? std::min(trips.point.level, speed) : trips.point.level);
+    const std::string& end = trips.end.words;
+    FigureSeries map = series_of(which + "map, until " + level, FigureSeries::Style::dashed, 0);
+    FigureSeries continued = series_of(which + "map, then simulation, until " + end, FigureSeries::Style::line, 1);
+    FigureSeries simulated = series_of(which + "simulation alone, until " + end, FigureSeries::Style::circles, 2);
+    for (const TripRow& row : trips.rows) {
         const double x = std::abs(row.overshoot);
         if (x == 0) // has no place on the axis
             continue;
@@ -156,28 +216,51 @@ Figure figure_of(const std::vector<TripRow>& rows, const Model& model, const std
         if (row.simulated && row.simulated->ended)
             simulated.points.push_back({x, row.simulated->time});
     }
-    panel.series = {map, continued, simulated};
+    panel.series.insert(panel.series.end(), {map, continued, simulated});
+}
+
+void add_fold(FigurePanel& panel, const Trips& trips, const std::string& which) {
+    FigureSeries form = series_of(which + "normal form, from far away", FigureSeries::Style::dashed, 3);
+    FigureSeries gated = series_of(which + "normal form, from gate to gate", FigureSeries::Style::line, 3);
+    FigureSeries simulated = series_of(which + "simulation, until " + trips.end.words, FigureSeries::Style::circles, 4);
+    for (const TripRow& row : trips.rows) {
+        const Summary summary = summary_of(trips, row);
+        form.points.push_back({std::abs(row.overshoot), summary.time});
+        gated.points.push_back({std::abs(row.overshoot), row.gate_cycles * trips.point.cycle});
+        if (std::isfinite(summary.end_time))
+            simulated.points.push_back({std::abs(row.overshoot), summary.end_time});
+    }
+    panel.series.insert(panel.series.end(), {form, gated, simulated});
+}
+
+Figure figure_of(const std::vector<Trips>& all) {
+    const LossPoint& point = all.front().point;
+    FigurePanel panel;
+    panel.x_label = point.name + (point.side > 0 ? " beyond its " : " short of its ") + point.kind();
+    if (all.size() > 1)
+        panel.x_label = "distance of " + point.name;
+    panel.x_unit = point.unit;
+    panel.y_label = "time";
+    panel.y_unit = point.model().time_unit;
+    panel.logarithmic_x = true;
+    panel.roomy_x = panel.roomy_y = true;
+    for (const Trips& trips : all) {
+        const std::string which = all.size() > 1 ? std::string(trips.point.kind()) + ": " : "";
+        panel.logarithmic_y = panel.logarithmic_y || trips.point.fold;
+        if (trips.point.fold)
+            add_fold(panel, trips, which);
+        else
+            add_touch(panel, trips, which);
+    }
     Figure figure;
     figure.panels.push_back(std::move(panel));
     return figure;
 }
 
-JsonObject heading_of(const ResultFile& file, const TouchingOrbit& found, const std::string& parameter, double level,
-                      const std::string& end) {
-    const OrbitRecord& record = found.stored.record;
-    JsonObject heading;
-    heading.add("graze", GRAZE_VERSION);
-    heading.add("file", file.path());
-    heading.add("model", found.stored.run.model.name);
-    heading.add("run", found.stored.run.record.name);
-    heading.add("number", static_cast<double>(record.number));
-    heading.add("label", record.label);
-    heading.add("parameter", parameter);
-    heading.add("touch", found.map.contact.touch.parameters[found.parameter->place()]);
-    heading.add("cycle", found.map.time);
-    heading.add("speed", level);
-    heading.add("end", end);
-    return heading;
+void require_drawable(const std::vector<double>& overshoots) {
+    if (std::all_of(overshoots.begin(), overshoots.end(), [](double one) { return one == 0; }))
+        throw InputError(Place{"--plot", 0, 0}, "an overshoot of zero has no place on a logarithmic axis",
+                         "give others to be drawn beside it, or leave --plot out for the table");
 }
 
 } // namespace
@@ -186,44 +269,42 @@ int trip_command(const TripArguments& arguments, const Console& console) {
     if (!arguments.plot.empty())
         picture_ending(arguments.plot, "--plot", {"svg", "png", "pdf"});
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
-    const TouchingOrbit found = find_touching_orbit(file, arguments.point, arguments.parameter);
-    const Verdict verdict = verdict_of(found.map);
-    const Model& model = found.stored.run.model;
-    const System system(model);
-    double level = 0;
-    try {
-        level = level_of_map(found.map, verdict);
-    } catch (const InputError& error) {
-        throw InputError(Place{"POINT", 0, 0}, error.problem(), error.remedy());
+    std::vector<Trips> all;
+    const auto add = [&](const std::string& name, const std::string& option) {
+        LossPoint point = loss_point(file, name, arguments.parameter, option);
+        AskedEnd end = end_of(point, arguments);
+        all.push_back({std::move(point), std::move(end)});
+    };
+    add(arguments.point, "POINT");
+    if (!arguments.beside.empty())
+        add(arguments.beside, "--beside");
+    const std::vector<double> overshoots = overshoots_of(all.front().point, arguments.overshoots);
+    if (!arguments.plot.empty())
+        require_drawable(overshoots);
+    const InterruptGuard guard;
+    bool interrupted = false, all_ended = true;
+    for (Trips& trips : all) {
+        const TripOptions options = options_of(trips.point, arguments);
+        for (std::size_t i = 0; i < overshoots.size() && !interrupted; ++i) {
+            const bool own = &trips == &all.front();
+            interrupted = !add_row(trips, own ? overshoots[i] : trips.point.side * std::abs(overshoots[i]), options);
+        }
+        all_ended = all_ended && trips.all_ended;
     }
-    if (!found.parameter || !found.map.clearance_rate || *found.map.clearance_rate == 0)
-        throw InputError("nothing is said to move the orbit from its touch", "name a parameter by --parameter NAME");
-    const std::string parameter = model.independent_parameters()[found.parameter->place()];
-    const AskedEnd asked = end_of(model, arguments, level);
-    PredictionOptions prediction;
-    prediction.level = level = asked.end.speed > 0 ? std::min(level, asked.end.speed) : level;
-    TripOptions options;
-    options.cycles = static_cast<double>(arguments.cycles);
-    prediction.disturbance = options.disturbance = disturbance_of(model, arguments.disturbances);
-    std::vector<TripRow> rows;
-    bool all_ended = true;
-    for (const double overshoot : overshoots_of(found, arguments.overshoots)) {
-        TripRow& row = rows.emplace_back();
-        row.overshoot = overshoot;
-        row.predicted = predicted_trip(found.map, verdict, overshoot, prediction);
-        row.continued =
-            continued_trip(system, found.map, *found.parameter, overshoot, row.predicted, asked.end, options);
-        if (overshoot == 0 || std::abs(overshoot) >= least_overshoot(found.map, *found.parameter))
-            row.simulated = simulated_trip(system, found.map, *found.parameter, overshoot, asked.end, options);
-        all_ended = all_ended && row.continued.ended;
-    }
-    if (arguments.plot.empty()) {
-        deliver(table_of(rows, model, parameter), arguments.output,
-                heading_of(file, found, parameter, level, asked.words), console);
+    if (arguments.plot.empty() || interrupted) {
+        const Trips& one = all.front();
+        const Table table = all.size() > 1   ? table_of_both(one, all.back())
+                            : one.point.fold ? table_of_fold(one)
+                                             : table_of_touch(one);
+        deliver(table, arguments.output, heading_of(file, one.point, one.end), console);
     } else {
-        draw_figure(figure_of(rows, model, parameter, fmt::format("speed {:.4g}", level), asked.words), arguments.plot,
-                    arguments.data);
+        draw_figure(figure_of(all), arguments.plot, arguments.data);
         console.out << arguments.plot << '\n';
+    }
+    if (interrupted) {
+        console.err << fmt::format("graze: interrupted; {} of {} overshoots are done\n", all.back().rows.size(),
+                                   overshoots.size());
+        return InterruptGuard::exit_code();
     }
     return all_ended ? exit_success : exit_irregular;
 }

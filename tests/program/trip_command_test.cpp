@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
 
 namespace graze::testing {
 
@@ -90,6 +93,10 @@ TEST_F(TripCommand, RefusesWhereThereIsNoTrip) {
     expect_refusal({results, "GR1", "--overshoot", "-1e-4"}, "contacts begin above: give a positive overshoot");
     expect_refusal({results, "GR1", "--overshoot", "1e-4:-1e-6"}, "not of one sign");
     expect_refusal({results, "GR1", "--overshoot", "0"}, "nothing happens");
+    expect_refusal({results, "GR1", "--overshoot", "0", "--disturbance", "v=-1e-4", "--plot", folder / "none.svg"},
+                   "an overshoot of zero has no place on a logarithmic axis");
+    EXPECT_FALSE(std::filesystem::exists(folder / "none.svg"));
+    expect_refusal({results, "GR1", "--beside", "no_impact:EP1"}, "--beside: the orbit at EP1 touches nothing");
     expect_refusal({results, "GR1", "--disturbance", "w=1"}, "'w' is not a state; choose one of q, v, theta");
     expect_refusal({results, "GR1", "--until", "q"}, "it names no level");
     expect_refusal({results, "GR1", "--until", "qq=1"}, "qq");
@@ -106,6 +113,78 @@ TEST_F(TripCommand, DrawsTimes) {
     EXPECT_EQ(printed.code, 0) << printed.err;
     EXPECT_THAT(contents(folder / "trip.svg"), HasSubstr("</svg>"));
     EXPECT_THAT(contents(folder / "trip.gp"), HasSubstr("logscale x"));
+}
+
+namespace {
+
+/// The switch at a frequency at which its branch folds before it touches, beside that of the publication.
+const char* const two_ends = R"toml(
+name = "two-ends"
+model = "mems-switch"
+
+[runs.free]
+kind = "orbit"
+set = { V = 0.05 }
+from = { q = 0, v = 0, theta = 0 }
+
+[runs.touching]
+kind = "continue"
+start = { run = "free" }
+along = { V = [0.01, 0.4] }
+
+[runs.slower]
+kind = "orbit"
+set = { V = 0.05, omega = 0.95 }
+from = { q = 0, v = 0, theta = 0 }
+
+[runs.folding]
+kind = "continue"
+start = { run = "slower" }
+along = { V = [0.01, 0.4] }
+)toml";
+
+} // namespace
+
+TEST_F(TripCommand, TellsThePassageThroughAFoldBesideATouch) {
+    const std::string study = folder / "two-ends.toml";
+    std::ofstream(study) << two_ends;
+    const std::string results = run_only(study, {});
+    const Csv fold = table({results, "folding:SN1", "--overshoot", "1e-2:1e-10", "--cycles", "20000"});
+    ASSERT_EQ(fold.rows.size(), 9U);
+    for (std::size_t row = 0; row < fold.rows.size(); ++row) {
+        SCOPED_TRACE(row);
+        // The exponent is that of a root, and time that of whole cycles.
+        EXPECT_NEAR(number(fold, row, "cycles"),
+                    number(fold, 0, "cycles") * std::pow(10, 0.5 * static_cast<double>(row)),
+                    1e-9 * number(fold, row, "cycles"));
+        EXPECT_NEAR(number(fold, row, "time") / number(fold, row, "cycles"), 2 * std::numbers::pi / 0.95, 1e-8);
+        EXPECT_EQ(fold.text(row, "simulated_cycles").empty(), row > 5);
+        if (row > 5)
+            continue;
+        // What is missing is of the next order: a cycle or so by the step of a cycle, and by the logarithm of the
+        // overshoot where the cubic term is not symmetric: 5 cycles at most of up to 11000.
+        EXPECT_NEAR(number(fold, row, "simulated_cycles"), number(fold, row, "gate_cycles"), 5);
+        EXPECT_NEAR(number(fold, row, "simulated_time"),
+                    number(fold, row, "simulated_cycles") * 2 * std::numbers::pi / 0.95,
+                    1e-6 * number(fold, row, "simulated_time"));
+    }
+    const Csv both = table({results, "touching:GR1", "--beside", "folding:SN1", "--overshoot", "1e-2:1e-10"});
+    const Csv touch = table({results, "touching:GR1", "--overshoot", "1e-2:1e-10"});
+    ASSERT_EQ(both.rows.size(), 9U);
+    for (std::size_t row = 0; row < both.rows.size(); ++row) {
+        EXPECT_EQ(both.text(row, "time"), touch.text(row, "time"));
+        EXPECT_EQ(both.text(row, "end_time"), touch.text(row, "end_time"));
+        EXPECT_EQ(both.text(row, "beside_cycles"), fold.text(row, "cycles"));
+    }
+    const Printed drawn = run_graze({"trip", results, "touching:GR1", "--beside", "folding:SN1", "--overshoot",
+                                     "1e-2:1e-6", "--plot", folder / "both.svg", "--data", folder / "both.gp"});
+    EXPECT_EQ(drawn.code, 0) << drawn.err;
+    EXPECT_THAT(contents(folder / "both.gp"), HasSubstr("logscale y"));
+    expect_refusal({results, "folding:SN1", "--overshoot", "-1e-3"}, "there are two orbits, and no trip");
+    expect_refusal({results, "folding:SN1", "--overshoot", "0"}, "at the fold itself nothing passes");
+    expect_refusal({results, "folding:SN1", "--disturbance", "v=1"}, "a passage through a fold begins before it");
+    // The other branch that ends there is no motion either, and the touch on it is of an unstable orbit.
+    expect_refusal({results, "folding:GR1"}, "POINT: the verdict is undecided");
 }
 
 } // namespace graze::testing

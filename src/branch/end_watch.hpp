@@ -1,0 +1,88 @@
+#pragma once
+
+#include "graze/grazing/trip_time.hpp"
+#include "graze/trajectory/trajectory.hpp"
+#include "orbit/newton.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace graze {
+
+/// Waits for what ends a trip: a contact of some approach speed, the level of a quantity.
+class EndWatch : public Observer {
+public:
+    /// @param event whose contacts have the speed, if any; @param images others that throw back count too
+    EndWatch(const TripEnd& end, std::optional<std::size_t> event, bool images,
+             const std::function<bool()>& interrupted)
+        : event_(event), images_(images), speed_limit_(end.speed), interrupted_(interrupted) {}
+
+    void contact(const Contact& contact) override {
+        const bool counts = contact.event == event_ || (images_ && contact.rate_after >= 0);
+        if (contact.kind != ContactKind::crossing || !counts || is_over(contact.time))
+            return;
+        ++contacts_;
+        speed_ = -contact.rate_before;
+        if (speed_limit_ > 0 && speed_ >= speed_limit_)
+            note("speed", contact.time);
+    }
+    void passage(const Passage& passage) override {
+        if (passage.probe == 0 && !is_over(passage.time))
+            note("level", passage.time);
+    }
+    bool stop() override { return !ending_.empty() || (interrupted_ && interrupted_()); }
+
+    /// What is to be said of a trajectory that has been run with this observer.
+    TripTime trip(const Outcome& outcome) const {
+        TripTime trip;
+        trip.ended = !ending_.empty() || outcome.ending == Ending::singular || outcome.ending == Ending::terminal;
+        trip.ending = ending_.empty() ? std::string(name_of(outcome.ending)) : ending_;
+        trip.time = ending_.empty() ? outcome.time : time_;
+        trip.contacts = contacts_;
+        trip.speed = speed_;
+        return trip;
+    }
+
+    /// As if nothing had happened.
+    void forget() {
+        ending_.clear();
+        time_ = speed_ = 0;
+        contacts_ = 0;
+    }
+
+private:
+    bool is_over(double time) const { return !ending_.empty() && time >= time_; }
+    void note(const char* ending, double time) {
+        ending_ = ending;
+        time_ = time;
+    }
+
+    std::optional<std::size_t> event_;
+    bool images_;
+    double speed_limit_;
+    std::function<bool()> interrupted_;
+    std::string ending_;
+    double time_ = 0, speed_ = 0;
+    std::size_t contacts_ = 0;
+};
+
+/// The simulation that such a watch observes: probe 0 is the level of the quantity, if one ends the trip; of another
+/// probe that never happens otherwise.
+inline Simulation simulation_until(const System& system, const TripEnd& end, const TripOptions& options,
+                                   const std::optional<Probe>& further = std::nullopt) {
+    SimulationOptions numbers = integration(options.tolerance);
+    numbers.step_limit = options.step_limit;
+    Probe level;
+    level.name = "end";
+    level.expression = end.quantity ? *end.quantity - end.level : system.model().number(1);
+    std::vector<Probe> probes{level};
+    if (further)
+        probes.push_back(*further);
+    return Simulation(system, std::move(probes), {}, numbers);
+}
+
+} // namespace graze
