@@ -1,5 +1,6 @@
 #include "branch/branch_state.hpp"
 
+#include "branch/branch_point_problem.hpp"
 #include "branch/orbit_quantity.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "orbit/newton.hpp"
@@ -32,6 +33,8 @@ BranchState::BranchState(const System& system, const Orbit& candidate, const Bra
     if (!settings.monitors.empty())
         monitors_ =
             std::make_unique<OrbitMonitors>(system, candidate.signature, settings.monitors, settings.orbit.tolerance);
+    if (keeps_branch_point() && settings.free.size() > 1)
+        throw InputError("monitors cannot be fixed along a curve of branch points", "leave `fixed` out");
     hold(candidate);
     if (!make_problem(candidate))
         throw InputError(
@@ -51,7 +54,8 @@ void BranchState::hold(const Orbit& candidate) {
 
 /// False where what is kept has no condition.
 bool BranchState::make_problem(const Orbit& orbit) {
-    problem_ = std::make_unique<OrbitProblem>(simulation_, orbit, settings_);
+    problem_ = keeps_branch_point() ? std::make_unique<BranchPointProblem>(simulation_, orbit, settings_)
+                                    : std::make_unique<OrbitProblem>(simulation_, orbit, settings_);
     if (monitors_)
         hold_monitors();
     if (settings_.kept && !hold_kept(orbit))
@@ -84,6 +88,8 @@ void BranchState::hold_monitors() {
 bool BranchState::hold_kept(const Orbit& orbit) {
     SpecialPoint& kept = *settings_.kept;
     kept.solution.orbit = orbit;
+    if (keeps_branch_point()) // which the problem itself does
+        return true;
     std::unique_ptr<OrbitCondition> condition;
     if (problem_->evaluate(problem_->unknowns_of(orbit)))
         condition = rule_of(kept.type).condition(problem_->equations(), problem_->evaluation(), kept);
@@ -155,7 +161,7 @@ bool BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std
     result.arclength = arclength(at.arclength);
     result.stable = is_stable(result.solution);
     std::vector<Degeneracy> degeneracies;
-    if (settings_.kept)
+    if (settings_.kept && !keeps_branch_point())
         degeneracies = held_.back()->degeneracies(equations, evaluation);
     tests = branch_tests(
         {equations, evaluation, result.solution, at.tangent, at.determinant, result.monitors, settings_, degeneracies});
@@ -200,7 +206,8 @@ void BranchState::renew_pieces(const BranchPoint& from) {
     const double length = continuation_->next_step();
     std::unique_ptr<OrbitProblem> old = std::move(problem_);
     std::unique_ptr<Continuation> old_continuation = std::move(continuation_);
-    std::unique_ptr<OrbitCondition> old_kept = settings_.kept ? std::move(held_.back()) : nullptr;
+    std::unique_ptr<OrbitCondition> old_kept =
+        settings_.kept && !keeps_branch_point() ? std::move(held_.back()) : nullptr;
     const bool holds = make_problem(from.solution.orbit);
     if (problem_->equations().layout().pieces() <= old->equations().layout().pieces())
         growth_ *= 10; // nothing was gained: ask again later
@@ -210,7 +217,7 @@ void BranchState::renew_pieces(const BranchPoint& from) {
         growth_ *= 10; // as it was, for some time
         problem_ = std::move(old);
         continuation_ = std::move(old_continuation);
-        if (settings_.kept) {
+        if (old_kept) {
             held_.resize(settings_.free.size() - 1);
             held_.push_back(std::move(old_kept));
             problem_->hold(held_);

@@ -83,7 +83,7 @@ public:
                 return end(BranchOutcome::undefined, edge);
             return end(continuation.outcome() == ContinuationOutcome::undefined ? BranchOutcome::undefined
                                                                                 : BranchOutcome::no_convergence,
-                       state_.problem().evaluation().problem);
+                       state_.problem().problem());
         }
         describe_here();
         const std::size_t work = state_.problem().equations().work() - work_before;
@@ -195,7 +195,7 @@ private:
         ended_ = !begun;
         if (!begun) {
             outcome = BranchOutcome::no_start;
-            detail = state_.problem().evaluation().problem;
+            detail = state_.problem().problem();
             if (detail.empty())
                 detail = fmt::format("{} from the orbit that was given", name_of(state_.continuation().outcome()));
             return false;
