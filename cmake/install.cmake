@@ -23,7 +23,7 @@ if(TARGET graze_executable)
             DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
     )
 endif()
-install(DIRECTORY models studies DESTINATION ${CMAKE_INSTALL_DATADIR}/graze FILES_MATCHING PATTERN "*.toml")
+install(DIRECTORY models studies designs DESTINATION ${CMAKE_INSTALL_DATADIR}/graze FILES_MATCHING PATTERN "*.toml")
 # Pages lie to one another as they do here, so that links between them hold; and what they link to comes along.
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md TYPE DOC)
 install(DIRECTORY docs examples TYPE DOC)

@@ -1,10 +1,12 @@
 # One folder per word of the architecture; each may use only those before it. Each is compiled once, as objects of which
 # the library consists and on which its tests are linked together with the folders before it.
-set(GRAZE_FOLDERS symbolic model tape flow trajectory sweep orbit grazing branch results study)
+set(GRAZE_FOLDERS symbolic model tape flow trajectory record sweep orbit grazing branch results study design)
 
 # What a folder needs besides.
 set(GRAZE_NEEDS_sweep Threads::Threads)
+set(GRAZE_NEEDS_record graze_hdf5)
 set(GRAZE_NEEDS_results SQLite::SQLite3 graze_hdf5)
+set(GRAZE_NEEDS_design NLopt::nlopt)
 
 add_library(graze)
 add_library(graze::graze ALIAS graze)
@@ -37,7 +39,8 @@ target_include_directories(
     graze PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
 )
 target_link_libraries(
-    graze PRIVATE $<BUILD_INTERFACE:graze_options> fmt::fmt Threads::Threads SQLite::SQLite3 $<BUILD_INTERFACE:graze_hdf5>
+    graze PRIVATE $<BUILD_INTERFACE:graze_options> fmt::fmt Threads::Threads SQLite::SQLite3 NLopt::nlopt
+                  $<BUILD_INTERFACE:graze_hdf5>
 )
 set_target_properties(
     graze PROPERTIES LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION} SOVERSION

@@ -57,6 +57,13 @@ add_test(
                         program
 )
 
+find_package(Python3 COMPONENTS Interpreter QUIET)
+if(Python3_FOUND)
+    add_test(NAME names COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/layers/check_names.py
+                                ${PROJECT_SOURCE_DIR}
+    )
+endif()
+
 if(TARGET graze_executable)
     if(GRAZE_INSTALL)
         add_test(

@@ -28,6 +28,14 @@ std::size_t own_event(const TestedPoint& point, std::size_t segment) {
     return one.end == SegmentEnd::event ? point.equations.model().transitions[one.index].event : 0;
 }
 
+/// Whether a segment is held to take no time all along a curve: then nothing happens within it, or at its ends, but
+/// what is held.
+bool is_without_time(const TestedPoint& point, std::size_t segment) {
+    const auto& kept = point.settings.kept;
+    const auto held = kept ? held_limit_of(*kept) : std::nullopt;
+    return held && held->holds_without_time(segment, point.equations.signature().size());
+}
+
 /// Where contacts are without speed, as on curves of touches, the ends of arcs have least values too: of the next
 /// segment at its very start, and of a segment's own event at its end, which the speed tells of.
 bool is_of_contact(const TestedPoint& point, const OrbitMinimum& minimum) {
@@ -37,10 +45,11 @@ bool is_of_contact(const TestedPoint& point, const OrbitMinimum& minimum) {
     const SpecialPoint& kept = *point.settings.kept;
     const auto& signature = point.equations.signature();
     const double duration = std::abs(point.solution.orbit.durations[minimum.segment]);
+    const std::size_t after = kept.at_end ? 1 + held_limit_of(kept)->without_time : 1;
     const bool own =
         signature[minimum.segment].end == SegmentEnd::event && own_event(point, minimum.segment) == minimum.event;
     return (own && minimum.time > (1 - at_end) * duration) ||
-           (kept.at_end && minimum.segment == (kept.segment + 1) % signature.size() &&
+           (kept.at_end && minimum.segment == (kept.segment + after) % signature.size() &&
             minimum.time < at_start * duration);
 }
 
@@ -72,6 +81,7 @@ void test_grazing(const TestedPoint& point, std::vector<BranchTest>& tests) {
             const bool kept = is_kept(point, PointType::grazing, s, event);
             for (const OrbitMinimum& minimum : certificate.minima)
                 if (minimum.segment == s && minimum.event == event && !(minimum.value >= test.value) &&
+                    !is_without_time(point, s) &&
                     !(kept && (point.settings.kept->at_end || minimum.time == point.settings.kept->time)) &&
                     !is_of_contact(point, minimum)) {
                     test.value = minimum.value;
@@ -137,9 +147,7 @@ void test_vanishing(const TestedPoint& point, std::vector<BranchTest>& tests) {
         tests.push_back({.type = PointType::vanishing,
                          .segment = s,
                          .event = own_event(point, s),
-                         .value = is_kept(point, PointType::vanishing, s, own_event(point, s))
-                                      ? nothing
-                                      : point.solution.orbit.durations[s]});
+                         .value = is_without_time(point, s) ? nothing : point.solution.orbit.durations[s]});
 }
 
 bool confirm_vanishing(BranchState&, SpecialPoint& special, const BranchTest&) {
@@ -154,11 +162,13 @@ std::unique_ptr<OrbitCondition> condition_of_vanishing(const OrbitEquations& equ
 
 namespace {
 
-/// Where a segment that a curve keeps takes no time, its event happens at the end of the one before.
+/// Where a segment that a curve keeps takes no time, its event happens at the end of the one before, and what happens
+/// at the end of that one at its own.
 bool belongs_to_vanishing(const TestedPoint& point, const EndValue& end) {
     const std::size_t next = (end.segment + 1) % point.equations.signature().size();
-    return is_kept(point, PointType::vanishing, next, end.event) &&
-           point.equations.signature()[next].end == SegmentEnd::event;
+    return is_without_time(point, end.segment) ||
+           (is_without_time(point, next) && own_event(point, next) == end.event &&
+            point.equations.signature()[next].end == SegmentEnd::event);
 }
 
 } // namespace
@@ -195,15 +205,26 @@ std::unique_ptr<OrbitCondition> condition_of_two_events(const OrbitEquations& eq
     return held(OrbitQuantity::of_two_events(equations, point.segment, point.event));
 }
 
+namespace {
+
+/// Whether a segment ends with a kept contact without speed after which others take no time: by what these would set
+/// going its guard chooses the next mode, of which nothing is left.
+bool is_stop_of_slip(const TestedPoint& point, std::size_t segment) {
+    const auto& kept = point.settings.kept;
+    const auto held = kept ? held_limit_of(*kept) : std::nullopt;
+    return held && held->kind == HeldLimit::Kind::stop && held->segment == segment && held->without_time > 0;
+}
+
+} // namespace
+
 void test_guard(const TestedPoint& point, std::vector<BranchTest>& tests) {
     for (std::size_t s = 0; s < point.equations.signature().size(); ++s) {
         const double margin = point.solution.certificate.guard_margins[s];
+        const bool held = is_kept(point, PointType::guard, s, own_event(point, s)) || is_stop_of_slip(point, s);
         tests.push_back({.type = PointType::guard,
                          .segment = s,
                          .event = own_event(point, s),
-                         .value = std::isfinite(margin) && !is_kept(point, PointType::guard, s, own_event(point, s))
-                                      ? margin
-                                      : nothing});
+                         .value = std::isfinite(margin) && !held ? margin : nothing});
     }
 }
 

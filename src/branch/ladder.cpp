@@ -5,6 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace graze {
 
 namespace {
@@ -60,14 +64,38 @@ std::optional<BranchStart> Ladder::next() {
     }
 }
 
+/// What is said first of a ladder that ends where contacts have become too slow for what decides whether they are some:
+/// their heights, which fall with the power 3/2 of the speeds, are differences of positions.
+std::string Ladder::beyond_resolution() const {
+    constexpr double resolved = 1e-8; // of the greatest height
+    const SpecialPoint& last = grazings_.back();
+    const Certificate& certificate = last.solution.certificate;
+    const Signature& signature = last.solution.orbit.signature;
+    double slowest = std::numeric_limits<double>::infinity(), fastest = 0;
+    for (std::size_t k = 0; k < certificate.approach_speeds.size(); ++k)
+        if (signature[k].end == SegmentEnd::event &&
+            system_.model().transitions[signature[k].index].event == last.event) {
+            slowest = std::min(slowest, certificate.approach_speeds[k]);
+            fastest = std::max(fastest, certificate.approach_speeds[k]);
+        }
+    if (!(slowest > 0 && fastest > 0) || std::pow(slowest / fastest, 1.5) > resolved)
+        return "";
+    return fmt::format(
+        "contacts have become too slow to be told from touches, the slowest one with {:.1e} of the speed "
+        "of the fastest: ",
+        slowest / fastest);
+}
+
 bool Ladder::take(const std::optional<SpecialPoint>& end, const std::string& outcome) {
     const bool reached = end && end->type == PointType::grazing;
     if (reached && !end->at_end && end->event == grazings_.back().event) {
         grazings_.push_back(*end);
         return true;
     }
-    if (!reached)
-        why_ = end ? fmt::format("{}{}{}", name_of(end->type), end->detail.empty() ? "" : ": ", end->detail) : outcome;
+    if (!end)
+        why_ = beyond_resolution() + outcome;
+    else if (!reached)
+        why_ = fmt::format("{}{}{}", name_of(end->type), end->detail.empty() ? "" : ": ", end->detail);
     else if (end->at_end)
         why_ = "a contact loses its speed";
     else
@@ -85,7 +113,8 @@ ChatterLimit Ladder::limit() const {
 }
 
 Ladder climb(const System& system, const SpecialPoint& grazing, const BranchSettings& settings, std::size_t grazings,
-             const std::function<bool(std::size_t rung, const Branch& branch)>& visit) {
+             const std::function<bool(std::size_t rung, const Branch& branch)>& visit,
+             const std::function<bool()>& interrupted) {
     Ladder ladder(system, grazing, settings);
     while (ladder.grazings().size() < grazings) {
         const auto start = ladder.next();
@@ -97,8 +126,10 @@ Ladder climb(const System& system, const SpecialPoint& grazing, const BranchSett
         for (bool going = follower.start_along(start->direction, start->distance); going; going = follower.step()) {
             branch.points.push_back(follower.point());
             branch.special.insert(branch.special.end(), follower.found().begin(), follower.found().end());
+            if (interrupted && interrupted())
+                return ladder;
             end.reset();
-            if (ends_at_point(follower.outcome()) && !follower.found().empty())
+            if (ends_in_found(follower))
                 end = follower.found().back();
         }
         branch.outcome = follower.outcome();

@@ -435,6 +435,11 @@ const std::string& OrbitBranch::detail() const {
     return follower_->detail;
 }
 
+bool ends_in_found(const OrbitBranch& branch) {
+    return ends_at_point(branch.outcome()) && !branch.found().empty() &&
+           branch.found().back().arclength == branch.point().arclength;
+}
+
 Branch follow_branch(const System& system, const Orbit& candidate, const BranchSettings& settings,
                      const BranchVisitor& visit) {
     OrbitBranch follower(system, candidate, settings);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 
 namespace graze {
@@ -259,11 +260,28 @@ bool is_point_label(std::string_view text) {
     });
 }
 
+namespace {
+
+/// Segments after one that take no time.
+std::size_t without_time_after(const Orbit& orbit, std::size_t segment) {
+    constexpr double nothing = 1e-8; // of a round: what is located is known far better
+    const std::size_t count = orbit.durations.size();
+    std::size_t result = 0;
+    while (result + 1 < count && std::abs(orbit.durations[(segment + result + 1) % count]) < nothing * orbit.round())
+        ++result;
+    return result;
+}
+
+} // namespace
+
 std::optional<HeldLimit> held_limit_of(const SpecialPoint& point) {
-    const auto held = [&](HeldLimit::Kind kind) { return HeldLimit{kind, point.segment, point.event}; };
+    const auto held = [&](HeldLimit::Kind kind) { return HeldLimit{kind, point.segment, point.event, 0}; };
     switch (point.type) {
     case PointType::grazing:
-        return point.at_end ? std::nullopt : std::optional(held(HeldLimit::Kind::touch));
+        if (!point.at_end)
+            return held(HeldLimit::Kind::touch);
+        return HeldLimit{HeldLimit::Kind::stop, point.segment, point.event,
+                         without_time_after(point.solution.orbit, point.segment)};
     case PointType::vanishing:
         return held(HeldLimit::Kind::vanishing);
     case PointType::guard:

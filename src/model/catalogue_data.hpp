@@ -5,7 +5,7 @@
 
 namespace graze {
 
-/// A file of models/ or studies/ in the program; the build writes the source that defines them (cmake/catalogue.cmake).
+/// A file of models/, studies/ or designs/ in the program; the build writes the source that defines them (cmake/catalogue.cmake).
 struct EmbeddedModel {
     std::string_view name; ///< of the file, without its ending
     std::string_view text;
@@ -14,5 +14,6 @@ struct EmbeddedModel {
 /// In alphabetical order.
 std::span<const EmbeddedModel> embedded_models();
 std::span<const EmbeddedModel> embedded_studies();
+std::span<const EmbeddedModel> embedded_designs();
 
 } // namespace graze

@@ -71,8 +71,10 @@ public:
         }
     }
 
-    /// What is wrong with the segment, if anything. @param ends event functions at its end
-    std::string verdict(double duration, std::span<const double> ends) const {
+    /// What is wrong with the segment, if anything. @param ends event functions at its end, with their rates and how
+    /// much of them is round-off
+    std::string verdict(double duration, std::span<const double> ends, std::span<const double> rates,
+                        std::span<const double> round_off) const {
         const Model& model = equations_->model();
         if (duration < 0)
             return fmt::format("segment {} has negative duration", segment_ + 1);
@@ -80,14 +82,20 @@ public:
             if (harmless_[w] && !is_own(w))
                 continue;
             const Event& event = model.events[mode_->watched[w]];
-            const double zero = on_surface * std::max(sizes_[w], std::numeric_limits<double>::min());
-            const double late = std::abs(duration) * 1e-9;
+            const double zero =
+                std::max(on_surface * std::max(sizes_[w], std::numeric_limits<double>::min()), round_off[w]);
+            // Of a contact that hardly has speed the time is known to as much.
+            const double late =
+                std::max(std::abs(duration) * 1e-9, is_own(w) && rates[w] != 0 ? round_off[w] / std::abs(rates[w]) : 0);
             if (event.kind == EventKind::barrier && starts_[w] < -zero)
                 return fmt::format("segment {} begins beyond event '{}'", segment_ + 1, event.name);
             // What only touches the surface, as an orbit that is held there, does so on either side of it.
-            const bool beyond = lowest_[w] < -smallest_clearance * sizes_[w];
+            const bool beyond = lowest_[w] < -std::max(smallest_clearance * sizes_[w], round_off[w]);
             if (falls_[w] < duration - late && beyond)
                 return fmt::format("event '{}' comes within segment {}", event.name, segment_ + 1);
+            // Without a fall: it has been left to that side with its start, without speed.
+            if (event.kind == EventKind::barrier && std::isinf(falls_[w]) && lowest_[w] < -zero)
+                return fmt::format("segment {} leaves event '{}' on its other side", segment_ + 1, event.name);
             if (!is_own(w) && event.kind == EventKind::barrier && ends[w] < -zero)
                 return fmt::format("segment {} ends beyond event '{}'", segment_ + 1, event.name);
         }
@@ -216,6 +224,15 @@ private:
     double rate_of(std::size_t watched, const Eigen::VectorXd& field) const {
         return Eigen::Map<const Eigen::VectorXd>(&gradients_[watched * states_], index(states_)).dot(field);
     }
+    /// Of a mode's watched event at a state, once its gradients have been evaluated there: a height that is a
+    /// difference of positions is no better known than these.
+    double round_off_of(std::size_t watched, const std::vector<double>& state) const {
+        constexpr double share = 16 * std::numeric_limits<double>::epsilon();
+        double sum = 0;
+        for (std::size_t i = 0; i < states_; ++i)
+            sum += std::abs(gradients_[watched * states_ + i] * state[i]);
+        return share * sum;
+    }
     void evaluate_gradients(const System::CompiledMode& mode) {
         gradients_.resize(mode.watched.size() * states_);
         mode.event_gradients.evaluate(inputs_, gradients_, work_);
@@ -241,11 +258,16 @@ private:
         values_.resize(mode.watched.size());
         mode.events.evaluate(inputs_, values_, work_);
         evaluate_gradients(mode);
-        for (std::size_t w = 0; w < mode.watched.size(); ++w)
+        std::vector<double> rates, round_off;
+        for (std::size_t w = 0; w < mode.watched.size(); ++w) {
+            rates.push_back(rate_of(w, last.field));
+            round_off.push_back(round_off_of(w, last.end));
             if (!watcher.is_own(w) && !watcher.is_harmless_here(w))
-                certificate_.end_values.push_back({s, mode.watched[w], values_[w], rate_of(w, last.field)});
-        if (!is_held(HeldLimit::Kind::vanishing, s)) // of no time nothing can be said but round-off
-            object(watcher.verdict(begin, values_));
+                certificate_.end_values.push_back({s, mode.watched[w], values_[w], rates.back()});
+        }
+        if (!held_ || !held_->holds_without_time(
+                          s, equations_->signature().size())) // of no time nothing can be said but round-off
+            object(watcher.verdict(begin, values_, rates, round_off));
         for (const OrbitMinimum& minimum : watcher.minima())
             certificate_.minima.push_back(minimum);
     }
@@ -280,7 +302,10 @@ private:
         const std::size_t next = mode_after(s);
         const double margin = guard_margin(system_->transition(segment.index), next, inputs_, work_);
         certificate_.guard_margins.push_back(margin);
-        if (margin < 0 && !is_held(HeldLimit::Kind::guard, s))
+        // What guards see of a contact without speed may be nothing but round-off.
+        const bool decided_by_round_off =
+            is_held(HeldLimit::Kind::guard, s) || (is_held(HeldLimit::Kind::stop, s) && held_->without_time > 0);
+        if (margin < 0 && !decided_by_round_off)
             object(fmt::format("the guard after segment {} leads to another mode", s + 1));
         system_->mode(next).rates.evaluate(inputs_, field_, work_);
         const auto& mode = system_->mode(segment.mode);

@@ -16,11 +16,20 @@ namespace graze {
 bool is_harmless(const System& model, std::size_t transition);
 
 /// What an orbit is held to, of which round-off would decide whether it is admissible: that an event is touched within
-/// a segment, that a segment takes no time, that the guard after one is about to choose another mode.
+/// a segment, that a contact has no speed, that a segment takes no time, that the guard after one is about to choose
+/// another mode.
 struct HeldLimit {
-    enum class Kind { touch, vanishing, guard };
+    enum class Kind { touch, stop, vanishing, guard };
     Kind kind = Kind::touch;
     std::size_t segment = 0, event = 0;
+    /// Of stop: segments after it that take no time either, as slip does that such a contact would set going.
+    std::size_t without_time = 0;
+
+    /// Whether a segment, of so many, is held to take no time.
+    bool holds_without_time(std::size_t one, std::size_t segments) const {
+        return (kind == Kind::vanishing && one == segment) ||
+               (kind == Kind::stop && one != segment && (one + segments - segment) % segments <= without_time);
+    }
 };
 
 /// Checks every watched event over every arc, by the roots of its Taylor polynomials.

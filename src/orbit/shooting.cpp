@@ -41,6 +41,17 @@ bool Shooting::run_noting(std::size_t mode, std::span<double> state, double dura
     return true;
 }
 
+/// What a jump makes of states acts on others too: one that only impacts set going has no extent where these lose their
+/// speed, and would be measured by round-off there.
+void Shooting::note_jump(std::size_t segment, const std::vector<double>& end) {
+    const auto n = index(layout().states());
+    OrbitEvaluation::Piece piece;
+    piece.end = piece.after = end;
+    piece.jump = Eigen::MatrixXd::Identity(n, n + index(free().size()));
+    if (ends().pass(segment, piece) && piece.jump.allFinite())
+        orbit_scales().note_coupling(piece.jump.leftCols(n));
+}
+
 /// Chooses into how many pieces each segment is split, by how much derivatives grow along it, in units of the states'
 /// extents.
 std::vector<std::size_t> Shooting::split(const Orbit& orbit) {
@@ -52,6 +63,7 @@ std::vector<std::size_t> Shooting::split(const Orbit& orbit) {
         if (!(orbit.durations[s] > 0) ||
             !run_noting(orbit.signature[s].mode, state, orbit.durations[s], derivatives[s], sizes))
             derivatives[s].resize(0, 0);
+        note_jump(s, state);
     }
     const std::vector<double> chosen = sizes.choose(ends().periods(), orbit_scales().coupling());
     const Eigen::Map<const Eigen::VectorXd> units(chosen.data(), index(chosen.size()));

@@ -122,6 +122,13 @@ struct ToleranceArguments {
     OutputArguments output;
 };
 
+struct DesignArguments {
+    std::string design, folder;
+    int jobs = 0; ///< 0: as many as there are cores
+    bool quiet = false, list = false, show = false, no_pictures = false;
+    OutputArguments output;
+};
+
 struct InfoArguments {
     std::string file;
     bool all = false;
@@ -150,6 +157,7 @@ struct Arguments {
     TripArguments trip;
     LadderArguments ladder;
     ToleranceArguments tolerance;
+    DesignArguments design;
     CheckArguments check;
     ModelsArguments models;
     SimulateArguments simulate;

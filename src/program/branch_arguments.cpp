@@ -216,7 +216,7 @@ void declare_ladder(CLI::App& app, LadderArguments& arguments) {
     CLI::App& command = declare_of_point(app, "ladder", ladder_text, ladder_examples, arguments);
     const char* group = "How far";
     add(command, group, "--rungs", arguments.rungs, "N", "Grazings at most, that one included (8)")
-        ->check(CLI::Range(2, 1000));
+        ->check(whole_number(2, 1000));
     add(command, group, "--parameter", arguments.parameter, "NAME",
         "That varies (the one that its run follows, within its bounds)");
     declare_table(command, arguments.output);

@@ -3,6 +3,7 @@
 #include "graze/study/stored_study.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
+#include "program/interrupt.hpp"
 #include "program/status_line.hpp"
 
 #include <fmt/format.h>
@@ -120,6 +121,7 @@ int ladder_command(const LadderArguments& arguments, const Console& console) {
     const std::string parameter = stored.run.model.independent_parameters()[followed];
     const std::string unit = stored.run.model.parameters[*stored.run.model.find_parameter(parameter)].unit;
     const System system(stored.run.model);
+    const InterruptGuard guard;
     std::vector<Leaving> leaving;
     StatusLine line(console, console.terminal);
     const auto at_point = [&](const auto& work) {
@@ -130,17 +132,28 @@ int ladder_command(const LadderArguments& arguments, const Console& console) {
         }
     };
     const Ladder ladder = at_point([&] {
-        return climb(system, stored.record.point, settings, static_cast<std::size_t>(arguments.rungs),
-                     [&](std::size_t rung, const Branch& branch) {
-                         leaving.push_back({first_of(branch, PointType::fold), first_of(branch, PointType::flip)});
-                         if (line.is_due())
-                             line.show(fmt::format("grazing {} of {}", rung, arguments.rungs));
-                         return true;
-                     });
+        return climb(
+            system, stored.record.point, settings, static_cast<std::size_t>(arguments.rungs),
+            [&](std::size_t rung, const Branch& branch) {
+                leaving.push_back({first_of(branch, PointType::fold), first_of(branch, PointType::flip)});
+                if (line.is_due())
+                    line.show(fmt::format("grazing {} of {}", rung, arguments.rungs));
+                return true;
+            },
+            [] { return InterruptGuard::requested(); });
     });
-    const ChatterLimit limit = at_point([&] { return ladder.limit(); });
+    ChatterLimit limit;
+    if (InterruptGuard::requested())
+        limit.problem = "interrupted";
+    else
+        limit = at_point([&] { return ladder.limit(); });
     deliver(table_of(ladder, leaving, parameter, unit), arguments.output, heading_of(file, stored, ladder, limit),
             console);
+    if (InterruptGuard::requested()) {
+        console.err << fmt::format("graze: interrupted after grazing {} of {}\n", ladder.grazings().size(),
+                                   arguments.rungs);
+        return InterruptGuard::exit_code();
+    }
     if (arguments.output.format == TableFormat::table)
         tell(ladder, limit, parameter, console);
     return ladder.grazings().size() > 1 ? exit_success : exit_irregular;

@@ -23,7 +23,8 @@ std::size_t width_of_terminal() {
 
 /// Commands that end in order when they are interrupted; others are broken off, and have nothing to lose.
 bool ends_in_order(int count, char** values) {
-    return count > 1 && (std::string_view(values[1]) == "run" || std::string_view(values[1]) == "simulate");
+    return count > 1 && (std::string_view(values[1]) == "run" || std::string_view(values[1]) == "simulate" ||
+                         std::string_view(values[1]) == "ladder");
 }
 
 } // namespace

@@ -4,7 +4,7 @@
 #include "program/figure.hpp"
 #include "program/interrupt.hpp"
 #include "program/picture.hpp"
-#include "program/trip_point.hpp"
+#include "program/loss_point.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -36,14 +36,14 @@ struct TripRow {
 
 /// All rows of one point.
 struct Trips {
-    TripPoint point;
+    LossPoint point;
     AskedEnd end;
     std::vector<TripRow> rows{};
     bool all_ended = true;
 };
 
 /// Those asked for, or ten from 1e-2 to 1e-20 of the size of the parameter, on the side on which the motion is lost.
-std::vector<double> overshoots_of(const TripPoint& point, const std::vector<std::string>& asked) {
+std::vector<double> overshoots_of(const LossPoint& point, const std::vector<std::string>& asked) {
     std::vector<double> values = numbers_by_decades(point.model(), asked, "--overshoot");
     if (!values.empty())
         return values;
@@ -56,7 +56,7 @@ std::vector<double> overshoots_of(const TripPoint& point, const std::vector<std:
     return values;
 }
 
-TripOptions options_of(const TripPoint& point, const TripArguments& arguments) {
+TripOptions options_of(const LossPoint& point, const TripArguments& arguments) {
     TripOptions options;
     constexpr long usual = 2000;
     options.cycles = static_cast<double>(arguments.cycles.value_or(usual));
@@ -70,7 +70,7 @@ TripOptions options_of(const TripPoint& point, const TripArguments& arguments) {
 
 /// One more row. @return false when it was interrupted
 bool add_row(Trips& trips, double overshoot, const TripOptions& options) {
-    const TripPoint& point = trips.point;
+    const LossPoint& point = trips.point;
     TripRow row;
     row.overshoot = overshoot;
     bool ended = true;
@@ -236,7 +236,7 @@ void add_fold(FigurePanel& panel, const Trips& trips, const std::string& which) 
 }
 
 Figure figure_of(const std::vector<Trips>& all) {
-    const TripPoint& point = all.front().point;
+    const LossPoint& point = all.front().point;
     FigurePanel panel;
     panel.x_label = point.name + (point.side > 0 ? " beyond its " : " short of its ") + point.kind();
     if (all.size() > 1)
@@ -277,7 +277,7 @@ int trip_command(const TripArguments& arguments, const Console& console) {
         throw InputError(Place{"--at", 0, 0}, "nothing changes in time", "give --ramp, --wave or --noise too");
     std::vector<Trips> all;
     const auto add = [&](const std::string& name, const std::string& option) {
-        TripPoint point = trip_point(file, name, arguments.parameter, option);
+        LossPoint point = loss_point(file, name, arguments.parameter, option);
         AskedEnd end = end_of(point, arguments);
         all.push_back({std::move(point), std::move(end)});
     };

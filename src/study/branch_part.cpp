@@ -119,7 +119,7 @@ PartEnd follow_part(const StudyRun& run, const BranchSettings& of_run, const Sys
         for (const SpecialPoint& special : branch.found())
             writer.add(part.name, special, is_stable(special.solution));
         last_is_special = ends_at_point(branch.outcome()) && !branch.found().empty();
-        last = last_is_special ? std::optional(branch.found().back()) : std::nullopt;
+        last = ends_in_found(branch) ? std::optional(branch.found().back()) : std::nullopt;
         // What lies beyond an end that has been located does not belong to the branch.
         if (!last_is_special)
             writer.add(part.name, regular_point(branch.point(), part.again), branch.point().stable);

@@ -1,6 +1,6 @@
 #include "study/picture_kinds.hpp"
 
-#include "graze/results/spectrum.hpp"
+#include "graze/record/spectrum.hpp"
 #include "graze/study/point_motion.hpp"
 
 #include <fmt/format.h>

@@ -13,59 +13,61 @@
 
 namespace graze {
 
-namespace {
-
-/// Closed with its scope.
-class OpenFile {
-public:
-    // Without waiting: opening a pipe otherwise lasts until somebody writes to it.
-    explicit OpenFile(const std::string& path)
-        : file_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) {}
-    ~OpenFile() {
-        if (file_ >= 0)
-            ::close(file_);
-    }
-    OpenFile(const OpenFile&) = delete;
-    OpenFile& operator=(const OpenFile&) = delete;
-    int get() const { return file_; }
-
-private:
-    int file_;
-};
-
-} // namespace
-
-std::string read_text_file(const std::string& path, std::string_view what, std::size_t most) {
-    const Place place{path, 0, 0};
-    const auto fail = [&](int reason) {
-        throw InputError(place, fmt::format("the {} cannot be read ({})", what, std::strerror(reason)),
-                         reason == ENOENT ? "check the path" : "check the path and the permissions");
-    };
+PlainFile::PlainFile(const std::string& path, std::string_view what) : path_(path), what_(what) {
     if (path.find('\0') != std::string::npos)
         fail(EINVAL);
-    const OpenFile file(path);
+    // Without waiting: opening a pipe otherwise lasts until somebody writes to it.
+    file_ = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
     struct stat status {};
-    if (file.get() < 0 || fstat(file.get(), &status) != 0)
+    if (file_ < 0)
         fail(errno);
-    if (!S_ISREG(status.st_mode))
-        throw InputError(place,
+    if (fstat(file_, &status) != 0) {
+        const int reason = errno;
+        ::close(file_);
+        fail(reason);
+    }
+    if (!S_ISREG(status.st_mode)) {
+        ::close(file_);
+        throw InputError(Place{path, 0, 0},
                          fmt::format("this is a {}, not a {}",
                                      S_ISDIR(status.st_mode)    ? "directory"
                                      : S_ISFIFO(status.st_mode) ? "pipe"
                                                                 : "device",
                                      what),
                          "give the name of a file, into which what comes from elsewhere can be copied");
+    }
+}
+
+PlainFile::~PlainFile() {
+    ::close(file_);
+}
+
+void PlainFile::fail(int reason) const {
+    throw InputError(Place{path_, 0, 0}, fmt::format("the {} cannot be read ({})", what_, std::strerror(reason)),
+                     reason == ENOENT ? "check the path" : "check the path and the permissions");
+}
+
+std::size_t PlainFile::read(char* to, std::size_t room) {
+    for (;;) {
+        const ssize_t count = ::read(file_, to, room);
+        if (count >= 0)
+            return static_cast<std::size_t>(count);
+        if (errno != EINTR)
+            fail(errno);
+    }
+}
+
+std::string read_text_file(const std::string& path, std::string_view what, std::size_t most) {
+    PlainFile file(path, what);
     std::string text;
     constexpr std::size_t block = 1 << 16;
     for (;;) { // what the system says of the size is not always true
         const std::size_t size = text.size();
         text.resize(size + block);
-        const ssize_t count = ::read(file.get(), &text[size], block);
-        if (count < 0 && errno != EINTR)
-            fail(errno);
-        text.resize(size + static_cast<std::size_t>(count < 0 ? 0 : count));
+        const std::size_t count = file.read(&text[size], block);
+        text.resize(size + count);
         if (text.size() > most)
-            throw InputError(place, fmt::format("there are more than {} bytes in this {}", most, what),
+            throw InputError(Place{path, 0, 0}, fmt::format("there are more than {} bytes in this {}", most, what),
                              fmt::format("give the name of a {}", what));
         if (count == 0)
             return text;

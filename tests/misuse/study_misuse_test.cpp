@@ -6,7 +6,7 @@
 #include "graze/results/hdf5.hpp"
 #include "graze/results/regression.hpp"
 #include "graze/results/result_file.hpp"
-#include "graze/results/spectrum.hpp"
+#include "graze/record/spectrum.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/study/study_catalogue.hpp"
 

@@ -18,7 +18,7 @@ namespace {
 
 const std::vector<std::string> commands{"check",  "models", "simulate",  "run",   "info",
                                         "export", "plot",   "points",    "orbit", "grazing",
-                                        "trip",   "ladder", "tolerance", "help",  "completion"};
+                                        "trip",   "ladder", "tolerance", "design", "help", "completion"};
 
 /// What a shell command prints.
 std::string printed_by(const std::string& command) {

@@ -26,7 +26,8 @@ public:
     const BranchSettings& settings() const { return settings_; }
     /// The branch that leaves the last grazing. @return none where there is none, or none has been reached
     std::optional<BranchStart> next();
-    /// @param end the special point at which it has ended, if it has ended at one; @param outcome how it has ended
+    /// @param end the special point in which it has ended, if it has ended in one, not after one; @param outcome how it
+    /// has ended
     /// @return whether that is the next grazing
     bool take(const std::optional<SpecialPoint>& end, const std::string& outcome);
 
@@ -38,6 +39,8 @@ public:
     ChatterLimit limit() const;
 
 private:
+    std::string beyond_resolution() const;
+
     System system_;
     BranchSettings settings_;
     std::vector<SpecialPoint> grazings_;
@@ -46,7 +49,9 @@ private:
 
 /// Climbs a ladder. @param grazings at most, the first one included
 /// @param visit called with the number of each rung (2 for the first branch) and its branch; returning false ends it
+/// @param interrupted asked after each step; what has been reached by then is returned
 Ladder climb(const System& system, const SpecialPoint& grazing, const BranchSettings& settings, std::size_t grazings,
-             const std::function<bool(std::size_t rung, const Branch& branch)>& visit = {});
+             const std::function<bool(std::size_t rung, const Branch& branch)>& visit = {},
+             const std::function<bool()>& interrupted = {});
 
 } // namespace graze

@@ -101,6 +101,9 @@ private:
     bool begun_ = false;
 };
 
+/// Whether it has ended in the last point found, rather than after it.
+bool ends_in_found(const OrbitBranch& branch);
+
 struct Branch {
     std::vector<BranchPoint> points;
     std::vector<SpecialPoint> special;

@@ -1,4 +1,7 @@
-#include "graze/results/spectrum.hpp"
+#include "graze/record/spectrum.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "record/waves.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -66,6 +69,44 @@ TEST(SpectrumTest, SeesNothingInConstantOrTooFewSamples) {
         EXPECT_EQ(amplitude, 0);
     EXPECT_TRUE(spectrum(std::vector<double>{1}, 1).frequencies.empty());
     EXPECT_TRUE(spectrum({}, 1).frequencies.empty());
+}
+
+// Lengths for which the sums are made by way of powers of two, odd and prime ones too.
+TEST(SpectrumTest, IsTheSameForManySamples) {
+    for (const std::size_t count : {513U, 1009U, 1024U, 6000U}) {
+        const Spectrum parts = spectrum(waves(count, 5, {{3, 0.25}, {200, 2}}), 6.25);
+        ASSERT_EQ(parts.amplitudes.size(), count / 2);
+        for (std::size_t k = 1; k <= parts.amplitudes.size(); ++k)
+            EXPECT_NEAR(parts.amplitudes[k - 1], k == 3 ? 0.25 : k == 200 ? 2 : 0, 2e-13) << count << ' ' << k;
+        EXPECT_NEAR(parts.frequencies[199], 200 * 6.25 / static_cast<double>(count), 1e-14 * 200);
+    }
+}
+
+TEST(SpectrumTest, OfLongRecordsIsAveragedAndKeepsAmplitudesAndFrequencies) {
+    const double pi = std::numbers::pi;
+    const auto wave = [&](double t) { return 1 + 0.5 * std::cos(2 * pi * 125 * t) + 0.1 * std::sin(2 * pi * 250 * t); };
+    StoredSamples source(named({"v"}), sampled(1000, 10'000, {wave}), 777);
+    const Spectrum parts = averaged_spectrum(source, 0, 256);
+    ASSERT_EQ(parts.amplitudes.size(), 128U);
+    EXPECT_NEAR(parts.mean, 1, 1e-12);
+    for (std::size_t k = 1; k <= 128; ++k) {
+        EXPECT_NEAR(parts.frequencies[k - 1], 1000.0 * static_cast<double>(k) / 256, 1e-9);
+        // Hann's window shows half of an amplitude beside it.
+        const double expected = k == 32              ? 0.5
+                                : k == 31 || k == 33 ? 0.25
+                                : k == 64            ? 0.1
+                                : k == 63 || k == 65 ? 0.05
+                                                     : 0;
+        EXPECT_NEAR(parts.amplitudes[k - 1], expected, 1e-12) << k;
+    }
+    EXPECT_THROW(averaged_spectrum(source, 0, 4), InputError);
+    EXPECT_THROW(averaged_spectrum(source, 0, 256), InputError) << "nothing is left of it";
+}
+
+TEST(SpectrumTest, NeedsEqualDistancesOfTime) {
+    EXPECT_NEAR(sampling_frequency(std::vector<double>{0, 0.1, 0.21, 0.3}), 10, 1e-12);
+    EXPECT_THROW(sampling_frequency(std::vector<double>{0, 0.1, 0.3, 0.4}), InputError);
+    EXPECT_THROW(sampling_frequency(std::vector<double>{0}), InputError);
 }
 
 } // namespace graze::testing

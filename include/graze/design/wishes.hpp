@@ -1,0 +1,39 @@
+#pragma once
+
+#include "graze/design/design.hpp"
+#include "graze/design/trip_point.hpp"
+#include "graze/design/wish_list.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace graze {
+
+struct WishesOptions {
+    std::size_t evaluations = 2000; ///< devices that are tried at most
+    std::function<bool()> interrupted;
+    std::function<void(std::size_t devices)> progress; ///< how many have been tried
+};
+
+/// What was wanted, and what was found.
+struct MetWishes {
+    WishList list; ///< without callbacks: dimensions, names and limits
+    FoundDesign found;
+
+    std::vector<double> values() const; ///< of the dimensions
+};
+
+/// Finds the dimensions that a design wants: of each device a Newton solve from the trip point, with the trip value's
+/// exact gradient. The trip value, distances from earlier points, a reset value and sensitivities are numbers; of the
+/// class it is the least projection of a contact, in units of the largest one, which decides between "trips"
+/// (negative) and "persists"; of a trip time the time by the map and simulation. Those of which no gradient is known
+/// are followed by differences.
+/// @param trip of the first device
+/// @throws InputError for wants that the device cannot have at all, such as a reset value of one that does not return
+MetWishes meet_wishes(const Design& design, const TripPoint& trip, const WishesOptions& options = {});
+
+/// The design whose first device is another one: its dimensions have these values.
+Design with_values(const Design& design, const std::vector<double>& values);
+
+} // namespace graze

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "graze/record/samples.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+namespace graze {
+
+struct DerivativeSettings {
+    std::size_t channel = 0;    ///< of the displacement
+    std::size_t half_width = 0; ///< samples on each side, 4 or more; 0: chosen where the errors are least
+    std::string name;           ///< of the new channel; that of its error ends in `_error`
+};
+
+/// A source with two channels more: the derivative of one of its channels, and how far that is wrong. The derivative is
+/// that of a polynomial of fourth degree that fits the samples around by least squares (A. Savitzky and M. J. E. Golay,
+/// Anal. Chem. 36 (1964) 1627). Its error has two parts: the standard error that the noise makes, which is what a
+/// polynomial of sixth degree leaves, and by how much the derivative of that one differs. The width is the one for
+/// which the median of this error is least at the record's beginning. Where the velocity jumps no polynomial fits, and
+/// the error is large. Rows at both ends are left out.
+class WithDerivative : public SampleSource {
+public:
+    /// @param source must outlive this
+    /// @throws InputError for settings without meaning
+    WithDerivative(SampleSource& source, const DerivativeSettings& settings);
+    ~WithDerivative() override;
+    const RecordHeader& header() const override;
+    /// @throws InputError when the samples are not at equal distances of time, or the record is too short
+    bool read(Samples& samples) override;
+    /// Samples on each side, once something has been read.
+    std::size_t half_width() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace graze

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "graze/record/samples.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace graze {
+
+/// A jump of the velocity in a record.
+struct RecordedImpact {
+    double time = 0, time_error = 0;
+    double before = 0, before_error = 0; ///< velocity just before, with its standard error
+    double after = 0, after_error = 0;   ///< and just after
+};
+
+struct ImpactSettings {
+    std::size_t velocity = 0;                  ///< channel
+    std::optional<std::size_t> displacement{}; ///< channel, if there is one: where it has a corner, the impact is
+    std::size_t window = 12;                   ///< samples before and after that tell the velocities, 5 or more
+    std::size_t transition = 0;                ///< samples before and after that are disturbed by the impact itself
+    double least_jump = 0;                     ///< smaller ones are none
+    double significance = 6;                   ///< how many standard errors of its noise a jump exceeds
+};
+
+/// Finds jumps of a noisy velocity. To the samples on both sides of each place parabolas are fitted by least squares; a
+/// jump is where their values differ by more than noise and their own misfit explain, and more than beside it. The
+/// noise is what third differences of the velocity have in the median, or the step in which numbers of few digits go. Then the parabolas are fitted anew to samples
+/// that have no other impact between them and this one, and continued to the time of the impact: the middle between two
+/// samples, with their distance over the square root of 12 as its error, or where parabolas through the displacement
+/// meet. Impacts that follow one another by fewer than four samples, as in chatter, are not told apart.
+class ImpactFinder {
+public:
+    /// @param source must outlive this
+    /// @throws InputError for settings without meaning
+    ImpactFinder(SampleSource& source, const ImpactSettings& settings);
+    ~ImpactFinder();
+    ImpactFinder(const ImpactFinder&) = delete;
+    ImpactFinder& operator=(const ImpactFinder&) = delete;
+    /// The next ones, in the order of time. @return false when there are no more; `impacts` may be empty before
+    /// @throws InputError when the samples are not at equal distances of time
+    bool next(std::vector<RecordedImpact>& impacts);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// All of them. @throws InputError when there are more than a million
+std::vector<RecordedImpact> find_impacts(SampleSource& source, const ImpactSettings& settings);
+
+} // namespace graze

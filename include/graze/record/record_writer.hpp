@@ -1,0 +1,30 @@
+#pragma once
+
+#include "graze/record/samples.hpp"
+
+#include <memory>
+#include <string>
+
+namespace graze {
+
+/// Writes a record part by part, as open_record reads it: as HDF5 where the name of the file ends in .h5 or .hdf5, and
+/// otherwise as text with commas and numbers that lose nothing.
+class RecordWriter {
+public:
+    /// @throws InputError when the file cannot be written
+    RecordWriter(const std::string& path, const RecordHeader& header);
+    ~RecordWriter();
+    RecordWriter(const RecordWriter&) = delete;
+    RecordWriter& operator=(const RecordWriter&) = delete;
+    /// @throws InputError when it cannot be written
+    void write(const Samples& samples);
+    /// Before this the file is not complete. @throws InputError when it cannot be written
+    void close();
+
+    class Target;
+
+private:
+    std::unique_ptr<Target> target_;
+};
+
+} // namespace graze

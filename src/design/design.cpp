@@ -1,0 +1,64 @@
+#include "graze/design/design.hpp"
+
+#include "design/design_reader.hpp"
+#include "graze/model/catalogue.hpp"
+#include "graze/symbolic/text_file.hpp"
+#include "model/catalogue_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace graze {
+
+Tolerance DesignTolerance::at(ParameterId parameter, double value) const {
+    return {parameter, spread, share ? size * std::abs(value) : size};
+}
+
+bool Wanted::is_empty() const {
+    return !least && !greatest && !value && !outcome && !overshoot && !least_reset && !clear && sensitivities.empty();
+}
+
+std::optional<std::size_t> Design::find_dimension(std::string_view dimension) const {
+    const auto found = std::find_if(dimensions.begin(), dimensions.end(),
+                                    [&](const DesignDimension& one) { return one.name == dimension; });
+    if (found == dimensions.end())
+        return std::nullopt;
+    return static_cast<std::size_t>(found - dimensions.begin());
+}
+
+Design parse_design(std::string_view text, const std::string& file) {
+    const toml::table root = parse_toml(text, file);
+    return DesignReader(file).read(root);
+}
+
+Design read_design(const std::string& path) {
+    return parse_design(read_text_file(path, "design", longest_model), path);
+}
+
+std::vector<std::string> shipped_designs() {
+    std::vector<std::string> names;
+    for (const EmbeddedModel& design : embedded_designs())
+        names.emplace_back(design.name);
+    return names;
+}
+
+std::string shipped_design_text(const std::string& name) {
+    for (const EmbeddedModel& design : embedded_designs())
+        if (design.name == name)
+            return std::string(design.text);
+    std::error_code error;
+    if (const std::string file = name + ".toml"; std::filesystem::exists(file, error))
+        throw InputError(fmt::format("there is no design '{}'", name), fmt::format("the file is called {}", file));
+    throw InputError(fmt::format("there is no design '{}'", name),
+                     study_name_remedy(name, shipped_designs()) + " (the name of a file ends in .toml)");
+}
+
+Design load_design(const std::string& name_or_path) {
+    return is_model_path(name_or_path) ? read_design(name_or_path)
+                                       : parse_design(shipped_design_text(name_or_path), name_or_path);
+}
+
+} // namespace graze

@@ -1,0 +1,380 @@
+#include "design/design_reader.hpp"
+
+#include "graze/model/catalogue.hpp"
+#include "graze/study/study_catalogue.hpp"
+#include "graze/symbolic/file_name.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t most_overshoots = 100, most_dimensions = 50, most_planes = 20, most_points = 401,
+                      most_devices = 1'000'000;
+
+/// Relative to the folder of the file that names it.
+std::string beside(const std::string& file, const std::string& path) {
+    return std::filesystem::path(path).is_relative() ? (std::filesystem::path(file).parent_path() / path).string()
+                                                     : path;
+}
+
+/// An error of what has no place of its own stands where it is named.
+template <class Work>
+auto at(const Place& place, const Work& work) {
+    try {
+        return work();
+    } catch (const InputError& error) {
+        if (!error.place().file.empty())
+            throw;
+        throw InputError(place, error.problem(), error.remedy());
+    }
+}
+
+} // namespace
+
+Design DesignReader::read(const toml::table& root) {
+    whole_ = mistakes_.attempt([&] { read_keys(root); });
+    const auto with = [&](const char* name, auto work) {
+        if (const TomlEntry* entry = key(name))
+            mistakes_.attempt([&] { work(*entry); });
+    };
+    const auto require_key = [&](const char* name, const char* remedy) {
+        if (!key(name) && whole_)
+            mistakes_.attempt([&] {
+                throw InputError(Place{design_.file, 1, 1}, fmt::format("the design has no {}", name), remedy);
+            });
+    };
+    require_key("name", "give name = \"...\" in its first line");
+    require_key("approach", "add a table [approach], which says how the device comes to its touch");
+    require_key("dimensions", "add a table [dimensions.NAME] for each parameter that may be chosen");
+    with("name", [&](const TomlEntry& e) {
+        design_.name = reader_.toml().string(e);
+        require_file_name(design_.name, "name of a design", reader_.toml().place(*e.node));
+    });
+    with("text", [&](const TomlEntry& e) { design_.text = reader_.toml().string(e); });
+    with("source", [&](const TomlEntry& e) { design_.source = reader_.toml().string(e); });
+    with("approach", [&](const TomlEntry& e) { read_approach(e); });
+    // Whatever names parameters needs the model.
+    if (mistakes_.attempt([&] { read_model(); })) {
+        with("set", [&](const TomlEntry& e) { read_set(e); });
+        mistakes_.attempt([&] { read_control(); });
+        mistakes_.attempt([&] { read_branch(); });
+        with("trip", [&](const TomlEntry& e) { read_trip(e); });
+        mistakes_.attempt([&] { read_dimensions(); });
+        mistakes_.attempt([&] { read_choices(); });
+        with("yield", [&](const TomlEntry& e) { read_yield(e); });
+        with("wanted", [&](const TomlEntry& e) { read_wanted(e); });
+    }
+    mistakes_.throw_noted();
+    return std::move(design_);
+}
+
+void DesignReader::read_keys(const toml::table& root) {
+    StudyReader::each(reader_.toml().entries(root, ""), [&](const TomlEntry& entry) {
+        reader_.toml().require_known(entry, "",
+                                     {"name", "text", "source", "model", "control", "set", "approach", "trip",
+                                      "dimensions", "planes", "adjustable", "points", "yield", "wanted"});
+        keys_.emplace(entry.name, entry);
+    });
+}
+
+const TomlEntry* DesignReader::key(const std::string& name) const {
+    const auto found = keys_.find(name);
+    return found == keys_.end() ? nullptr : &found->second;
+}
+
+/// What needs no model.
+void DesignReader::read_approach(const TomlEntry& entry) {
+    Approach& approach = design_.approach;
+    approach.place = entry.place;
+    reader_.each_of(entry, {"study", "run", "point", "from", "range", "event", "cycles"}, [&](const TomlEntry& item) {
+        approach_.emplace(item.name, item);
+        if (item.name == "study")
+            approach.study = reader_.toml().line(item);
+        else if (item.name == "run")
+            approach.run = reader_.toml().line(item);
+        else if (item.name == "point")
+            approach.point = reader_.toml().line(item);
+        else if (item.name == "event")
+            approach.event = reader_.toml().line(item);
+        else if (item.name == "cycles")
+            approach.cycles = reader_.count(item, 1, 1'000'000);
+    });
+    const bool of_study = !approach.study.empty();
+    for (const char* name : {"run", "point"})
+        if (of_study != approach_.contains(name))
+            throw InputError(entry.place,
+                             of_study ? fmt::format("{} does not say which {} of the study", entry.path, name)
+                                      : fmt::format("{} names a {} of no study", entry.path, name),
+                             of_study ? "give run = \"NAME\" and point = \"GR1\""
+                                      : "give study = \"NAME\", or leave it out and give range = [A, B]");
+    for (const char* name : {"from", "range", "cycles"})
+        if (of_study && approach_.contains(name))
+            throw InputError(approach_.at(name).place,
+                             fmt::format("the study says already how its runs go: '{}'", name), "leave it out");
+    if (!of_study && !approach_.contains("range"))
+        throw InputError(entry.place, fmt::format("{} has no range", entry.path),
+                         "give range = [A, B]: where the control parameter begins, and how far it goes");
+}
+
+void DesignReader::read_model() {
+    if (!design_.approach.study.empty())
+        return take_model_of_study();
+    const TomlEntry* entry = key("model");
+    if (!entry && !whole_)
+        mistakes_.throw_noted();
+    if (!entry)
+        throw InputError(Place{design_.file, 1, 1}, "the design has no model", "give model = \"NAME\" or a path");
+    const std::string name = reader_.toml().string(*entry);
+    design_.model_path = is_model_path(name) ? beside(design_.file, name) : name;
+    design_.model = at(reader_.toml().place(*entry->node), [&] { return load_model(design_.model_path); });
+}
+
+void DesignReader::take_model_of_study() {
+    Approach& approach = design_.approach;
+    if (const TomlEntry* entry = key("model"))
+        throw InputError(entry->place, "the study has its model already", "leave `model` out");
+    const Place place = reader_.toml().place(*approach_.at("study").node);
+    if (is_model_path(approach.study))
+        approach.study = beside(design_.file, approach.study);
+    const Study study = at(place, [&] { return load_study(approach.study); });
+    require_run(approach.run, names_of(study.runs), reader_.toml().place(*approach_.at("run").node));
+    const StudyRun& run = *study.find_run(approach.run);
+    if (!run.is_branch())
+        throw InputError(reader_.toml().place(*approach_.at("run").node),
+                         fmt::format("run '{}' has no orbits", approach.run),
+                         "name one of kind \"orbit\" or \"continue\"");
+    design_.model = run.model;
+    design_.model_path = run.model_path;
+}
+
+void DesignReader::read_set(const TomlEntry& entry) {
+    reader_.each_of(entry, {}, [&](const TomlEntry& item) {
+        const double value = number(item);
+        at(item.place, [&] { design_.model.set_parameter(item.name, value); });
+        design_.set.emplace_back(item.name, value);
+    });
+}
+
+ParameterId DesignReader::parameter_of(const TomlEntry& entry, const std::string& name) const {
+    return at(entry.place, [&] { return design_.model.independent_parameter(name); });
+}
+
+void DesignReader::read_control() {
+    const TomlEntry* entry = key("control");
+    if (!entry)
+        throw InputError(Place{design_.file, 1, 1}, "the design does not say by what the device is driven",
+                         "give control = \"NAME\", such as the voltage's");
+    design_.control = reader_.toml().line(*entry);
+    design_.control_parameter = parameter_of(*entry, design_.control);
+}
+
+/// What of the approach needs the model.
+void DesignReader::read_branch() {
+    Approach& approach = design_.approach;
+    Mistakes mistakes;
+    const auto with = [&](const char* name, auto work) { with_key(mistakes, approach_, name, work); };
+    with("range",
+         [&](const TomlEntry& e) { std::tie(approach.least, approach.greatest) = reader_.range(design_.model, e); });
+    with("event", [&](const TomlEntry& e) {
+        if (!design_.model.find_event(approach.event))
+            reader_.fail(e, fmt::format("model '{}' has no event '{}'", design_.model.name, approach.event),
+                         study_name_remedy(approach.event, names_of(design_.model.events)));
+    });
+    with("from", [&](const TomlEntry& e) {
+        reader_.each_of(e, {}, [&](const TomlEntry& item) {
+            const double value = number(item);
+            at(item.place, [&] { design_.model.set_initial(item.name, value); });
+            approach.from.emplace_back(item.name, value);
+        });
+    });
+    mistakes.throw_noted();
+}
+
+void DesignReader::read_trip(const TomlEntry& entry) {
+    TripRequest& trip = design_.trip;
+    reader_.each_of(entry, {"until", "overshoots", "cycles"}, [&](const TomlEntry& item) {
+        if (item.name == "cycles") {
+            trip.cycles = static_cast<double>(reader_.count(item, 1, 1'000'000));
+        } else if (item.name == "overshoots") {
+            reader_.each(reader_.toml().elements(item), [&](const TomlEntry& one) {
+                if (trip.overshoots.size() == most_overshoots)
+                    reader_.fail(item, fmt::format("there are more than {} overshoots", most_overshoots),
+                                 "leave some of them out");
+                trip.overshoots.push_back(reader_.positive(design_.model, one));
+            });
+        } else {
+            trip.until = reader_.toml().line(item);
+            const std::size_t equals = trip.until.rfind('=');
+            if (trip.until == "end")
+                return;
+            if (equals == std::string::npos)
+                reader_.fail(item, fmt::format("'{}' names no level", trip.until),
+                             "write \"end\", \"EXPR=LEVEL\", such as \"q=0.9\", or \"speed=VALUE\"");
+            const Place place = reader_.inside(item);
+            const double level = value_of_text(design_.model, trip.until.substr(equals + 1), place);
+            const std::string what = trip.until.substr(0, equals);
+            if (what == "speed" && !(level > 0))
+                reader_.fail(item, "the approach speed is not positive", "give one that contacts are to reach");
+            if (what == "speed")
+                trip.end.speed = level;
+            else
+                trip.end.quantity = named_value(design_.model, what, place).value;
+            trip.end.level = what == "speed" ? 0 : level;
+        }
+    });
+}
+
+/// A number in the parameter's unit, "2%", or either with " uniform" behind it.
+DesignTolerance DesignReader::tolerance_of(const TomlEntry& entry) const {
+    DesignTolerance result;
+    if (!entry.node->is_string()) {
+        result.size = number(entry);
+    } else {
+        std::string text = reader_.toml().line(entry);
+        if (const std::size_t word = text.find(" uniform"); word != std::string::npos && word + 8 == text.size()) {
+            result.spread = Spread::uniform;
+            text.resize(word);
+        }
+        result.share = !text.empty() && text.back() == '%';
+        if (result.share)
+            text.pop_back();
+        result.size = value_of_text(design_.model, text, reader_.inside(entry)) * (result.share ? 0.01 : 1);
+    }
+    if (!(result.size >= 0))
+        reader_.fail(entry, fmt::format("{} is below zero", entry.path), "give its size");
+    return result;
+}
+
+void DesignReader::read_dimension(const TomlEntry& entry) {
+    DesignDimension dimension;
+    dimension.name = entry.name;
+    dimension.parameter = parameter_of(entry, entry.name);
+    if (dimension.parameter == design_.control_parameter && !design_.control.empty())
+        throw InputError(entry.place,
+                         fmt::format("'{}' is the control parameter, whose trip value follows", entry.name),
+                         "choose other parameters");
+    const Parameter& parameter = design_.model.parameters[*design_.model.find_parameter(entry.name)];
+    dimension.unit = parameter.unit;
+    dimension.text = parameter.text;
+    bool ranged = false;
+    reader_.each_of(entry, {"text", "range", "tolerance"}, [&](const TomlEntry& item) {
+        if (item.name == "text")
+            dimension.text = reader_.toml().line(item);
+        else if (item.name == "tolerance")
+            dimension.tolerance = tolerance_of(item);
+        else
+            std::tie(dimension.least, dimension.greatest) = reader_.range(design_.model, item), ranged = true;
+    });
+    const double value = design_.model.parameter_values()[dimension.parameter.place()];
+    if (!ranged)
+        throw InputError(entry.place, fmt::format("{} has no range", entry.path),
+                         "give range = [A, B], within which it may be chosen");
+    if (!(dimension.least <= value && value <= dimension.greatest))
+        throw InputError(entry.place,
+                         fmt::format("'{}' is {} at first, which is not from {} to {}", entry.name, value,
+                                     dimension.least, dimension.greatest),
+                         "give a range around it, or another value in `set`");
+    if (dimension.tolerance && dimension.tolerance->share && value == 0)
+        throw InputError(entry.place, fmt::format("'{}' is zero, of which there are no percents", entry.name),
+                         "give the tolerance in its unit");
+    design_.dimensions.push_back(std::move(dimension));
+}
+
+void DesignReader::read_dimensions() {
+    const TomlEntry* entry = key("dimensions");
+    if (!entry)
+        return;
+    const auto entries = reader_.toml().entries(reader_.toml().table(*entry), entry->path);
+    if (entries.empty() || entries.size() > most_dimensions)
+        reader_.fail(*entry, fmt::format("the design has {} dimensions", entries.size()),
+                     fmt::format("give from 1 to {}", most_dimensions));
+    StudyReader::each(entries, [&](const TomlEntry& one) { read_dimension(one); });
+}
+
+std::size_t DesignReader::dimension_named(const TomlEntry& entry) const {
+    const std::string name = reader_.toml().line(entry);
+    if (const auto place = design_.find_dimension(name))
+        return *place;
+    reader_.fail(entry, fmt::format("the design has no dimension '{}'", name),
+                 study_name_remedy(name, names_of(design_.dimensions)));
+}
+
+/// What is chosen among the dimensions.
+void DesignReader::read_choices() {
+    if (const TomlEntry* entry = key("adjustable"))
+        design_.adjustable = dimension_named(*entry);
+    if (const TomlEntry* entry = key("points"))
+        reader_.each_of(*entry, {"curve", "plane"}, [&](const TomlEntry& item) {
+            (item.name == "curve" ? design_.curve_points : design_.plane_points) = reader_.count(item, 2, most_points);
+        });
+    if (const TomlEntry* entry = key("planes")) {
+        const auto items = reader_.toml().elements(*entry);
+        if (items.size() > most_planes)
+            reader_.fail(*entry, fmt::format("the design has {} planes", items.size()),
+                         fmt::format("give up to {}", most_planes));
+        reader_.each(items, [&](const TomlEntry& item) {
+            const auto pair = reader_.toml().elements(item);
+            if (pair.size() != 2)
+                reader_.fail(item, fmt::format("{} has {} dimensions", item.path, pair.size()),
+                             "name two: [\"A\", \"B\"]");
+            const std::size_t x = dimension_named(pair[0]), y = dimension_named(pair[1]);
+            if (x == y)
+                reader_.fail(item, fmt::format("{} has one dimension twice", item.path), "name two");
+            design_.planes.emplace_back(x, y);
+        });
+    }
+    if (design_.planes.empty() && design_.dimensions.size() > 1)
+        design_.planes.emplace_back(0, 1);
+}
+
+void DesignReader::read_yield(const TomlEntry& entry) {
+    DesignYield& yield = design_.yield;
+    reader_.each_of(entry, {"devices", "seed", "within"}, [&](const TomlEntry& item) {
+        if (item.name == "devices")
+            yield.devices = reader_.count(item, 2, most_devices);
+        else if (item.name == "seed")
+            yield.seed = reader_.count(item);
+        else
+            std::tie(yield.least, yield.greatest) = reader_.range(design_.model, item);
+    });
+}
+
+void DesignReader::read_wanted_item(const TomlEntry& item) {
+    Wanted& wanted = design_.wanted;
+    if (item.name == "value" && item.node->is_array()) {
+        std::tie(wanted.least, wanted.greatest) = reader_.range(design_.model, item);
+    } else if (item.name == "value") {
+        wanted.value = number(item);
+    } else if (item.name == "class") {
+        constexpr GrazingOutcome outcomes[] = {GrazingOutcome::lost, GrazingOutcome::persists, GrazingOutcome::folds};
+        wanted.outcome = outcomes[reader_.choice(item, {"trips", "persists", "folds"})];
+    } else if (item.name == "reset") {
+        std::tie(wanted.least_reset, wanted.greatest_reset) = reader_.range(design_.model, item);
+    } else if (item.name == "clear") {
+        wanted.clear = reader_.positive(design_.model, item);
+    } else if (item.name == "trip_time") {
+        reader_.each_of(item, {"overshoot", "longest"}, [&](const TomlEntry& one) {
+            (one.name == "overshoot" ? wanted.overshoot : wanted.longest_time) = reader_.positive(design_.model, one);
+        });
+        if (!wanted.overshoot || !wanted.longest_time)
+            reader_.fail(item, fmt::format("{} is not complete", item.path),
+                         "write { overshoot = A, longest = B }: the greatest time at that overshoot");
+    } else {
+        reader_.each_of(item, {}, [&](const TomlEntry& one) {
+            wanted.sensitivities.emplace_back(parameter_of(one, one.name), reader_.positive(design_.model, one));
+        });
+    }
+}
+
+void DesignReader::read_wanted(const TomlEntry& entry) {
+    reader_.each_of(entry, {"value", "class", "trip_time", "reset", "clear", "sensitivity"},
+                    [&](const TomlEntry& item) { read_wanted_item(item); });
+}
+
+} // namespace graze

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "graze/design/design.hpp"
+#include "study/study_reader.hpp"
+
+#include <map>
+#include <string>
+
+namespace graze {
+
+/// Reads what a design is made of; a mistake in one of its parts leaves the others to be read.
+class DesignReader {
+public:
+    explicit DesignReader(const std::string& file) : reader_(file) { design_.file = file; }
+
+    Design read(const toml::table& root);
+
+private:
+    void read_keys(const toml::table& root);
+    void read_approach(const TomlEntry& entry);
+    void read_model();
+    void take_model_of_study();
+    void read_set(const TomlEntry& entry);
+    void read_control();
+    void read_branch();
+    void read_trip(const TomlEntry& entry);
+    void read_dimension(const TomlEntry& entry);
+    void read_dimensions();
+    DesignTolerance tolerance_of(const TomlEntry& entry) const;
+    std::size_t dimension_named(const TomlEntry& entry) const;
+    void read_choices();
+    void read_yield(const TomlEntry& entry);
+    void read_wanted(const TomlEntry& entry);
+    void read_wanted_item(const TomlEntry& item);
+    const TomlEntry* key(const std::string& name) const;
+    double number(const TomlEntry& entry) const { return reader_.number(design_.model, entry); }
+    ParameterId parameter_of(const TomlEntry& entry, const std::string& name) const;
+
+    StudyReader reader_;
+    Design design_;
+    Mistakes mistakes_;
+    std::map<std::string, TomlEntry> keys_;
+    std::map<std::string, TomlEntry> approach_;
+    bool whole_ = true; ///< whether all that it begins with could be read
+};
+
+} // namespace graze

@@ -1,0 +1,122 @@
+#include "graze/design/device_trial.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "graze/trajectory/trajectory.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+/// Counts contacts with the touched surface, beyond those that the orbit itself makes.
+class ContactCount : public Observer {
+public:
+    ContactCount(std::size_t event, const std::function<bool()>& interrupted)
+        : event_(event), interrupted_(&interrupted) {}
+    void contact(const Contact& contact) override {
+        contacts_ += contact.event == event_ && contact.kind == ContactKind::crossing ? 1 : 0;
+    }
+    bool stop() override { return *interrupted_ && (*interrupted_)(); }
+    std::size_t contacts() const { return contacts_; }
+
+private:
+    std::size_t event_;
+    const std::function<bool()>* interrupted_;
+    std::size_t contacts_ = 0;
+};
+
+/// Contacts of one period of an orbit with an event.
+std::size_t own_contacts(const Model& model, const Orbit& whole, std::size_t event) {
+    return static_cast<std::size_t>(
+        std::count_if(whole.signature.begin(), whole.signature.end(), [&](const Segment& s) {
+            return s.end == SegmentEnd::event && model.transitions[s.index].event == event;
+        }));
+}
+
+/// Whether the orbit that was there before the trip point is, and the motion remains on it.
+void try_below(DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, const DeviceTrialOptions& options) {
+    Orbit candidate = orbit;
+    candidate.parameters[trip.control.place()] = trial.below;
+    OrbitOptions numbers;
+    numbers.error_estimate = false;
+    const OrbitSolution solution = solve_orbit(trip.system, candidate, numbers);
+    if (solution.outcome != OrbitOutcome::converged) {
+        trial.seen_below = "no orbit was found: " + solution.detail;
+        return;
+    }
+    if (!solution.certificate.admissible || !is_stable(solution)) {
+        trial.seen_below = solution.certificate.admissible
+                               ? "the orbit is not stable"
+                               : "the orbit is none of the model's: " + solution.certificate.reason;
+        return;
+    }
+    const Orbit whole = whole_orbit(trip.system, solution.orbit);
+    SimulationOptions simulated;
+    const Simulation simulation(trip.system, {}, {}, simulated);
+    ContactCount count(trip.point.event, options.interrupted);
+    Trajectory trajectory(simulation, whole.parameters, count);
+    trajectory.start(whole.starts.front(), whole.signature.front().mode, 0,
+                     static_cast<double>(options.cycles) * whole.period());
+    JetSet jets(simulation, LaneKind::single);
+    run(trajectory, jets);
+    const Outcome& outcome = trajectory.outcome();
+    if (outcome.ending != Ending::end_time) {
+        trial.seen_below = fmt::format("the motion ended at {:.6g}: {}", outcome.time, name_of(outcome.ending));
+        return;
+    }
+    const std::size_t own = trip.is_touch()
+                                ? options.cycles * own_contacts(trip.system.model(), whole, trip.point.event)
+                                : count.contacts();
+    // A contact that begins or ends the simulated time may be counted or not.
+    const bool as_many =
+        count.contacts() <= own + 1 && count.contacts() + 1 >= own && (own > 0 || count.contacts() == 0);
+    trial.rests_below = as_many;
+    trial.seen_below =
+        as_many ? fmt::format("a stable motion for {} periods, without any touch of another kind", options.cycles)
+                : fmt::format("{} contacts in {} periods", count.contacts(), options.cycles);
+}
+
+void try_above(DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, const TripRequest& request,
+               const DeviceTrialOptions& options) {
+    TripOptions numbers;
+    numbers.cycles = request.cycles;
+    numbers.interrupted = options.interrupted;
+    Orbit moved = orbit;
+    moved.parameters[trip.control.place()] = trial.above;
+    trial.trip = simulate_until(trip.system, moved.parameters, orbit.starts.front(), orbit.signature.front().mode,
+                                orbit.period(), request.end, numbers);
+    trial.trips_above = trial.trip.ended;
+    trial.seen_above = trial.trip.ended
+                           ? fmt::format("{} after {:.6g} periods", trial.trip.ending, trial.trip.cycles)
+                           : fmt::format("no trip within {:.6g} periods ({})", trial.trip.cycles, trial.trip.ending);
+}
+
+} // namespace
+
+DeviceTrial try_device(const TripPoint& trip, const Orbit& orbit, const TripClass& found, const TripRequest& request,
+                       const DeviceTrialOptions& options) {
+    if (!(options.share > 0 && options.share < 1))
+        throw InputError(fmt::format("the share {} is out of range", options.share), "choose one between 0 and 1");
+    DeviceTrial trial;
+    const double value = orbit.parameters[trip.control.place()];
+    const double way = options.share * (value != 0 ? std::abs(value) : 1) * (found.verdict.side < 0 ? -1 : 1);
+    trial.below = value - way;
+    trial.above = value + way;
+    try_below(trial, trip, orbit, options);
+    try_above(trial, trip, orbit, request, options);
+    if (found.outcome == GrazingOutcome::undecided) {
+        trial.outcome = TrialOutcome::undecided;
+        return trial;
+    }
+    const bool fold = !trip.is_touch() && found.outcome == GrazingOutcome::folds;
+    const bool expected = found.outcome == GrazingOutcome::lost || fold;
+    trial.outcome =
+        trial.rests_below && trial.trips_above == expected ? TrialOutcome::agreed : TrialOutcome::contradicted;
+    return trial;
+}
+
+} // namespace graze

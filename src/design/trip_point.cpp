@@ -1,0 +1,194 @@
+#include "graze/design/trip_point.hpp"
+
+#include "graze/results/stored_orbit.hpp"
+#include "graze/study/study_catalogue.hpp"
+#include "study/json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace graze {
+
+namespace {
+
+constexpr const char *settled_run = "settled", *approach_run = "approach";
+
+/// A study of two runs: what a motion settles on, and its branch.
+std::string own_study_text(const Design& design) {
+    const Approach& approach = design.approach;
+    const auto list = [](const ParameterValues& values) {
+        std::string text;
+        for (const auto& [name, value] : values)
+            text += fmt::format("{}{} = {:.17g}", text.empty() ? "" : ", ", name, value);
+        return "{ " + text + " }";
+    };
+    const std::string path = design.model_path.ends_with(".toml")
+                                 ? std::filesystem::absolute(design.model_path).string()
+                                 : design.model_path;
+    std::string text =
+        fmt::format("name = {}\nmodel = {}\nset = {}\n", json_text(design.name), json_text(path), list(design.set));
+    text += fmt::format("[runs.{}]\nkind = \"orbit\"\nset = {{ {} = {:.17g} }}\n", settled_run, design.control,
+                        approach.least);
+    if (!approach.from.empty())
+        text += fmt::format("from = {}\n", list(approach.from));
+    if (approach.cycles > 0)
+        text += fmt::format("cycles = {}\n", approach.cycles);
+    text += fmt::format("[runs.{}]\nkind = \"continue\"\nstart = {{ run = \"{}\" }}\n"
+                        "along = {{ {} = [{:.17g}, {:.17g}] }}\n",
+                        approach_run, settled_run, design.control, approach.least, approach.greatest);
+    return text;
+}
+
+/// A run of a study, with those from which it starts.
+std::vector<std::string> way_to(const Study& study, const std::string& name) {
+    std::vector<std::string> way;
+    for (const StudyRun* run = study.find_run(name); run; run = run->start ? study.find_run(run->start->run) : nullptr)
+        way.insert(way.begin(), run->name);
+    return way;
+}
+
+/// Parameters that the design sets hold for all runs.
+Study named_study(const Design& design) {
+    try {
+        return load_study(design.approach.study, design.set);
+    } catch (const InputError& error) {
+        if (!error.place().file.empty())
+            throw;
+        throw InputError(design.approach.place, error.problem(), error.remedy());
+    }
+}
+
+/// The first touch of the event that is asked for, or of any.
+bool is_wanted(const Design& design, const Model& model, const SpecialPoint& point, const std::string& label) {
+    const Approach& approach = design.approach;
+    if (!approach.point.empty())
+        return label == approach.point;
+    return point.type == PointType::grazing &&
+           (approach.event.empty() || model.events[point.event].name == approach.event);
+}
+
+EarlierPoint earlier_of(const OrbitRecord& record, const std::string& run, ParameterId control) {
+    const SpecialPoint& point = record.point;
+    return {run,
+            record.label,
+            point.detail,
+            point.type,
+            point.solution.orbit.parameters[control.place()],
+            kind_of(point.type).changes,
+            point};
+}
+
+const SpecialPoint& with_condition(const SpecialPoint& point, const Place& place, const std::string& label) {
+    if (!kind_of(point.type).may_be_kept)
+        throw InputError(place,
+                         fmt::format("nothing that could be held happens at {}, of type {} ({})", label,
+                                     short_name(point.type), name_of(point.type)),
+                         "choose a grazing (GR), a fold (SN), or another point whose curve could be followed");
+    return point;
+}
+
+} // namespace
+
+Study approach_study(const Design& design) {
+    const bool own = design.approach.study.empty();
+    Study study = own ? parse_study(own_study_text(design), design.file) : named_study(design);
+    const std::vector<std::string> way = way_to(study, own ? approach_run : design.approach.run);
+    std::erase_if(study.runs,
+                  [&](const StudyRun& run) { return std::find(way.begin(), way.end(), run.name) == way.end(); });
+    study.name = design.name;
+    study.pictures.clear();
+    study.tables.clear();
+    return study;
+}
+
+TripPoint find_trip_point(const Design& design, const Study& study, const ResultFile& file) {
+    const Approach& approach = design.approach;
+    const std::string last = approach.run.empty() ? approach_run : approach.run;
+    std::vector<EarlierPoint> earlier;
+    for (const std::string& name : way_to(study, last)) {
+        const StudyRun& planned = *study.find_run(name);
+        const StoredRun run(file, name, approach.place);
+        if (run.record.status == RunStatus::failed)
+            throw InputError(approach.place, fmt::format("run '{}' failed: {}", name, run.record.failure),
+                             "begin elsewhere, by `from` or `range`");
+        if (planned.kind != RunKind::follow && name != last)
+            continue;
+        // Of a run from which another one starts, what comes before that.
+        const auto next = std::find_if(study.runs.begin(), study.runs.end(),
+                                       [&](const StudyRun& one) { return one.start && one.start->run == name; });
+        const std::string leaves = name != last && next != study.runs.end() ? next->start->point : "";
+        for (const std::string& label : run.special_labels()) {
+            const OrbitRecord record = orbit_of_run(file, run.record, label, approach.place);
+            if (name == last && is_wanted(design, run.model, record.point, label))
+                return {System(run.model),
+                        with_condition(record.point, approach.place, label),
+                        design.control_parameter,
+                        name,
+                        label,
+                        std::move(earlier)};
+            if (record.point.type != PointType::end)
+                earlier.push_back(earlier_of(record, name, design.control_parameter));
+            if (label == leaves)
+                break;
+        }
+    }
+    std::string passed;
+    for (const EarlierPoint& one : earlier)
+        passed += fmt::format("{}{} at {:.6g}", passed.empty() ? "" : ", ", one.label, one.value);
+    throw InputError(approach.place,
+                     fmt::format("the branch has come to its end without {}; on its way: {}",
+                                 !approach.point.empty()  ? approach.point
+                                 : approach.event.empty() ? "a touch"
+                                                          : fmt::format("a touch of '{}'", approach.event),
+                                 passed.empty() ? "nothing" : passed),
+                     "widen the range, or choose another event or point");
+}
+
+std::string_view class_name(GrazingOutcome outcome) {
+    return outcome == GrazingOutcome::lost ? "trips" : name_of(outcome);
+}
+
+TripPoint moved_to(const TripPoint& trip, const Orbit& orbit) {
+    TripPoint moved = trip;
+    moved.earlier.clear();
+    moved.point.solution.orbit = orbit;
+    moved.point.parameter = orbit.parameters[trip.control.place()];
+    if (!trip.is_touch() || trip.point.at_end)
+        return moved;
+    // Where it was, unless it has gone to another segment.
+    std::optional<OrbitTouch> touch;
+    for (const OrbitTouch& one : touches_of(trip.system, orbit))
+        if (one.event == trip.point.event && (!touch || one.segment == trip.point.segment))
+            touch = one;
+    if (touch) {
+        moved.point.segment = touch->segment;
+        moved.point.time = touch->time;
+        moved.point.at_end = touch->at_end;
+    }
+    return moved;
+}
+
+TripClass class_at(const TripPoint& trip) {
+    TripClass result;
+    const SpecialPoint& point = trip.point;
+    if (!trip.is_touch()) {
+        const bool fold = point.type == PointType::fold;
+        result.outcome = fold ? GrazingOutcome::folds : GrazingOutcome::undecided;
+        result.reason = fold ? "the branch of orbits turns: nothing remains beyond"
+                             : fmt::format("what remains beyond a {} is not said", name_of(point.type));
+        return result;
+    }
+    CycleMapOptions options;
+    options.parameter = trip.control;
+    result.map =
+        cycle_map(trip.system, point.solution.orbit, {point.segment, point.event, point.time, point.at_end}, options);
+    result.verdict = verdict_of(*result.map);
+    result.outcome = result.verdict.outcome;
+    result.reason = result.verdict.reason;
+    return result;
+}
+
+} // namespace graze

@@ -1,0 +1,153 @@
+#include "graze/design/trip_times.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "graze/trajectory/trajectory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace graze {
+
+namespace {
+
+/// Waits for the end of a trip that is no matter of one touched surface: any hard contact will do.
+class EndWatch : public Observer {
+public:
+    EndWatch(const Model& model, double speed, const std::function<bool()>& interrupted)
+        : model_(&model), speed_(speed), interrupted_(&interrupted) {}
+
+    void contact(const Contact& contact) override {
+        if (contact.kind != ContactKind::crossing || model_->events[contact.event].kind != EventKind::barrier ||
+            !trip_.ending.empty())
+            return;
+        ++trip_.contacts;
+        trip_.speed = -contact.rate_before;
+        if (speed_ > 0 && trip_.speed >= speed_)
+            end("speed", contact.time);
+    }
+    void passage(const Passage& passage) override {
+        if (trip_.ending.empty())
+            end("level", passage.time);
+    }
+    bool stop() override { return !trip_.ending.empty() || (*interrupted_ && (*interrupted_)()); }
+    const TripTime& trip() const { return trip_; }
+
+private:
+    void end(const char* ending, double time) {
+        trip_.ending = ending;
+        trip_.time = time;
+        trip_.ended = true;
+    }
+    const Model* model_;
+    double speed_;
+    const std::function<bool()>* interrupted_;
+    TripTime trip_;
+};
+
+void add_touch_row(TripTimes& times, const TripPoint& trip, const TripClass& found, const TripRequest& request,
+                   double overshoot, double level, const TripOptions& options) {
+    PredictionOptions prediction;
+    prediction.level = level;
+    TripTimeRow& row = times.rows.emplace_back();
+    row.overshoot = overshoot;
+    row.predicted = predicted_trip(*found.map, found.verdict, overshoot, prediction);
+    row.continued =
+        continued_trip(trip.system, *found.map, trip.control, overshoot, *row.predicted, request.end, options);
+    if (std::abs(overshoot) >= least_overshoot(*found.map, trip.control))
+        row.simulated = simulated_trip(trip.system, *found.map, trip.control, overshoot, request.end, options);
+}
+
+} // namespace
+
+const TripTime* TripTimeRow::best() const {
+    if (simulated && simulated->ended)
+        return &*simulated;
+    if (continued && continued->ended)
+        return &*continued;
+    return nullptr;
+}
+
+std::vector<double> overshoots_of(const TripRequest& request, double value, int side) {
+    const double sign = side < 0 ? -1 : 1;
+    std::vector<double> result;
+    for (const double one : request.overshoots)
+        result.push_back(sign * one);
+    if (!result.empty())
+        return result;
+    const int size = value != 0 ? static_cast<int>(std::floor(std::log10(std::abs(value)))) : 0;
+    constexpr int least = 20;
+    for (int digits = 2; digits <= least; digits += 2)
+        result.push_back(std::stod(fmt::format("{}1e{}", sign < 0 ? "-" : "", size - digits)));
+    return result;
+}
+
+TripTime simulate_until(const System& system, std::span<const double> parameters, std::span<const double> state,
+                        std::size_t mode, double cycle, const TripEnd& end, const TripOptions& options) {
+    options.validate();
+    SimulationOptions numbers;
+    numbers.tolerance = options.tolerance;
+    numbers.step_limit = options.step_limit;
+    std::vector<Probe> probes;
+    if (end.quantity) {
+        Probe& probe = probes.emplace_back();
+        probe.name = "end";
+        probe.expression = *end.quantity - end.level;
+    }
+    const Simulation simulation(system, std::move(probes), {}, numbers);
+    EndWatch watch(system.model(), end.speed, options.interrupted);
+    Trajectory trajectory(simulation, parameters, watch);
+    trajectory.start(state, mode, 0, options.cycles * cycle);
+    JetSet jets(simulation, LaneKind::single);
+    run(trajectory, jets);
+    TripTime trip = watch.trip();
+    const Outcome& outcome = trajectory.outcome();
+    if (trip.ending.empty()) {
+        trip.ending = name_of(outcome.ending);
+        trip.time = outcome.time;
+        trip.ended = outcome.ending == Ending::singular || outcome.ending == Ending::terminal;
+    }
+    trip.cycles = trip.time / cycle;
+    return trip;
+}
+
+TripTimes trip_times(const TripPoint& trip, const Orbit& orbit, const TripClass& found, const TripRequest& request,
+                     const std::function<bool()>& interrupted) {
+    TripTimes times;
+    TripOptions options;
+    options.cycles = request.cycles;
+    options.interrupted = interrupted;
+    const double value = orbit.parameters[trip.control.place()];
+    if (found.outcome == GrazingOutcome::lost && found.map && found.map->clearance_rate &&
+        *found.map->clearance_rate != 0) {
+        const double level = level_of_map(*found.map, found.verdict);
+        for (const double overshoot : overshoots_of(request, value, found.verdict.side)) {
+            if (interrupted && interrupted())
+                break;
+            add_touch_row(times, trip, found, request, overshoot,
+                          request.end.speed > 0 ? std::min(level, request.end.speed) : level, options);
+        }
+        return times;
+    }
+    if (trip.point.type != PointType::fold) {
+        times.reason = found.outcome == GrazingOutcome::persists ? "the motion persists beyond the touch: nothing trips"
+                       : found.outcome == GrazingOutcome::folds
+                           ? "the orbit goes on beyond the touch, to a fold: design for that point"
+                           : "it is not known whether the motion is lost: " + found.reason;
+        return times;
+    }
+    constexpr double digits = 1e-12; // of the parameter, to which a fold is known
+    for (const double overshoot : overshoots_of(request, value, 1)) {
+        if (std::abs(overshoot) < digits * std::abs(value) || (interrupted && interrupted()))
+            continue;
+        TripTimeRow& row = times.rows.emplace_back();
+        row.overshoot = overshoot;
+        std::vector<double> parameters = orbit.parameters;
+        parameters[trip.control.place()] += overshoot;
+        row.simulated = simulate_until(trip.system, parameters, orbit.starts.front(), orbit.signature.front().mode,
+                                       orbit.period(), request.end, options);
+    }
+    return times;
+}
+
+} // namespace graze

@@ -1,0 +1,186 @@
+#include "graze/design/value_map.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace graze {
+
+namespace {
+
+double spread_over(double least, double greatest, std::size_t i, std::size_t points) {
+    return i + 1 == points ? greatest
+                           : least + (greatest - least) * (static_cast<double>(i) / static_cast<double>(points - 1));
+}
+
+MappedValue mapped(const TripPoint& trip, LocatedValue& located, std::span<const double> values) {
+    MappedValue result;
+    result.x = values[0];
+    result.y = values.size() > 1 ? values[1] : 0;
+    const LocatedSolution solution = located(values);
+    result.found = solution.found;
+    result.problem = solution.problem;
+    if (!solution.found)
+        return result;
+    result.value = solution.value;
+    result.admissible = solution.admissible;
+    if (solution.admissible)
+        result.outcome = class_at(moved_to(trip, solution.orbit)).outcome;
+    return result;
+}
+
+/// Does numbered pieces of work on threads, each with a solver of its own.
+class MapWork {
+public:
+    MapWork(const TripPoint& trip, std::vector<ParameterId> others, const MapSettings& settings)
+        : trip_(&trip), others_(std::move(others)), settings_(&settings) {}
+
+    template <class Work>
+    void each(std::size_t count, const Work& work) {
+        const auto share = [&](bool tells) {
+            try {
+                LocatedValue located(trip_->system, trip_->point, trip_->control, others_, settings_->solver);
+                for (std::size_t i; !stopped_ && (i = next_++) < count;) {
+                    if (settings_->interrupted && settings_->interrupted()) {
+                        stopped_ = true;
+                        return;
+                    }
+                    work(located, i);
+                    const std::size_t done = ++done_;
+                    if (tells && settings_->progress)
+                        settings_->progress(done);
+                }
+            } catch (...) {
+                const std::lock_guard lock(mutex_);
+                if (!error_)
+                    error_ = std::current_exception();
+                stopped_ = true;
+            }
+        };
+        {
+            std::vector<std::jthread> threads;
+            constexpr std::size_t enough = 32; // points for which a thread is worth its start
+            const std::size_t jobs =
+                std::clamp<std::size_t>(count / enough, 1, static_cast<std::size_t>(settings_->jobs));
+            for (std::size_t i = 1; i < jobs; ++i)
+                threads.emplace_back([&] { share(false); });
+            share(true);
+        }
+        if (error_)
+            std::rethrow_exception(error_);
+    }
+    bool stopped() const { return stopped_; }
+
+private:
+    const TripPoint* trip_;
+    std::vector<ParameterId> others_;
+    const MapSettings* settings_;
+    std::atomic<std::size_t> next_{0}, done_{0};
+    std::atomic<bool> stopped_{false};
+    std::mutex mutex_; ///< of the error
+    std::exception_ptr error_;
+};
+
+/// Ends of what can be tuned, from the nominal position outwards: where a solution is missing, or beyond the range.
+void set_limits(Tuning& tuning, const DesignDimension& stop, std::size_t nominal) {
+    const auto problem_at = [&](const TuningPoint& point) -> std::string {
+        if (!point.found || !point.admissible)
+            return point.problem.empty() ? "the model would not come there" : point.problem;
+        return point.position < stop.least || point.position > stop.greatest ? "the stop's range ends" : "";
+    };
+    std::size_t low = nominal, high = nominal;
+    tuning.ends_below = tuning.ends_above = "the stop's range ends";
+    for (; low > 0; --low)
+        if (const std::string problem = problem_at(tuning.points[low - 1]); !problem.empty()) {
+            tuning.ends_below = problem;
+            break;
+        }
+    for (; high + 1 < tuning.points.size(); ++high)
+        if (const std::string problem = problem_at(tuning.points[high + 1]); !problem.empty()) {
+            tuning.ends_above = problem;
+            break;
+        }
+    tuning.least = tuning.points[low].value;
+    tuning.greatest = tuning.points[high].value;
+}
+
+} // namespace
+
+void MapSettings::validate() const {
+    constexpr std::size_t most = 10'000;
+    if (points < 2 || points > most)
+        throw InputError(fmt::format("{} points are out of range", points), fmt::format("choose from 2 to {}", most));
+    if (jobs < 1)
+        throw InputError(fmt::format("{} jobs cannot do anything", jobs), "give at least one");
+    solver.validate();
+}
+
+std::vector<MappedValue> value_curve(const TripPoint& trip, const DesignDimension& dimension,
+                                     const MapSettings& settings) {
+    settings.validate();
+    std::vector<MappedValue> result(settings.points);
+    MapWork work(trip, {dimension.parameter}, settings);
+    work.each(settings.points, [&](LocatedValue& located, std::size_t i) {
+        const double value[] = {spread_over(dimension.least, dimension.greatest, i, settings.points)};
+        result[i] = mapped(trip, located, value);
+    });
+    if (work.stopped())
+        result.clear();
+    return result;
+}
+
+std::vector<MappedValue> value_plane(const TripPoint& trip, const DesignDimension& across, const DesignDimension& up,
+                                     const MapSettings& settings) {
+    settings.validate();
+    const std::size_t points = settings.points;
+    std::vector<MappedValue> result(points * points);
+    MapWork work(trip, {across.parameter, up.parameter}, settings);
+    work.each(points * points, [&](LocatedValue& located, std::size_t i) {
+        const double values[] = {spread_over(across.least, across.greatest, i % points, points),
+                                 spread_over(up.least, up.greatest, i / points, points)};
+        result[i] = mapped(trip, located, values);
+    });
+    if (work.stopped())
+        result.clear();
+    return result;
+}
+
+Tuning tuning_curve(const TripPoint& trip, const DesignDimension& stop, const MapSettings& settings) {
+    settings.validate();
+    Tuning tuning;
+    // Values between those that the ends of the stop's range have, or the last devices before them.
+    double least = trip.value(), greatest = trip.value();
+    for (const MappedValue& one : value_curve(trip, stop, settings))
+        if (one.found && one.admissible) {
+            least = std::min(least, one.value);
+            greatest = std::max(greatest, one.value);
+        }
+    LocatedValue located(trip.system, trip.point, stop.parameter, {trip.control}, settings.solver);
+    if (!(least < greatest))
+        throw InputError(fmt::format("the trip value does not depend on '{}'", stop.name), "adjust another dimension");
+    std::size_t nominal = 0;
+    for (std::size_t i = 0; i < settings.points; ++i) {
+        TuningPoint& point = tuning.points.emplace_back();
+        point.value = spread_over(least, greatest, i, settings.points);
+        if (std::abs(point.value - trip.value()) < std::abs(tuning.points[nominal].value - trip.value()))
+            nominal = i;
+        const double wanted[] = {point.value};
+        const LocatedSolution solution = located(wanted);
+        point.found = solution.found;
+        point.admissible = solution.admissible;
+        point.problem = solution.problem;
+        if (solution.found)
+            point.position = solution.value;
+    }
+    set_limits(tuning, stop, nominal);
+    return tuning;
+}
+
+} // namespace graze

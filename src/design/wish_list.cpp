@@ -1,0 +1,301 @@
+#include "graze/design/wish_list.hpp"
+
+#include "design/balance.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "orbit/eigen_index.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace graze {
+
+namespace {
+
+constexpr double open_range = 10;     ///< scales within which starts lie where a range is infinite
+constexpr double least_weight = 1e-6; ///< of the largest: it binds
+constexpr double imbalance = 1e-4;    ///< of gradients, in which multipliers show that a design is stationary
+constexpr double given_way = 1e-10;   ///< by limits that may not give way further, for round-off
+
+/// Points that fill the ranges evenly, up to a distance of each dimension, the same each time (J. H. Halton, Numer.
+/// Math. 2, 1960).
+Eigen::VectorXd scattered(const ScaledWishes& wishes, std::size_t number, double farthest) {
+    Eigen::VectorXd result(wishes.size());
+    std::size_t base = 1;
+    for (Eigen::Index i = 0; i < result.size(); ++i) {
+        const auto is_prime = [](std::size_t p) {
+            for (std::size_t d = 2; d * d <= p; ++d)
+                if (p % d == 0)
+                    return false;
+            return true;
+        };
+        do
+            ++base;
+        while (!is_prime(base));
+        double part = 1, share = 0;
+        for (std::size_t rest = number; rest > 0; rest /= base) {
+            part /= static_cast<double>(base);
+            share += part * static_cast<double>(rest % base);
+        }
+        const double low = std::max(std::isfinite(wishes.lowest()[i]) ? wishes.lowest()[i] : -open_range, -farthest),
+                     high = std::min(std::isfinite(wishes.highest()[i]) ? wishes.highest()[i] : open_range, farthest);
+        result[i] = low + share * (high - low);
+    }
+    return result;
+}
+
+class Search {
+public:
+    Search(const WishList& list, const WishOptions& options) : wishes_(list, options), options_(options) {}
+
+    FoundDesign run() {
+        look_around();
+        if (best_)
+            let_others_be_met();
+        return report();
+    }
+
+private:
+    static constexpr std::size_t first_looks = 64; ///< at designs, until one has all values
+
+    bool met() const { return best_ && best_->violation <= options_.tolerance; }
+
+    void look_around() {
+        begin_at(Eigen::VectorXd::Zero(wishes_.size()));
+        if (wishes_.size() == 0)
+            return;
+        std::size_t number = 1;
+        for (std::size_t start = 1; start < options_.starts || (!best_ && number < first_looks); ++start) {
+            if (!wishes_.may_go_on() || (met() && best_->z.norm() <= beside_limit))
+                return;
+            begin_at(scattered(wishes_, number++, met() ? best_->z.norm() : std::numeric_limits<double>::infinity()));
+        }
+    }
+
+    void begin_at(const Eigen::VectorXd& z) {
+        const Asked at = wishes_.ask(z);
+        if (!at.exists)
+            return;
+        Candidate here = penalised(wishes_, {z, at, wishes_.largest(at)});
+        const auto order = [&](const Candidate& one) {
+            return one.violation <= options_.tolerance ? std::pair(0.0, one.z.norm())
+                                                       : std::pair(one.violation, one.z.norm());
+        };
+        if (!best_ || order(here) < order(*best_))
+            best_ = std::move(here);
+    }
+
+    /// What holds the largest violation is kept there, and the rest made as small as it can be.
+    void let_others_be_met() {
+        const std::size_t rounds = wishes_.rows().size();
+        violation_ = best_->violation;
+        for (std::size_t round = 0; round < rounds && !met() && wishes_.left == Left::not_at_all; ++round) {
+            const Balance balance = balance_of_violation(wishes_, *best_);
+            note(balance, round == 0);
+            bool any = false;
+            for (std::size_t k = 0; k < rounds; ++k) {
+                LimitRow& row = wishes_.rows()[k];
+                if (row.cap || !(balance.rows[index(k)] > least_weight * balance.rows.maxCoeff()))
+                    continue;
+                row.cap = wishes_.violation(row, best_->at) + given_way;
+                any = true;
+            }
+            best_->violation = wishes_.largest(best_->at);
+            if (!any || balance.residual > imbalance)
+                return;
+            best_ = penalised(wishes_, std::move(*best_));
+        }
+        if (violation_ <= options_.tolerance)
+            note(balance_of_distance(wishes_, *best_), true);
+        if (balance_.rows.size() > 0)
+            snap();
+    }
+
+    /// Onto the ends of ranges that hold it, at which it lies to within round-off.
+    void snap() {
+        Candidate at = *best_;
+        for (Eigen::Index i = 0; i < at.z.size(); ++i) {
+            if (balance_.lowest[i] > 0)
+                at.z[i] = wishes_.lowest()[i];
+            if (balance_.highest[i] > 0)
+                at.z[i] = wishes_.highest()[i];
+        }
+        if (at.z == best_->z)
+            return;
+        at.at = wishes_.ask(at.z);
+        if (!at.at.exists)
+            return;
+        at.violation = wishes_.largest(at.at);
+        const bool good = at.violation <= std::max(options_.tolerance, best_->violation + given_way);
+        if (good && wishes_.keeps_caps(at.at))
+            best_ = std::move(at);
+    }
+
+    void note(const Balance& balance, bool first) {
+        if (first) {
+            balance_ = balance;
+            return;
+        }
+        balance_.rows = balance_.rows.cwiseMax(balance.rows);
+        balance_.lowest = balance_.lowest.cwiseMax(balance.lowest);
+        balance_.highest = balance_.highest.cwiseMax(balance.highest);
+    }
+
+    FoundDesign report() const {
+        FoundDesign result;
+        result.evaluations = wishes_.evaluations;
+        result.missing = wishes_.missing;
+        result.problem = wishes_.problem;
+        const Eigen::VectorXd z = best_ ? best_->z : Eigen::VectorXd::Zero(wishes_.size());
+        for (const double value : wishes_.design(z))
+            result.dimensions.push_back({value, false, false, false, 0});
+        result.wants.resize(wishes_.list().wants.size());
+        if (best_)
+            fill(result);
+        tell(result);
+        return result;
+    }
+
+    void fill(FoundDesign& result) const {
+        const bool known = balance_.rows.size() > 0 || wishes_.rows().empty();
+        double most = 0;
+        if (known && balance_.rows.size() > 0)
+            most = std::max({balance_.rows.maxCoeff(), balance_.lowest.size() ? balance_.lowest.maxCoeff() : 0.0,
+                             balance_.highest.size() ? balance_.highest.maxCoeff() : 0.0});
+        for (std::size_t i = 0; i < result.dimensions.size(); ++i) {
+            FoundDimension& one = result.dimensions[i];
+            one.at_lowest = one.value <= wishes_.list().dimensions[i].lowest;
+            one.at_highest = one.value >= wishes_.list().dimensions[i].highest;
+            if (balance_.rows.size() > 0)
+                one.weight = balance_.lowest[index(i)] + balance_.highest[index(i)];
+            one.binds = one.weight > least_weight * most;
+        }
+        for (std::size_t j = 0; j < result.wants.size(); ++j)
+            result.wants[j].value = best_->at.values[index(j)];
+        for (std::size_t k = 0; k < wishes_.rows().size(); ++k) {
+            FoundWant& want = result.wants[wishes_.rows()[k].want];
+            want.violation = std::max(want.violation, wishes_.violation(wishes_.rows()[k], best_->at));
+            if (balance_.rows.size() > 0)
+                want.weight += balance_.rows[index(k)];
+            want.binds = want.weight > least_weight * most;
+        }
+        for (FoundWant& want : result.wants) {
+            want.met = want.violation <= options_.tolerance;
+            result.violation = std::max(result.violation, want.violation);
+        }
+        result.distance = best_->z.norm();
+        result.stationary = known && balance_.residual <= imbalance;
+    }
+
+    void tell(FoundDesign& result) const {
+        if (best_ && result.violation <= options_.tolerance) {
+            result.outcome = WishOutcome::met;
+        } else if (wishes_.left == Left::interrupted) {
+            result.outcome = WishOutcome::interrupted;
+            result.reason = "the search was interrupted";
+        } else if (wishes_.left == Left::spent) {
+            result.outcome = WishOutcome::unfinished;
+            result.reason = fmt::format("{} designs were tried, as many as were allowed", wishes_.evaluations);
+        } else if (!best_) {
+            result.outcome = WishOutcome::nowhere;
+            result.reason = fmt::format("none of the {} designs that were tried has all values: {}",
+                                        wishes_.evaluations, wishes_.problem);
+        } else {
+            result.outcome = WishOutcome::unmet;
+            result.reason = conflict(result);
+        }
+    }
+
+    std::string conflict(const FoundDesign& result) const {
+        std::string names;
+        for (std::size_t j = 0; j < result.wants.size(); ++j)
+            if (result.wants[j].binds)
+                names += (names.empty() ? "'" : ", '") + wishes_.list().wants[j].name + "'";
+        for (std::size_t i = 0; i < result.dimensions.size(); ++i)
+            if (result.dimensions[i].binds)
+                names += fmt::format(", the range of '{}'", wishes_.list().dimensions[i].name);
+        if (!result.stationary && wishes_.missing > 0)
+            return "the best design lies beside others without all values: " + wishes_.problem;
+        return result.stationary ? "no design beside this one is better; what holds it: " + names
+                                 : "no better design was found";
+    }
+
+    ScaledWishes wishes_;
+    const WishOptions& options_;
+    std::optional<Candidate> best_;
+    double violation_ = 0; ///< the largest one
+    Balance balance_;
+};
+
+[[noreturn]] void refuse(const std::string& problem, const std::string& remedy) {
+    throw InputError(problem, remedy);
+}
+
+} // namespace
+
+void WishList::validate() const {
+    for (const Dimension& one : dimensions) {
+        if (!std::isfinite(one.start) || !(one.lowest <= one.start && one.start <= one.highest))
+            refuse(fmt::format("'{}' starts at {}, outside of its range {} to {}", one.name, one.start, one.lowest,
+                               one.highest),
+                   "start within the range");
+        if (!(one.scale >= 0 && std::isfinite(one.scale)))
+            refuse(fmt::format("the scale {} of '{}' is out of range", one.scale, one.name),
+                   "give a positive number, or 0 for the width of its range");
+    }
+    for (const Want& want : wants) {
+        if (!want.value)
+            refuse(fmt::format("nothing gives the value of '{}'", want.name), "give it a function");
+        if (!(want.least <= want.most))
+            refuse(
+                fmt::format("nothing lies between {} and {}, as is wanted of '{}'", want.least, want.most, want.name),
+                "give the lower limit first");
+        const bool below = std::isfinite(want.least), above = std::isfinite(want.most);
+        if (!below && !above)
+            refuse(fmt::format("'{}' has no limit", want.name), "give a finite one");
+        if (!(want.scale >= 0 && std::isfinite(want.scale)))
+            refuse(fmt::format("the scale {} of '{}' is out of range", want.scale, want.name),
+                   "give a positive number");
+        if (want.scale == 0 && !((below && want.least != 0) || (above && want.most != 0)))
+            refuse(fmt::format("'{}' has no scale", want.name), "say which departure counts as one");
+    }
+}
+
+void WishOptions::validate() const {
+    constexpr std::size_t most = 100'000'000;
+    const auto check = [](bool right, std::string_view what, const std::string& remedy) {
+        if (!right)
+            refuse(fmt::format("{} is out of range", what), remedy);
+    };
+    check(tolerance >= 1e-14 && tolerance <= 1, "the tolerance of wants", "choose from 1e-14 to 1");
+    check(evaluations >= 1 && evaluations <= most, "the number of evaluations",
+          fmt::format("choose from 1 to {}", most));
+    check(starts >= 1 && starts <= most, "the number of starts", fmt::format("choose from 1 to {}", most));
+    check(difference >= 1e-12 && difference <= 0.1, "the step of differences", "choose from 1e-12 to 0.1");
+}
+
+std::string_view name_of(WishOutcome outcome) {
+    switch (outcome) {
+    case WishOutcome::met:
+        return "met";
+    case WishOutcome::unmet:
+        return "unmet";
+    case WishOutcome::unfinished:
+        return "unfinished";
+    case WishOutcome::interrupted:
+        return "interrupted";
+    case WishOutcome::nowhere:
+        break;
+    }
+    return "nowhere";
+}
+
+FoundDesign design_for(const WishList& wishes, const WishOptions& options) {
+    wishes.validate();
+    options.validate();
+    return Search(wishes, options).run();
+}
+
+} // namespace graze

@@ -1,0 +1,188 @@
+#include "design/wish_programme.hpp"
+
+#include "design/balance.hpp"
+#include "orbit/eigen_index.hpp"
+
+#include <nlopt.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <new>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+constexpr double balanced = 1e-7; ///< what may be left of gradients
+/// By how much a scale of distance counts less than one of violation: tried in turn until all wants are met.
+constexpr std::array<double, 5> distance_shares{1, 1e-2, 1e-4, 1e-6, 1e-8};
+constexpr double least_region = 1e-10; ///< beside designs without values, in scales
+constexpr double no_gain = 1e-12;      ///< of what is minimised: such gains are none
+constexpr double beside_face = 1e-7;   ///< of a region, as a share of its size: it is reached
+
+/// One sequential quadratic programme: the design and the elastic variable, which is the last of the unknowns. That one
+/// is measured in violations over the share of distances, so that second derivatives of the distance are 1.
+class Programme {
+public:
+    Programme(ScaledWishes& wishes, double share) : wishes_(wishes), share_(share) {}
+
+    /// The best of what is seen counts, whatever the method says of its end.
+    Candidate run(const Candidate& from, const Eigen::VectorXd& lowest, const Eigen::VectorXd& highest) {
+        const Eigen::Index n = wishes_.size();
+        best_ = from;
+        seen_missing_.reset();
+        idle_ = 0;
+        is_best_ = false;
+        optimiser_.reset(nlopt_create(NLOPT_LD_SLSQP, static_cast<unsigned>(n + 1)));
+        if (!optimiser_)
+            throw std::bad_alloc();
+        Eigen::VectorXd unknowns(n + 1), low(n + 1), high(n + 1);
+        unknowns << from.z.cwiseMax(lowest).cwiseMin(highest), from.violation / share_;
+        low << lowest, 0;
+        high << highest, std::numeric_limits<double>::infinity();
+        constexpr double smallest_step = 1e-13; // in scales
+        nlopt_set_lower_bounds(optimiser_.get(), low.data());
+        nlopt_set_upper_bounds(optimiser_.get(), high.data());
+        nlopt_set_xtol_abs1(optimiser_.get(), smallest_step);
+        nlopt_set_maxeval(optimiser_.get(), most_iterations);
+        nlopt_set_min_objective(optimiser_.get(), objective, this);
+        const std::vector<double> exactly(wishes_.rows().size(), 0);
+        nlopt_add_inequality_mconstraint(optimiser_.get(), static_cast<unsigned>(exactly.size()), limits, this,
+                                         exactly.data());
+        double least = 0;
+        nlopt_optimize(optimiser_.get(), unknowns.data(), &least);
+        if (wishes_.thrown)
+            std::rethrow_exception(wishes_.thrown);
+        return best_;
+    }
+    /// The design without values at which it has been left, if that was why.
+    const std::optional<Eigen::VectorXd>& missing() const { return seen_missing_; }
+    bool is_best() const { return is_best_; }
+
+private:
+    static constexpr int most_iterations = 300;
+    static constexpr Eigen::Index most_idle = 15;
+
+    static double objective(unsigned count, const double* unknowns, double* gradient, void* /*programme*/) {
+        const Eigen::Index n = static_cast<Eigen::Index>(count) - 1;
+        const Eigen::Map<const Eigen::VectorXd> z(unknowns, n);
+        if (gradient) {
+            Eigen::Map<Eigen::VectorXd>(gradient, n) = z;
+            gradient[n] = 1;
+        }
+        return unknowns[n] + z.squaredNorm() / 2;
+    }
+
+    static void limits(unsigned count, double* result, unsigned unknown_count, const double* unknowns, double* gradient,
+                       void* self) {
+        auto& programme = *static_cast<Programme*>(self);
+        try { // exceptions would not pass through the library
+            programme.set_limits(index(count), result, static_cast<Eigen::Index>(unknown_count), unknowns, gradient);
+        } catch (...) {
+            programme.wishes_.thrown = std::current_exception();
+            programme.wishes_.left = Left::thrown;
+            programme.stop(index(count), result, gradient, static_cast<Eigen::Index>(unknown_count));
+        }
+    }
+
+    void set_limits(Eigen::Index count, double* result, Eigen::Index unknown_count, const double* unknowns,
+                    double* gradient) {
+        const Eigen::Index n = unknown_count - 1;
+        const Eigen::VectorXd z = Eigen::Map<const Eigen::VectorXd>(unknowns, n);
+        const Asked& at = wishes_.ask(z);
+        if (!at.exists) {
+            if (wishes_.left == Left::not_at_all)
+                seen_missing_ = z;
+            return stop(count, result, gradient, unknown_count);
+        }
+        const std::vector<LimitRow>& rows = wishes_.rows();
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            result[k] = wishes_.violation(rows[k], at) - rows[k].cap.value_or(share_ * unknowns[n]);
+            if (!gradient)
+                continue;
+            Eigen::Map<Eigen::VectorXd> row(gradient + index(k) * unknown_count, unknown_count);
+            row.head(n) = rows[k].sign * at.gradient.row(index(rows[k].want)).transpose();
+            row[n] = rows[k].cap ? 0 : -share_;
+        }
+        Candidate here{z, at, wishes_.largest(at)};
+        ++idle_;
+        if (wishes_.keeps_caps(at) && here.merit(share_) < best_.merit(share_)) {
+            if (best_.merit(share_) - here.merit(share_) > no_gain * (1 + best_.merit(share_)))
+                idle_ = 0;
+            best_ = std::move(here);
+            is_best_ = graze::is_best(wishes_, best_, share_);
+        }
+        if (is_best_ || idle_ > most_idle + 2 * n) // round-off and noise would lead it about
+            nlopt_force_stop(optimiser_.get());
+    }
+
+    void stop(Eigen::Index count, double* result, double* gradient, Eigen::Index unknowns) {
+        std::fill(result, result + count, 0.0);
+        if (gradient)
+            std::fill(gradient, gradient + count * unknowns, 0.0);
+        nlopt_force_stop(optimiser_.get());
+    }
+
+    struct Destroy {
+        void operator()(nlopt_opt one) const { nlopt_destroy(one); }
+    };
+    ScaledWishes& wishes_;
+    double share_;
+    Candidate best_;
+    std::optional<Eigen::VectorXd> seen_missing_;
+    bool is_best_ = false;
+    Eigen::Index idle_ = 0; ///< evaluations without gain
+    std::unique_ptr<nlopt_opt_s, Destroy> optimiser_;
+};
+
+/// The best design near one. Where a design without values is met, it goes on in regions that shrink before it.
+Candidate settle(ScaledWishes& wishes, Candidate best, double share) {
+    constexpr int most_regions = 200, most_repetitions = 3;
+    double radius = std::numeric_limits<double>::infinity();
+    int repetitions = 0;
+    for (int k = 0; k < most_regions && wishes.left == Left::not_at_all; ++k) {
+        const Eigen::VectorXd low = wishes.lowest().cwiseMax((best.z.array() - radius).matrix()),
+                              high = wishes.highest().cwiseMin((best.z.array() + radius).matrix());
+        Programme programme(wishes, share);
+        Candidate next = programme.run(best, low, high);
+        const double moved = (next.z - best.z).lpNorm<Eigen::Infinity>(), merit = next.merit(share);
+        const bool gains = best.merit(share) - merit > no_gain * (1 + merit);
+        best = std::move(next);
+        if (programme.is_best()) {
+            break;
+        } else if (programme.missing()) {
+            radius = (*programme.missing() - best.z).lpNorm<Eigen::Infinity>() / 2;
+            if (!(radius > least_region))
+                break;
+        } else if (moved >= radius * (1 - beside_face)) {
+            radius *= 2;
+        } else if (!gains || ++repetitions > most_repetitions) {
+            break; // another run with fresh second derivatives has brought nothing
+        }
+    }
+    return best;
+}
+
+} // namespace
+
+Candidate penalised(ScaledWishes& wishes, Candidate best) {
+    for (const double share : distance_shares) {
+        if (wishes.size() == 0 || wishes.rows().empty())
+            break;
+        best = settle(wishes, std::move(best), share);
+        if (wishes.left != Left::not_at_all || best.violation <= wishes.options().tolerance)
+            break;
+        // Where limits alone hold the least violation, the distance makes no difference.
+        if (const Balance held = balance_of_violation(wishes, best); held.residual < balanced && held.gap < balanced)
+            break;
+    }
+    return best;
+}
+
+} // namespace graze

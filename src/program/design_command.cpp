@@ -1,0 +1,223 @@
+#include "graze/design/design_report.hpp"
+#include "graze/model/model_file.hpp"
+#include "graze/study/runner.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "program/commands.hpp"
+#include "program/design_page.hpp"
+#include "program/figure.hpp"
+#include "program/interrupt.hpp"
+#include "program/output_file.hpp"
+#include "program/process.hpp"
+#include "program/status_line.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+std::string csv_of(const Table& table) {
+    std::ostringstream text;
+    write_table(text, table, TableFormat::csv, 17, {});
+    return text.str();
+}
+
+std::vector<JsonObject> rows_of(const Table& table) {
+    std::vector<JsonObject> rows;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        JsonObject& object = rows.emplace_back();
+        for (std::size_t column = 0; column < table.columns().size(); ++column)
+            if (table.is_text(row, column))
+                object.add(table.columns()[column].name, table.text(row, column));
+            else if (!table.is_missing(row, column))
+                object.add(table.columns()[column].name, table.number(row, column));
+    }
+    return rows;
+}
+
+/// Everything but the long tables, which have files of their own.
+std::string json_of(const Design& design, const std::vector<NamedTable>& tables) {
+    JsonObject report;
+    report.add("graze", GRAZE_VERSION);
+    report.add("design", design.name);
+    report.add("model", design.model.name);
+    report.add("control", design.control);
+    for (const NamedTable& table : tables)
+        if (!table.name.starts_with("plane-") && table.name != "devices")
+            report.add(table.name, rows_of(table.table));
+    return "{" + report.members() + "}\n";
+}
+
+int list_designs(const DesignArguments& arguments, const Console& console) {
+    Table table({{"design", ""}, {"model", ""}, {"what it does", ""}});
+    for (const std::string& name : shipped_designs()) {
+        const Design design = load_design(name);
+        table.add(name);
+        table.add(design.model.name);
+        table.add(design.text);
+    }
+    deliver(table, arguments.output, {}, console);
+    return exit_success;
+}
+
+/// Follows the way to the trip point, or finds it in the file. @return whether it is whole
+bool follow(const Study& study, ResultFile& file, const DesignReportOptions& options) {
+    RunnerOptions running;
+    running.jobs = options.jobs;
+    running.interrupted = options.interrupted;
+    running.orbit = [&](const std::string& run, const OrbitRecord& record) {
+        options.progress(fmt::format("run '{}': orbit {}", run, record.number));
+    };
+    const std::vector<RunReport> reports = run_study(study, file, running);
+    return std::none_of(reports.begin(), reports.end(),
+                        [](const RunReport& report) { return report.outcome == RunOutcome::interrupted; });
+}
+
+class Workplace {
+public:
+    Workplace(const Design& design, std::string folder) : design_(design), folder_(std::move(folder)) {}
+
+    std::string path(const std::string& name) const {
+        const std::string path = (std::filesystem::path(folder_) / name).string();
+        require_inside(path, folder_);
+        require_distinct({{"the design", design_.file}, {"a result", path}});
+        return path;
+    }
+    void write(const std::string& name, const std::string& text) {
+        write_file(path(name), text);
+        written_.push_back(path(name));
+    }
+    void draw(const Figure& figure, const std::string& name) {
+        draw_figure(figure, path(name), "");
+        written_.push_back(path(name));
+    }
+    const std::vector<std::string>& written() const { return written_; }
+
+private:
+    const Design& design_;
+    std::string folder_;
+    std::vector<std::string> written_;
+};
+
+/// What has gone wrong with some devices.
+void tell(const Yield& yield, const Console& console) {
+    constexpr std::size_t most = 5;
+    for (std::size_t i = 0; i < std::min(most, yield.problems.size()); ++i)
+        console.err << fmt::format("graze: {} of {} devices: {}\n", yield.problems[i].second, yield.made,
+                                   yield.problems[i].first);
+}
+
+void write_all(Workplace& place, const Design& design, const TripPoint& trip, const DesignReport& report,
+               const DesignArguments& arguments, const Console& console) {
+    const std::vector<NamedTable> tables = tables_of(design, trip, report);
+    for (const NamedTable& table : tables)
+        place.write(table.name + ".csv", csv_of(table.table));
+    place.write("report.json", json_of(design, tables));
+    place.write("device.toml", write_model(model_of_device(trip)));
+    if (arguments.no_pictures)
+        return;
+    try {
+        const Figure page = design_page(design, trip, report);
+        place.draw(page, "page.svg");
+        place.draw(page, "page.pdf");
+    } catch (const InputError& error) {
+        console.err << fmt::format("graze: warning: the page was not drawn: {}\n", error.what());
+    }
+}
+
+/// Where a device trips; its way there is kept in the file. @return none when interrupted
+std::optional<TripPoint> locate(const Design& design, const std::string& path, const DesignReportOptions& options) {
+    const Study study = approach_study(design);
+    ResultFile file(path, ResultFile::Access::write);
+    if (!follow(study, file, options))
+        return std::nullopt;
+    return find_trip_point(design, study, file);
+}
+
+MetWishes wished(const Design& design, const TripPoint& trip, const DesignReportOptions& options) {
+    WishesOptions wishes;
+    wishes.interrupted = options.interrupted;
+    wishes.progress = [&](std::size_t devices) {
+        options.progress(fmt::format("{} devices tried for what is wanted", devices));
+    };
+    return meet_wishes(design, trip, wishes);
+}
+
+/// What calls for a look at the numbers.
+bool is_irregular(const DesignReport& report) {
+    return report.trial.outcome == TrialOutcome::contradicted || (report.yield && report.yield->failed > 0) ||
+           (report.wishes && report.wishes->found.outcome != WishOutcome::met);
+}
+
+int interrupted(const Console& console) {
+    console.err << "graze: interrupted; nothing but the way to the trip point is kept\n";
+    return InterruptGuard::exit_code();
+}
+
+} // namespace
+
+int design_command(const DesignArguments& arguments, const Console& console) {
+    if (arguments.list)
+        return list_designs(arguments, console);
+    if (arguments.design.empty())
+        throw InputError("no design is named", "graze design --list names those that come with graze");
+    if (arguments.show) {
+        console.out << shipped_design_text(arguments.design);
+        return exit_success;
+    }
+    const Design first = load_design(arguments.design);
+    const std::string folder = arguments.folder.empty() ? first.name : arguments.folder;
+    make_folder(folder, "--output");
+    Workplace place(first, folder);
+    const InterruptGuard guard;
+    StatusLine line(console, console.terminal);
+    DesignReportOptions options;
+    options.jobs =
+        arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    options.interrupted = [] { return InterruptGuard::requested(); };
+    options.progress = [&](const std::string& what) {
+        if (line.is_due())
+            line.show(what);
+    };
+    std::optional<TripPoint> trip = locate(first, place.path("results.sqlite"), options);
+    if (!trip)
+        return interrupted(console);
+    std::optional<MetWishes> wishes;
+    Design design = first;
+    if (!first.wanted.is_empty()) {
+        wishes = wished(first, *trip, options);
+        if (wishes->found.outcome == WishOutcome::interrupted)
+            return interrupted(console);
+        if (wishes->found.outcome != WishOutcome::nowhere) {
+            // The way there is gone by the finished device too: what comes before its trip point is known then.
+            design = with_values(first, wishes->values());
+            trip = locate(design, place.path("designed.sqlite"), options);
+            if (!trip)
+                return interrupted(console);
+        }
+    }
+    DesignReport report = report_of(design, *trip, options);
+    report.wishes = std::move(wishes);
+    if (report.interrupted)
+        return interrupted(console);
+    write_all(place, design, *trip, report, arguments, console);
+    if (!arguments.quiet) {
+        deliver(facts_of(design, *trip, report), arguments.output, {}, console);
+        if (arguments.output.format == TableFormat::table)
+            for (const std::string& path : place.written())
+                console.out << path << '\n';
+    }
+    if (report.yield)
+        tell(*report.yield, console);
+    return is_irregular(report) ? exit_irregular : exit_success;
+}
+
+} // namespace graze

@@ -1,0 +1,216 @@
+#include "record/hdf5_record.hpp"
+
+#include "graze/symbolic/printable.hpp"
+#include "graze/symbolic/text_file.hpp"
+#include "record/hdf5_handle.hpp"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+constexpr hsize_t rows_of_a_part = 16'384;
+constexpr hsize_t most_datasets = 10'000;
+constexpr std::size_t longest_channel_name = 100;
+/// A chunk is unpacked as a whole: a small file may claim a huge one.
+constexpr hsize_t largest_chunk = hsize_t{64} << 20;
+constexpr const char* advice = "give one dataset of numbers for each channel, all of one length, and one that is "
+                               "called t or time";
+
+/// One channel: a dataset.
+struct Column {
+    Channel channel;
+    Hdf5Handle set;
+    hsize_t rows = 0;
+};
+
+class Hdf5Record : public SampleSource {
+public:
+    Hdf5Record(const std::string& path, const RecordLayout& layout) : path_(path) {
+        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // failures are told by exceptions
+        H5PLset_loading_state(0);                    // a file from a stranger runs no code
+        file_ = {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, path, "this HDF5 file cannot be read",
+                 "it is damaged, or has been cut off; make it again"};
+        const Hdf5Handle group(H5Gopen2(file_.id(), layout.group.c_str(), H5P_DEFAULT), H5Gclose, path,
+                               fmt::format("there is no group '{}' in this file", printable_line(layout.group)),
+                               "name the group whose datasets are the channels by --group");
+        find_columns(group.id());
+    }
+    const RecordHeader& header() const override { return header_; }
+
+    bool read(Samples& samples) override {
+        const hsize_t count = std::min(rows_of_a_part, rows_ - next_);
+        samples.clear(columns_.size());
+        if (count == 0)
+            return false;
+        read_column(time_, samples.times, count);
+        for (std::size_t c = 0; c < columns_.size(); ++c)
+            read_column(columns_[c], samples.values[c], count);
+        for (std::size_t row = 0; row < samples.rows(); last_time_ = samples.times[row++])
+            if (!(samples.times[row] > last_time_))
+                refuse(time_, next_ + row,
+                       fmt::format("the time {} is not after the one before, {}", samples.times[row], last_time_),
+                       "give each row once, in the order of time");
+        next_ += count;
+        return true;
+    }
+
+private:
+    [[noreturn]] void refuse(const Column& column, hsize_t row, const std::string& problem,
+                             const std::string& remedy) const {
+        throw InputError(Place{path_, 0, 0},
+                         fmt::format("dataset '{}', row {}: {}", column.channel.name, row + 1, problem), remedy);
+    }
+
+    void read_column(const Column& column, std::vector<double>& values, hsize_t count) const {
+        values.resize(count);
+        const auto read_problem = "it cannot be read";
+        const char* const damaged = "the file is damaged, or has been cut off; make it again";
+        const Hdf5Handle source(H5Dget_space(column.set.id()), H5Sclose, path_, read_problem, damaged);
+        const Hdf5Handle target(H5Screate_simple(1, &count, nullptr), H5Sclose, path_, read_problem, damaged);
+        if (H5Sselect_hyperslab(source.id(), H5S_SELECT_SET, &next_, nullptr, &count, nullptr) < 0 ||
+            H5Dread(column.set.id(), H5T_NATIVE_DOUBLE, target.id(), source.id(), H5P_DEFAULT, values.data()) < 0)
+            refuse(column, next_, read_problem, damaged);
+        for (std::size_t row = 0; row < values.size(); ++row)
+            if (!std::isfinite(values[row]))
+                refuse(column, next_ + row, "there is no finite number", "leave out rows of which a value is missing");
+    }
+
+    void find_columns(hid_t group) {
+        H5G_info_t info{};
+        if (H5Gget_info(group, &info) < 0 || info.nlinks > most_datasets)
+            throw InputError(Place{path_, 0, 0}, "its datasets cannot be listed", advice);
+        bool has_time = false;
+        for (hsize_t i = 0; i < info.nlinks; ++i)
+            if (std::optional<Column> column = column_at(group, i)) {
+                const std::string& name = column->channel.name;
+                if (!has_time && (name == "t" || name == "time")) {
+                    time_ = std::move(*column);
+                    has_time = true;
+                } else {
+                    columns_.push_back(std::move(*column));
+                }
+            }
+        if (!has_time || columns_.empty())
+            throw InputError(Place{path_, 0, 0}, has_time ? "there are no channels" : "there is no dataset t or time",
+                             advice);
+        header_.time = time_.channel;
+        rows_ = time_.rows;
+        for (const Column& column : columns_) {
+            header_.channels.push_back(column.channel);
+            if (column.rows != rows_)
+                throw InputError(
+                    Place{path_, 0, 0},
+                    fmt::format("dataset '{}' has {} rows instead of {}", column.channel.name, column.rows, rows_),
+                    advice);
+        }
+    }
+
+    /// A dataset of numbers, if that is what the link leads to. Links to elsewhere are left alone.
+    std::optional<Column> column_at(hid_t group, hsize_t index) const {
+        char name[longest_channel_name + 2];
+        const ssize_t length =
+            H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, index, name, sizeof name, H5P_DEFAULT);
+        H5L_info_t link{};
+        if (length <= 0 || static_cast<std::size_t>(length) > longest_channel_name || !is_plain_line(name) ||
+            H5Lget_info(group, name, &link, H5P_DEFAULT) < 0)
+            throw InputError(Place{path_, 0, 0}, "there is a name that cannot be one of a channel", advice);
+        if (link.type != H5L_TYPE_HARD)
+            return std::nullopt;
+        Column column;
+        column.channel.name = name;
+        const std::string problem = fmt::format("dataset '{}' cannot be read", name);
+        column.set = {H5Oopen(group, name, H5P_DEFAULT), H5Oclose, path_, problem, advice};
+        if (H5Iget_type(column.set.id()) != H5I_DATASET)
+            return std::nullopt;
+        const Hdf5Handle type(H5Dget_type(column.set.id()), H5Tclose, path_, problem, advice);
+        const H5T_class_t kind = H5Tget_class(type.id());
+        if (kind != H5T_FLOAT && kind != H5T_INTEGER)
+            return std::nullopt;
+        require_plain_storage(column.set.id(), problem);
+        const Hdf5Handle space(H5Dget_space(column.set.id()), H5Sclose, path_, problem, advice);
+        if (H5Sget_simple_extent_ndims(space.id()) != 1)
+            throw InputError(Place{path_, 0, 0}, fmt::format("dataset '{}' is no list of numbers", name), advice);
+        H5Sget_simple_extent_dims(space.id(), &column.rows, nullptr);
+        column.channel.unit = unit_of(column.set.id());
+        return column;
+    }
+
+    /// What lies in other files, and chunks that do not fit, are refused.
+    void require_plain_storage(hid_t set, const std::string& problem) const {
+        const Hdf5Handle how(H5Dget_create_plist(set), H5Pclose, path_, problem, advice);
+        const H5D_layout_t layout = H5Pget_layout(how.id());
+        hsize_t chunk = 0;
+        if (layout == H5D_VIRTUAL || layout == H5D_LAYOUT_ERROR || H5Pget_external_count(how.id()) != 0)
+            throw InputError(Place{path_, 0, 0}, problem + ": it is kept in another file",
+                             "copy what it holds into this one");
+        if (layout == H5D_CHUNKED && H5Pget_chunk(how.id(), 1, &chunk) == 1 && chunk > largest_chunk / sizeof(double))
+            throw InputError(Place{path_, 0, 0}, problem + ": its chunks are too large",
+                             "write it in chunks of less than 64 MiB");
+    }
+
+    /// Empty where there is none that can be shown.
+    std::string unit_of(hid_t set) const {
+        if (H5Aexists(set, "units") <= 0)
+            return "";
+        const std::string problem = "a unit cannot be read", remedy = "give units as texts";
+        const Hdf5Handle attribute(H5Aopen(set, "units", H5P_DEFAULT), H5Aclose, path_, problem, remedy);
+        const Hdf5Handle type(H5Aget_type(attribute.id()), H5Tclose, path_, problem, remedy);
+        const Hdf5Handle space(H5Aget_space(attribute.id()), H5Sclose, path_, problem, remedy);
+        if (H5Tget_class(type.id()) != H5T_STRING || H5Sget_simple_extent_npoints(space.id()) != 1)
+            return "";
+        std::string unit;
+        if (H5Tis_variable_str(type.id()) > 0) {
+            char* text = nullptr;
+            if (H5Aread(attribute.id(), type.id(), static_cast<void*>(&text)) >= 0 && text)
+                unit.assign(text, strnlen(text, longest_channel_name + 1));
+            if (text)
+                H5free_memory(text);
+        } else if (H5Tget_size(type.id()) <= longest_channel_name) {
+            std::vector<char> text(H5Tget_size(type.id()) + 1, '\0');
+            if (H5Aread(attribute.id(), type.id(), text.data()) >= 0)
+                unit = text.data();
+        }
+        return unit.size() <= longest_channel_name && is_plain_line(unit) ? unit : "";
+    }
+
+    std::string path_;
+    Hdf5Handle file_;
+    RecordHeader header_;
+    Column time_;
+    std::vector<Column> columns_;
+    hsize_t rows_ = 0, next_ = 0;
+    double last_time_ = -std::numeric_limits<double>::infinity();
+};
+
+} // namespace
+
+bool is_hdf5(const std::string& path) {
+    PlainFile file(path, "record");
+    constexpr char signature[] = "\x89HDF\r\n\x1a\n";
+    char bytes[sizeof signature - 1];
+    std::size_t count = 0;
+    while (count < sizeof bytes) {
+        const std::size_t more = file.read(bytes + count, sizeof bytes - count);
+        if (more == 0)
+            return false;
+        count += more;
+    }
+    return std::memcmp(bytes, signature, sizeof bytes) == 0;
+}
+
+std::unique_ptr<SampleSource> open_hdf5_record(const std::string& path, const RecordLayout& layout) {
+    return std::make_unique<Hdf5Record>(path, layout);
+}
+
+} // namespace graze

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "graze/record/record_file.hpp"
+
+#include <memory>
+#include <string>
+
+namespace graze {
+
+/// Whether a file begins as HDF5's do.
+bool is_hdf5(const std::string& path);
+
+/// A record of datasets in a group of an HDF5 file.
+std::unique_ptr<SampleSource> open_hdf5_record(const std::string& path, const RecordLayout& layout);
+
+} // namespace graze

@@ -1,0 +1,242 @@
+#include "graze/record/impacts.hpp"
+
+#include "graze/record/spectrum.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+#include "record/local_polynomial.hpp"
+#include "record/sliding_samples.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t least_window = 5, most_window = 100'000;
+constexpr std::size_t nearest_samples = 4; ///< impacts that are nearer to one another are one
+constexpr std::size_t parabola = 2;
+
+/// Standard deviation of white noise on a smooth channel.
+double noise_of(const std::vector<double>& values) {
+    std::vector<double> differences;
+    for (std::size_t i = 3; i < values.size(); ++i)
+        differences.push_back(std::abs(values[i] - 3 * values[i - 1] + 3 * values[i - 2] - values[i - 3]));
+    if (differences.empty())
+        return 0;
+    const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+    std::nth_element(differences.begin(), middle, differences.end());
+    constexpr double median_of_normal = 0.6744897501960817, third_differences = 20; // 1 + 9 + 9 + 1
+    double largest = 0, step = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < values.size(); ++i) {
+        largest = std::max(largest, std::abs(values[i]));
+        const double difference = std::abs(values[i] - values[i - 1]);
+        step = difference > 0 ? std::min(step, difference) : step;
+    }
+    // Numbers of few digits stand still and then jump by one: that is noise, too.
+    const double digits = std::isfinite(step) ? step / std::sqrt(12.0) : 0;
+    return std::max({*middle / (median_of_normal * std::sqrt(third_differences)), digits,
+                     4 * std::numeric_limits<double>::epsilon() * largest});
+}
+
+/// Places of samples on one side of an impact, nearest first, from 0 to about 1.
+std::vector<double> side(std::size_t count, std::size_t transition, double offset, double scale) {
+    std::vector<double> places;
+    for (std::size_t i = 0; i < count; ++i)
+        places.push_back((static_cast<double>(i + transition) + offset) / scale);
+    return places;
+}
+
+/// A value continued to the impact from one side.
+struct Continued {
+    double value = 0, slope = 0; ///< slope in units of one sample's distance, away from the impact
+    double error = 0;            ///< of the value
+    double squares = 0;
+};
+
+/// @param samples of one side, nearest first. @param offset of the nearest from the impact, in samples
+Continued continued(const std::vector<double>& samples, std::size_t transition, double offset, double noise) {
+    const std::size_t degree = std::min<std::size_t>(parabola, samples.size() / 3);
+    const auto scale = static_cast<double>(samples.size() + transition);
+    const LocalPolynomial fit(side(samples.size(), transition, offset, scale), degree);
+    Continued result;
+    double variance = 0;
+    for (std::size_t k = 0; k <= degree; ++k) {
+        const double factor = fit.coefficient(k, samples.data());
+        result.value += factor * fit.at_zero(k);
+        result.slope += factor * fit.slope_at_zero(k) / scale;
+        variance += fit.at_zero(k) * fit.at_zero(k);
+    }
+    result.error = noise * std::sqrt(variance);
+    return result;
+}
+
+} // namespace
+
+struct ImpactFinder::State {
+    ImpactSettings settings;
+    SlidingSamples window;
+    LocalPolynomial fit; ///< of one side
+    std::vector<double> left{}, right{};
+    double value_noise = 0; ///< of a continued value, for a noise of one
+
+    State(SampleSource& source, const ImpactSettings& given)
+        : settings(given), window(source, 3 * (given.window + given.transition) + 1),
+          fit(side(given.window, given.transition, 0.5, static_cast<double>(given.window + given.transition)),
+              parabola) {
+        for (std::size_t k = 0; k <= parabola; ++k)
+            value_noise = std::hypot(value_noise, fit.at_zero(k));
+    }
+
+    /// How far a jump between rows i and i + 1 stands out: its size over what could be there without one; 0: it does
+    /// not.
+    double significance(const std::vector<double>& values, std::size_t i, double noise) {
+        const std::size_t count = settings.window;
+        left.resize(count);
+        right.resize(count);
+        for (std::size_t k = 0; k < count; ++k) {
+            left[k] = values[i - settings.transition - k] - values[i];
+            right[k] = values[i + 1 + settings.transition + k] - values[i];
+        }
+        double jump = 0, before[parabola + 1], after[parabola + 1];
+        for (std::size_t k = 0; k <= parabola; ++k) {
+            before[k] = fit.coefficient(k, left.data());
+            after[k] = fit.coefficient(k, right.data());
+            jump += (after[k] - before[k]) * fit.at_zero(k);
+        }
+        const double squares = fit.squares_left(left.data(), before) + fit.squares_left(right.data(), after);
+        const auto freedom = static_cast<double>(2 * count - 2 * (parabola + 1));
+        const double misfit = std::max(0.0, squares / freedom - noise * noise);
+        // If a term of third degree makes the misfit, its continuation to the end is sqrt(7) times that on either side.
+        const double by_misfit = 2 * std::sqrt(7 * misfit);
+        const double by_noise = settings.significance * noise * value_noise * std::numbers::sqrt2;
+        const double size = std::abs(jump);
+        if (!(size > by_noise + 2 * by_misfit) || size < settings.least_jump)
+            return 0;
+        return size / (noise * value_noise + by_misfit + 1e-300);
+    }
+
+    RecordedImpact impact_at(std::size_t i, std::size_t from, std::size_t to, double spacing) const;
+};
+
+/// @param from,to rows between which there is no other impact, the last not among them
+RecordedImpact ImpactFinder::State::impact_at(std::size_t i, std::size_t from, std::size_t to, double spacing) const {
+    const Samples& rows = window.samples();
+    const std::vector<double>& values = rows.values[settings.velocity];
+    const std::size_t before = std::min(settings.window, i + 1 - std::min(i + 1, from + settings.transition)),
+                      after = std::min(settings.window, to - std::min(to, i + 1 + settings.transition));
+    const auto rows_before = [&](const std::vector<double>& column) {
+        std::vector<double> result;
+        for (std::size_t k = 0; k < std::max<std::size_t>(before, 1); ++k)
+            result.push_back(column[i - settings.transition - k]);
+        return result;
+    };
+    const auto rows_after = [&](const std::vector<double>& column) {
+        std::vector<double> result;
+        for (std::size_t k = 0; k < std::max<std::size_t>(after, 1); ++k)
+            result.push_back(column[i + 1 + settings.transition + k]);
+        return result;
+    };
+    RecordedImpact impact;
+    double offset = 0.5; // of the impact behind row i, in samples
+    impact.time_error = spacing / std::sqrt(12.0);
+    if (settings.displacement) {
+        const std::vector<double>& places = rows.values[*settings.displacement];
+        const std::vector<double> first = rows_before(places), second = rows_after(places);
+        const double noise = noise_of(places);
+        // Newton's method for the place at which both continuations are equal.
+        constexpr int steps = 20;
+        for (int step = 0; step < steps; ++step) {
+            const Continued a = continued(first, settings.transition, offset, noise),
+                            b = continued(second, settings.transition, 1 - offset, noise);
+            const double difference = b.value - a.value, slope = b.slope + a.slope;
+            if (!(std::abs(slope) > 0))
+                break;
+            const double limit = static_cast<double>(settings.transition) + 1;
+            const double moved = std::clamp(offset - difference / slope, -limit, limit + 1);
+            impact.time_error = spacing * std::hypot(a.error, b.error) / std::abs(slope);
+            const bool stands = std::abs(moved - offset) < 1e-12;
+            offset = moved;
+            if (stands)
+                break;
+        }
+    }
+    const double noise = noise_of(values);
+    const Continued a = continued(rows_before(values), settings.transition, offset, noise),
+                    b = continued(rows_after(values), settings.transition, 1 - offset, noise);
+    impact.time = rows.times[i] + offset * spacing;
+    impact.before = a.value;
+    impact.after = b.value;
+    // The velocity changes within the error of the time, too.
+    const double late = impact.time_error / spacing;
+    impact.before_error = std::hypot(a.error, a.slope * late);
+    impact.after_error = std::hypot(b.error, b.slope * late);
+    return impact;
+}
+
+ImpactFinder::ImpactFinder(SampleSource& source, const ImpactSettings& settings) {
+    require_index(settings.velocity, source.header().channels.size(), "channel");
+    if (settings.displacement)
+        require_index(*settings.displacement, source.header().channels.size(), "channel");
+    if (settings.window < least_window || settings.window > most_window || settings.transition > most_window)
+        throw InputError(fmt::format("{} samples tell no velocities beside an impact", settings.window),
+                         "take 5 or more, and up to 100000");
+    if (!(settings.significance > 0) || !(settings.least_jump >= 0) || !std::isfinite(settings.least_jump))
+        throw InputError("the least jump and its significance are no positive numbers", "give positive ones");
+    state_ = std::make_unique<State>(source, settings);
+}
+
+ImpactFinder::~ImpactFinder() = default;
+
+bool ImpactFinder::next(std::vector<RecordedImpact>& impacts) {
+    impacts.clear();
+    State& state = *state_;
+    if (!state.window.next())
+        return false;
+    const Samples& rows = state.window.samples();
+    const std::vector<double>& values = rows.values[state.settings.velocity];
+    const double spacing = 1 / sampling_frequency(rows.times), noise = noise_of(values);
+    const std::size_t reach = state.settings.window + state.settings.transition;
+    // Impacts beside the rows that are asked for are sought too, for they limit what tells of those among them.
+    std::vector<double> sizes(rows.rows(), 0.0);
+    for (std::size_t i = reach; i + reach + 1 < rows.rows(); ++i)
+        sizes[i] = state.significance(values, i, noise);
+    std::vector<std::size_t> found;
+    const std::size_t near = std::max(nearest_samples, 2 * state.settings.transition + 1);
+    for (std::size_t i = reach; i + reach + 1 < rows.rows(); ++i) {
+        if (sizes[i] == 0)
+            continue;
+        const std::size_t first = i - std::min(i, near), last = std::min(rows.rows() - 1, i + near);
+        bool greatest = true;
+        for (std::size_t k = first; k <= last && greatest; ++k)
+            greatest = k == i || sizes[k] < sizes[i] || (sizes[k] == sizes[i] && k > i);
+        if (greatest)
+            found.push_back(i);
+    }
+    for (std::size_t f = 0; f < found.size(); ++f) {
+        if (found[f] < state.window.first() || found[f] >= state.window.last())
+            continue;
+        const std::size_t from = f > 0 ? found[f - 1] + 1 : 0,
+                          to = f + 1 < found.size() ? found[f + 1] + 1 : rows.rows();
+        impacts.push_back(state.impact_at(found[f], from, to, spacing));
+    }
+    return true;
+}
+
+std::vector<RecordedImpact> find_impacts(SampleSource& source, const ImpactSettings& settings) {
+    constexpr std::size_t most = 1'000'000;
+    ImpactFinder finder(source, settings);
+    std::vector<RecordedImpact> all, some;
+    while (finder.next(some)) {
+        all.insert(all.end(), some.begin(), some.end());
+        if (all.size() > most)
+            throw InputError(fmt::format("there are more than {} impacts", most), "take a shorter part of the record");
+    }
+    return all;
+}
+
+} // namespace graze

@@ -1,0 +1,170 @@
+#include "graze/record/record_writer.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+#include "record/hdf5_handle.hpp"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <cstdio>
+#include <iterator>
+#include <vector>
+
+namespace graze {
+
+class RecordWriter::Target {
+public:
+    Target() = default;
+    virtual ~Target() = default;
+    Target(const Target&) = delete;
+    Target& operator=(const Target&) = delete;
+    virtual void write(const Samples& samples) = 0;
+    virtual void close() = 0;
+};
+
+namespace {
+
+constexpr const char* full = "look at the permissions of the folder and the room on the disk";
+
+[[noreturn]] void refuse(const std::string& path) {
+    throw InputError(Place{path, 0, 0}, "the record cannot be written", full);
+}
+
+std::string titled(const Channel& channel) {
+    return channel.unit.empty() ? channel.name : fmt::format("{} [{}]", channel.name, channel.unit);
+}
+
+class TextTarget : public RecordWriter::Target {
+public:
+    TextTarget(const std::string& path, const RecordHeader& header)
+        : path_(path), file_(std::fopen(path.c_str(), "wb"), std::fclose) {
+        if (!file_)
+            refuse(path);
+        text_ = titled(header.time);
+        for (const Channel& channel : header.channels)
+            text_ += ", " + titled(channel);
+        text_ += '\n';
+    }
+    void write(const Samples& samples) override {
+        for (std::size_t row = 0; row < samples.rows(); ++row) {
+            fmt::format_to(std::back_inserter(text_), "{}", samples.times[row]);
+            for (const std::vector<double>& column : samples.values)
+                fmt::format_to(std::back_inserter(text_), ",{}", column[row]);
+            text_ += '\n';
+            if (text_.size() > enough)
+                flush();
+        }
+    }
+    void close() override {
+        flush();
+        if (std::fclose(file_.release()) != 0)
+            refuse(path_);
+    }
+
+private:
+    static constexpr std::size_t enough = std::size_t{1} << 20;
+    void flush() {
+        if (std::fwrite(text_.data(), 1, text_.size(), file_.get()) != text_.size())
+            refuse(path_);
+        text_.clear();
+    }
+    std::string path_, text_;
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+};
+
+class Hdf5Target : public RecordWriter::Target {
+public:
+    Hdf5Target(const std::string& path, const RecordHeader& header) : path_(path) {
+        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // failures are told by exceptions
+        file_ = handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+        sets_.push_back(make(header.time));
+        for (const Channel& channel : header.channels)
+            sets_.push_back(make(channel));
+    }
+    void write(const Samples& samples) override {
+        append(sets_.front(), samples.times);
+        for (std::size_t c = 0; c < samples.values.size(); ++c)
+            append(sets_[c + 1], samples.values[c]);
+        rows_ += samples.rows();
+    }
+    void close() override {
+        if (H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) < 0) // while it can still be told
+            refuse(path_);
+        sets_.clear();
+        file_ = Hdf5Handle();
+    }
+
+private:
+    static constexpr hsize_t chunk = 8192;
+    static constexpr unsigned quick = 1; ///< of deflate: measured numbers hardly pack any better by more
+
+    Hdf5Handle handle(hid_t id, herr_t (*closer)(hid_t)) const {
+        return {id, closer, path_, "the record cannot be written", full};
+    }
+    Hdf5Handle make(const Channel& channel) const {
+        if (channel.name.find('/') != std::string::npos)
+            throw InputError(fmt::format("channel '{}' cannot be a dataset of HDF5", channel.name),
+                             "give it a name without a slash");
+        const hsize_t none = 0, unlimited = H5S_UNLIMITED;
+        const Hdf5Handle space = handle(H5Screate_simple(1, &none, &unlimited), H5Sclose);
+        const Hdf5Handle how = handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+        H5Pset_chunk(how.id(), 1, &chunk);
+        H5Pset_shuffle(how.id());
+        H5Pset_deflate(how.id(), quick);
+        Hdf5Handle set = handle(H5Dcreate2(file_.id(), channel.name.c_str(), H5T_NATIVE_DOUBLE, space.id(), H5P_DEFAULT,
+                                           how.id(), H5P_DEFAULT),
+                                H5Dclose);
+        if (channel.unit.empty())
+            return set;
+        const Hdf5Handle type = handle(H5Tcopy(H5T_C_S1), H5Tclose), one = handle(H5Screate(H5S_SCALAR), H5Sclose);
+        H5Tset_size(type.id(), H5T_VARIABLE);
+        H5Tset_cset(type.id(), H5T_CSET_UTF8);
+        const Hdf5Handle attribute =
+            handle(H5Acreate2(set.id(), "units", type.id(), one.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+        const char* text = channel.unit.c_str();
+        if (H5Awrite(attribute.id(), type.id(), static_cast<const void*>(&text)) < 0)
+            refuse(path_);
+        return set;
+    }
+    void append(const Hdf5Handle& set, const std::vector<double>& values) const {
+        const hsize_t count = values.size(), size = rows_ + count;
+        if (count == 0)
+            return;
+        if (H5Dset_extent(set.id(), &size) < 0)
+            refuse(path_);
+        const Hdf5Handle target = handle(H5Dget_space(set.id()), H5Sclose),
+                         source = handle(H5Screate_simple(1, &count, nullptr), H5Sclose);
+        if (H5Sselect_hyperslab(target.id(), H5S_SELECT_SET, &rows_, nullptr, &count, nullptr) < 0 ||
+            H5Dwrite(set.id(), H5T_NATIVE_DOUBLE, source.id(), target.id(), H5P_DEFAULT, values.data()) < 0)
+            refuse(path_);
+    }
+
+    std::string path_;
+    Hdf5Handle file_;
+    std::vector<Hdf5Handle> sets_;
+    hsize_t rows_ = 0;
+};
+
+} // namespace
+
+RecordWriter::RecordWriter(const std::string& path, const RecordHeader& header) {
+    if (path.ends_with(".h5") || path.ends_with(".hdf5"))
+        target_ = std::make_unique<Hdf5Target>(path, header);
+    else
+        target_ = std::make_unique<TextTarget>(path, header);
+}
+
+RecordWriter::~RecordWriter() = default;
+
+void RecordWriter::write(const Samples& samples) {
+    for (const std::vector<double>& column : samples.values)
+        require_size(column.size(), samples.rows(), "samples of a channel");
+    target_->write(samples);
+}
+
+void RecordWriter::close() {
+    target_->close();
+}
+
+} // namespace graze

@@ -1,0 +1,37 @@
+#include "graze/record/section.hpp"
+
+#include "graze/record/interpolate.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace graze {
+
+SectionPoint section(const Period& period, double phase) {
+    if (!(phase >= 0 && phase <= 1))
+        throw InputError(fmt::format("the phase {} is no part of a period", phase), "give a number from 0 to 1");
+    SectionPoint point;
+    point.period = period.number;
+    point.phase = phase;
+    point.time = period.begin + phase * period.duration();
+    point.values = interpolate(period.samples, point.time);
+    return point;
+}
+
+SectionPoint image_of(const SectionPoint& point, const RecordSymmetry& symmetry) {
+    require_finite(symmetry.shift, "the shift of a symmetry");
+    SectionPoint image = point;
+    for (const std::size_t channel : symmetry.negated) {
+        require_index(channel, image.values.size(), "channel");
+        image.values[channel] = -image.values[channel];
+    }
+    image.phase = point.phase - symmetry.shift;
+    image.phase -= std::floor(image.phase);
+    image.image = true;
+    return image;
+}
+
+} // namespace graze

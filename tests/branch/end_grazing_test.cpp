@@ -1,0 +1,98 @@
+// Curves along which a contact has no speed, and what it would set going takes no time: orbits that are those of one
+// contact fewer, whose touches have equations of another kind.
+
+#include "follow.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+/// The impact microactuator, whose frame slips after a contact (J1) until it sticks (J8).
+struct Microactuator {
+    Model model = load_model("impact-microactuator");
+    BranchSettings settings;
+
+    Microactuator() {
+        model.set_parameter("V", 0.1);
+        model.set_parameter("omega", 0.9189);
+        settings.parameter = model.independent_parameter("V");
+        settings.least = 0;
+        settings.greatest = 3;
+    }
+
+    /// Orbits with one contact more than those that touch, both ways from the next grazing that they come to.
+    Branch beyond(const SpecialPoint& touch, bool back) const {
+        const Branch branch = follow(model, branches_at(model, touch, settings).at(0), settings);
+        if (!back || branch.special.empty())
+            return branch;
+        return follow_branch(model, branch.special.back().solution.orbit, settings);
+    }
+
+    /// The curve through a grazing over the frequency.
+    Branch curve(const SpecialPoint& grazing) const {
+        BranchSettings along = settings;
+        along.parameter = model.independent_parameter("omega");
+        along.free = {settings.parameter};
+        along.greatest = 3;
+        along.kept = grazing;
+        return follow_branch(model, grazing.solution.orbit, along);
+    }
+};
+
+/// Two curves that end at the same value of the first parameter have the same second one there.
+void expect_same_end(const Microactuator& one, const Branch& stops, const Branch& touches) {
+    ASSERT_EQ(names(stops), "BD");
+    ASSERT_EQ(names(touches), "BD");
+    const auto end = [&](const Branch& branch) {
+        return branch.points.back().solution.orbit.parameters[one.settings.parameter.place()];
+    };
+    // By other equations, with errors of the integration of 1e-13 each.
+    EXPECT_NEAR(end(stops), end(touches), 1e-12);
+    EXPECT_GT(stops.points.size(), 10U);
+}
+
+TEST(EndGrazing, of_a_contact_whose_slip_takes_no_time_is_the_touch_of_the_orbit_without_it) {
+    const Microactuator one;
+    const Branch without = follow_branch(one.model, settled(one.model, "longest", 4000).orbit, one.settings);
+    const SpecialPoint first = without.special.back();
+    const Branch back = one.beyond(first, true);
+    ASSERT_EQ(back.special.back().type, PointType::grazing) << names(back);
+    const SpecialPoint stop = back.special.back();
+    ASSERT_TRUE(stop.at_end);
+    EXPECT_NEAR(stop.parameter, 0.5876212422746997, 1e-12); // G-1
+    EXPECT_NEAR(stop.solution.orbit.durations[0], 0, 1e-12);
+    expect_same_end(one, one.curve(stop), one.curve(first));
+
+    // The same beside a contact that remains.
+    const SpecialPoint second = one.beyond(first, false).special.back();
+    const Branch back_again = one.beyond(second, true);
+    const SpecialPoint second_stop = back_again.special.back();
+    ASSERT_TRUE(second_stop.at_end);
+    EXPECT_EQ(to_string(one.model, second_stop.solution.orbit.signature), "(J8 J1)^2");
+    EXPECT_NEAR(second_stop.parameter, 0.7304755333366196, 1e-12); // G-2
+    expect_same_end(one, one.curve(second_stop), one.curve(second));
+}
+
+TEST(EndGrazing, of_an_orbit_on_the_other_side_is_no_limit_of_motions) {
+    Microactuator one;
+    const Branch without = follow_branch(one.model, settled(one.model, "longest", 4000).orbit, one.settings);
+    one.settings.stop_when_unphysical = false;
+    const Branch all = one.beyond(without.special.back(), false);
+    const auto grazings = of_type(all, PointType::grazing);
+    const auto beyond = std::find_if(grazings.begin(), grazings.end(), [](const SpecialPoint& point) {
+        return point.at_end && std::abs(point.parameter - 0.467802437768) < 1e-9;
+    });
+    ASSERT_NE(beyond, grazings.end()) << names(all);
+    one.settings.stop_when_unphysical = true;
+    const Branch curve = one.curve(*beyond);
+    EXPECT_EQ(curve.outcome, BranchOutcome::unphysical);
+    EXPECT_NE(curve.detail.find("'front'"), std::string::npos) << curve.detail;
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,114 @@
+// What a design file says, and what is wrong with it.
+
+#include "graze/design/design.hpp"
+
+#include "graze/symbolic/input_errors.hpp"
+#include "switches.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+namespace graze::testing {
+
+using ::testing::HasSubstr;
+
+namespace {
+
+/// All mistakes of a text, with their places.
+std::vector<std::string> mistakes_of(const std::string& text) {
+    std::vector<std::string> result;
+    try {
+        parse_design(text, "d.toml");
+    } catch (const InputErrors& errors) {
+        for (const InputError& one : errors.all())
+            result.emplace_back(one.what());
+    } catch (const InputError& error) {
+        result.emplace_back(error.what());
+    }
+    return result;
+}
+
+} // namespace
+
+TEST(Design, IsReadWithTolerancesOfEitherKind) {
+    const Design design = parse_design(oscillator_text(), "d.toml");
+    EXPECT_EQ(design.name, "oscillator");
+    ASSERT_EQ(design.dimensions.size(), 2U);
+    const DesignDimension& sigma = design.dimensions[0];
+    ASSERT_TRUE(sigma.tolerance);
+    EXPECT_DOUBLE_EQ(sigma.tolerance->at(sigma.parameter, 0.2).size, 0.002);
+    EXPECT_DOUBLE_EQ(sigma.tolerance->at(sigma.parameter, -0.4).size, 0.004);
+    EXPECT_EQ(design.adjustable, 0U);
+    EXPECT_TRUE(design.wanted.is_empty());
+    EXPECT_EQ(design.planes.size(), 1U); // of the first two, where none is named
+    EXPECT_DOUBLE_EQ(design.trip.end.speed, 0.5);
+}
+
+TEST(Design, AllThatComeWithGrazeCanBeRead) {
+    const std::vector<std::string> names = shipped_designs();
+    EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
+    EXPECT_TRUE(std::count(names.begin(), names.end(), "mems-switch"));
+    for (const std::string& name : names)
+        EXPECT_EQ(load_design(name).name, name);
+    EXPECT_THROW(load_design("mems-swich"), InputError);
+}
+
+TEST(Design, TellsAllMistakesAtOnceWithTheirPlaces) {
+    const std::vector<std::string> found = mistakes_of(R"(name = "bad one"
+model = "mems-switch"
+control = "W"
+nonsense = 1
+[approach]
+from = { x = 0 }
+range = [0.6, 0.5]
+event = "stopp"
+[trip]
+until = "q"
+overshoots = [-1]
+[dimensions.delta]
+range = [0.7, 0.8]
+[dimensions.zeta]
+range = [0, 1]
+tolerance = "-1%"
+[dimensions.zetta]
+range = [0, 1]
+[wanted]
+class = "perhaps"
+trip_time = { overshoot = 1 }
+)");
+    const std::vector<std::string> parts{"d.toml:1:8: 'bad one' cannot be",
+                                         "d.toml:3:1: there is no parameter 'W'",
+                                         "d.toml:4:1: unknown key 'nonsense'",
+                                         "d.toml:6:10: ",
+                                         "d.toml:7:9: approach.range goes from",
+                                         "d.toml:8:9: model 'mems-switch' has no event 'stopp'",
+                                         "d.toml:10:9: 'q' names no level",
+                                         "d.toml:11:15: trip.overshoots.1 is -1",
+                                         "d.toml:12:13: 'delta' is 0.6 at first",
+                                         "d.toml:16:13: dimensions.zeta.tolerance is below zero",
+                                         "d.toml:17:13: there is no parameter",
+                                         "d.toml:20:9: wanted.class cannot be 'perhaps'",
+                                         "d.toml:21:13: wanted.trip_time is not complete"};
+    ASSERT_EQ(found.size(), parts.size()) << ::testing::PrintToString(found);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        EXPECT_THAT(found[i], HasSubstr(parts[i]));
+}
+
+TEST(Design, SaysWhatIsMissingOrDoesNotGoTogether) {
+    EXPECT_EQ(mistakes_of("").size(), 4U); // name, approach, dimensions, model
+    EXPECT_THAT(mistakes_of("name = \"a\"\nmodel = \"mems-switch\"\ncontrol = \"V\"\n[approach]\nrun = \"x\"\n"
+                            "[dimensions.delta]\nrange = [0.1, 1]")
+                    .front(),
+                HasSubstr("names a run of no study"));
+    EXPECT_THAT(mistakes_of("name = \"a\"\ncontrol = \"V\"\n[approach]\nstudy = \"mems-switch\"\nrun = \"trip\"\n"
+                            "point = \"GR1\"\n[dimensions.delta]\nrange = [0.1, 1]")
+                    .front(),
+                HasSubstr("run 'trip' has no orbits"));
+    EXPECT_THAT(mistakes_of("name = \"a\"\nmodel = \"mems-switch\"\ncontrol = \"V\"\n[approach]\nrange = [0, 1]\n"
+                            "[dimensions.V]\nrange = [0.1, 1]")
+                    .front(),
+                HasSubstr("is the control parameter"));
+}
+
+} // namespace graze::testing

@@ -1,0 +1,75 @@
+// Where a device trips: by its own branch, and by a study's.
+
+#include "graze/design/trip_point.hpp"
+
+#include "switches.hpp"
+
+#include <gmock/gmock.h>
+
+namespace graze::testing {
+
+using ::testing::HasSubstr;
+
+TEST(TripPoint, OfAnOscillatorIsWhereTheForcedMotionReachesTheStop) {
+    const TripPoint trip = trip_of(parse_design(oscillator_text(), "d.toml"));
+    EXPECT_TRUE(trip.is_touch());
+    // Newton's method ends with a correction below 1e-10, whose square is beneath round-off.
+    EXPECT_NEAR(trip.value(), oscillator_value(0.2, 0.1), 1e-13);
+    EXPECT_TRUE(trip.earlier.empty());
+}
+
+TEST(TripPoint, OfTheMemsSwitchIsThePublishedVoltage) {
+    const TripPoint trip = trip_of(load_design("mems-switch"));
+    EXPECT_NEAR(trip.value(), 0.2013662121541341, 1e-12);
+    const TripClass found = class_at(trip);
+    EXPECT_EQ(found.outcome, GrazingOutcome::lost);
+    EXPECT_EQ(class_name(found.outcome), "trips");
+}
+
+TEST(TripPoint, OfAStudyMayBeAFoldWithTheTouchBeforeIt) {
+    const Design design = parse_design(R"(name = "beam"
+control = "V"
+[approach]
+study = "microbeam"
+run = "contact"
+point = "SN1"
+[dimensions.k]
+range = [50, 200]
+)",
+                                       "d.toml");
+    const TripPoint trip = trip_of(design);
+    EXPECT_EQ(trip.point.type, PointType::fold);
+    EXPECT_NEAR(trip.value(), 0.032825650930776, 1e-8 * 0.0328); // published to eight digits at least
+    ASSERT_FALSE(trip.earlier.empty());
+    EXPECT_EQ(trip.earlier.front().label, "GR1");
+    EXPECT_NEAR(trip.earlier.front().value, 0.030040810557599, 1e-8 * 0.03);
+    EXPECT_EQ(class_at(trip).outcome, GrazingOutcome::folds);
+}
+
+TEST(TripPoint, OfANeighbourHasItsTouchInTheSegmentWhereItIsThere) {
+    const TripPoint trip = trip_of(load_design("mems-switch"));
+    const ParameterId omega = trip.system.model().independent_parameter("omega");
+    LocatedValue located(trip.system, trip.point, trip.control, {omega});
+    // Below some 0.976 the electrode touches before the voltage is switched on.
+    const double slow[] = {0.97};
+    const LocatedSolution solution = located(slow);
+    ASSERT_TRUE(solution.found) << solution.problem;
+    const TripPoint moved = moved_to(trip, solution.orbit);
+    EXPECT_NE(moved.point.segment, trip.point.segment);
+    // The moved point is a touch of its own: solved for once more, it stays where it is.
+    const LocatedValue again(moved.system, moved.point, moved.control, {omega});
+    EXPECT_NEAR(again.value(), solution.value, 1e-11);
+}
+
+TEST(TripPoint, IsRefusedWhereTheBranchEndsBefore) {
+    Design design = load_design("mems-switch");
+    design.approach.greatest = 0.1;
+    try {
+        trip_of(design);
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("without a touch of 'stop'; on its way: BD1 at 0.1"));
+    }
+}
+
+} // namespace graze::testing

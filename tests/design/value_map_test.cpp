@@ -1,0 +1,71 @@
+// The trip value over one and two dimensions, and the stop's place over the trip value, against the closed form.
+
+#include "graze/design/value_map.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "switches.hpp"
+
+namespace graze::testing {
+
+TEST(ValueMap, OfAnOscillatorIsTheClosedFormAtEachPoint) {
+    const Design design = parse_design(oscillator_text(), "d.toml");
+    const TripPoint trip = trip_of(design);
+    MapSettings settings;
+    settings.points = 7;
+    const std::vector<MappedValue> curve = value_curve(trip, design.dimensions[1], settings);
+    ASSERT_EQ(curve.size(), 7U);
+    EXPECT_EQ(curve.front().x, 0.05);
+    EXPECT_EQ(curve.back().x, 0.3);
+    for (const MappedValue& one : curve) {
+        ASSERT_TRUE(one.found) << one.problem;
+        EXPECT_TRUE(one.admissible);
+        EXPECT_NEAR(one.value, oscillator_value(0.2, one.x), 1e-12);
+    }
+    const std::vector<MappedValue> plane = value_plane(trip, design.dimensions[0], design.dimensions[1], settings);
+    ASSERT_EQ(plane.size(), 49U);
+    for (const MappedValue& one : plane) {
+        ASSERT_TRUE(one.found) << one.problem;
+        EXPECT_NEAR(one.value, oscillator_value(one.x, one.y), 1e-12);
+    }
+    // The same on threads, bit for bit.
+    settings.jobs = 3;
+    const std::vector<MappedValue> again = value_plane(trip, design.dimensions[0], design.dimensions[1], settings);
+    for (std::size_t i = 0; i < plane.size(); ++i)
+        EXPECT_EQ(again[i].value, plane[i].value);
+}
+
+TEST(ValueMap, TellsClassesThatTheMapOfEachDeviceHas) {
+    // Of a damped oscillator the class is that of its own cycle: with the neighbours' it must agree point by point.
+    const Design design = parse_design(oscillator_text(), "d.toml");
+    const TripPoint trip = trip_of(design);
+    MapSettings settings;
+    settings.points = 5;
+    for (const MappedValue& one : value_curve(trip, design.dimensions[1], settings)) {
+        Design other = design;
+        other.set.emplace_back("zeta", one.x);
+        other.set.erase(other.set.begin()); // zeta, as it was
+        EXPECT_EQ(class_at(trip_of(other)).outcome, one.outcome) << one.x;
+    }
+}
+
+TEST(Tuning, IsTheInverseOfTheCurve) {
+    const Design design = parse_design(oscillator_text(), "d.toml");
+    const TripPoint trip = trip_of(design);
+    MapSettings settings;
+    settings.points = 9;
+    const Tuning tuning = tuning_curve(trip, design.dimensions[0], settings);
+    EXPECT_NEAR(tuning.least, oscillator_value(0.1, 0.1), 1e-12);
+    EXPECT_NEAR(tuning.greatest, oscillator_value(0.4, 0.1), 1e-12);
+    for (const TuningPoint& one : tuning.points) {
+        ASSERT_TRUE(one.found) << one.problem;
+        EXPECT_NEAR(oscillator_value(one.position, 0.1), one.value, 1e-12);
+    }
+    DesignDimension idle = design.dimensions[0];
+    idle.name = "e"; // of contacts, of which there are none
+    idle.parameter = trip.system.model().independent_parameter("e");
+    idle.least = 0.1;
+    idle.greatest = 0.9;
+    EXPECT_THROW(tuning_curve(trip, idle, settings), InputError);
+}
+
+} // namespace graze::testing

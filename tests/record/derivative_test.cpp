@@ -1,0 +1,90 @@
+#include "graze/record/derivative.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "record/recorded_model.hpp"
+#include "record/waves.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace graze::testing {
+
+namespace {
+constexpr double turn = 2 * std::numbers::pi;
+}
+
+TEST(Derivative, OfPolynomialsOfFourthDegreeIsExact) {
+    const auto p = [](double t) { return 1e3 + t * (2 + t * (-3 + t * (0.5 - 0.25 * t))); };
+    StoredSamples source(named({"q"}), sampled(100, 500, {p}), 123);
+    WithDerivative derived(source, {0, 6, ""});
+    EXPECT_EQ(derived.header().channels[1].name, "dq/dt");
+    EXPECT_EQ(derived.header().channels[2].name, "dq/dt_error");
+    const Samples rows = read_all(derived, 1000);
+    EXPECT_EQ(rows.rows(), 488U);
+    for (std::size_t i = 0; i < rows.rows(); ++i) {
+        const double t = rows.times[i];
+        // 1e3 is rounded to 1e-13, over a few samples of 0.01.
+        EXPECT_NEAR(rows.values[1][i], 2 + t * (-6 + t * (1.5 - t)), 1e-10);
+        EXPECT_LT(rows.values[2][i], 1e-10);
+    }
+}
+
+TEST(Derivative, ErrorsAreAsLargeAsTheySay) {
+    const double f = 6.1;
+    for (const double sigma : {1e-6, 1e-3, 0.05}) {
+        Noise noise(11);
+        StoredSamples source(named({"q"}), sampled(1000, 20'000, {[&](double t) {
+                                                       return std::sin(turn * f * t) +
+                                                              0.3 * std::sin(3 * turn * f * t + 1) +
+                                                              sigma * noise.normal();
+                                                   }}));
+        WithDerivative derived(source, {0, 0, "v"});
+        const Samples rows = read_all(derived, 100'000);
+        double squares = 0, said = 0, within = 0, plain = 0;
+        for (std::size_t i = 0; i < rows.rows(); ++i) {
+            const double t = rows.times[i];
+            const double v = turn * f * (std::cos(turn * f * t) + 0.9 * std::cos(3 * turn * f * t + 1));
+            squares += std::pow(rows.values[1][i] - v, 2);
+            if (i > 0 && i + 1 < rows.rows())
+                plain += std::pow((rows.values[0][i + 1] - rows.values[0][i - 1]) * 500 - v, 2);
+            said += std::pow(rows.values[2][i], 2);
+            within += std::abs(rows.values[1][i] - v) < 2 * rows.values[2][i] ? 1 : 0;
+        }
+        const auto count = static_cast<double>(rows.rows());
+        EXPECT_NEAR(std::sqrt(squares / said), 1, 0.3) << sigma << ", half width " << derived.half_width();
+        // 0.95 of normal errors; the part that the next terms tell is there always, and not by chance.
+        EXPECT_GT(within / count, 0.85) << sigma;
+        EXPECT_LT(std::sqrt(squares), 0.25 * std::sqrt(plain)) << "differences of neighbours, " << sigma;
+    }
+}
+
+TEST(Derivative, OfARecordedDisplacementIsItsVelocityAndSaysWhereItJumps) {
+    const Model model = load_model("electromagnetic-testbed");
+    RecordedModel recorded(model, "theta", 4.0, 10'000, 20'000);
+    Noise noise(5);
+    recorded.add_noise("q", 1e-7, noise);
+    StoredSamples source(recorded.header, recorded.samples);
+    WithDerivative derived(source, {recorded.header.channel("q", "test"), 0, "rate"});
+    const Samples rows = read_all(derived, 100'000);
+    const std::size_t v = recorded.header.channel("v", "test"), rate = derived.header().channel("rate", "test"),
+                      error = rate + 1;
+    std::size_t outside = 0;
+    for (std::size_t i = 0; i < rows.rows(); ++i)
+        outside += std::abs(rows.values[rate][i] - rows.values[v][i]) > 3 * rows.values[error][i] ? 1 : 0;
+    EXPECT_GT(recorded.truth.contacts().size(), 8U);
+    // Beside a corner of the displacement errors are not normal.
+    EXPECT_LT(static_cast<double>(outside), 0.03 * static_cast<double>(rows.rows()));
+}
+
+TEST(Derivative, RefusesWhatHasNoMeaning) {
+    StoredSamples source(named({"q", "v"}), sampled(10, 10, {[](double t) { return t; }, [](double t) { return t; }}));
+    EXPECT_THROW(WithDerivative(source, {2, 0, ""}), InputError);
+    EXPECT_THROW(WithDerivative(source, {0, 3, ""}), InputError);
+    EXPECT_THROW(WithDerivative(source, {0, 0, "v"}), InputError);
+    WithDerivative derived(source, {0, 100, ""});
+    Samples rows;
+    EXPECT_THROW(derived.read(rows), InputError);
+}
+
+} // namespace graze::testing

@@ -1,0 +1,76 @@
+#include "graze/record/low_pass.hpp"
+
+#include "graze/record/harmonic.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "record/waves.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace graze::testing {
+
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+Samples filtered(const LowPassSettings& settings, const std::function<double(double)>& wave, std::size_t part = 1000) {
+    StoredSamples source(named({"q"}), sampled(1000, 20'000, {wave}), part);
+    LowPass filter(source, settings);
+    return read_all(filter, 1'000'000);
+}
+
+} // namespace
+
+TEST(LowPass, PassesWhatIsSlowAndStopsWhatIsFast) {
+    for (const double attenuation : {40.0, 80.0, 120.0}) {
+        const LowPassSettings settings{50, 70, attenuation, 1};
+        const double most = std::pow(10, -attenuation / 20);
+        for (const double f : {1.0, 30.0, 50.0, 70.0, 120.0, 499.0}) {
+            const Samples rest = filtered(settings, [&](double t) { return std::sin(turn * f * t + 1); });
+            ASSERT_GT(rest.rows(), 19'000U);
+            const Harmonic fit = fit_harmonic(rest.times, rest.values[0], turn * f);
+            // Kaiser's length keeps the ripple; half as much again for rounding the length up and down.
+            EXPECT_NEAR(fit.amplitude(), f < 60 ? 1 : 0, 1.5 * most) << attenuation << ' ' << f;
+            if (f < 60) {
+                EXPECT_NEAR(fit.phase(), 1, 1e-9) << "without delay";
+            }
+        }
+    }
+}
+
+TEST(LowPass, KeepsConstantsAndDropsSamples) {
+    LowPassSettings settings;
+    settings.every = 10;
+    const Samples constant = filtered(settings, [](double) { return 3.25; });
+    for (const double value : constant.values[0])
+        EXPECT_NEAR(value, 3.25, 1e-13);
+    // 130 Hz would appear as 30 Hz in 100 samples a second.
+    const Samples alias = filtered(settings, [](double t) { return std::sin(turn * 130 * t); });
+    for (const double value : alias.values[0])
+        EXPECT_NEAR(value, 0, 1.5e-4);
+    const Samples wave = filtered(settings, [](double t) { return std::sin(turn * 20 * t); });
+    EXPECT_NEAR(wave.times[1] - wave.times[0], 0.01, 1e-12);
+    for (std::size_t i = 0; i < wave.rows(); ++i)
+        EXPECT_NEAR(wave.values[0][i], std::sin(turn * 20 * wave.times[i]), 1.5e-4);
+    for (const std::size_t part : {97U, 5000U}) {
+        const Samples other = filtered(
+            settings, [](double t) { return std::sin(turn * 20 * t); }, part);
+        EXPECT_EQ(other.times, wave.times) << "whatever comes at a time";
+        EXPECT_EQ(other.values, wave.values);
+    }
+}
+
+TEST(LowPass, RefusesWhatHasNoMeaning) {
+    const auto wave = [](double t) { return t; };
+    EXPECT_THROW(filtered({0, 0, 80, 1}, wave), InputError);
+    EXPECT_THROW(filtered({50, 40, 80, 1}, wave), InputError);
+    EXPECT_THROW(filtered({0, 40, 80, 1}, wave), InputError);
+    EXPECT_THROW(filtered({50, 70, 10, 1}, wave), InputError);
+    EXPECT_THROW(filtered({50, 70, 80, 0}, wave), InputError);
+    EXPECT_THROW(filtered({600, 700, 80, 1}, wave), InputError) << "faster than the samples";
+    EXPECT_THROW(filtered({50, 60, 80, 10}, wave), InputError) << "faster than those that are kept";
+    EXPECT_THROW(filtered({50, 50.01, 80, 1}, wave), InputError) << "longer than the record";
+}
+
+} // namespace graze::testing
