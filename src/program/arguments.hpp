@@ -105,10 +105,12 @@ struct GrazingArguments {
 };
 
 struct TripArguments {
-    std::string file, point, beside, parameter, until, plot, data;
-    std::vector<std::string> overshoots, disturbances;
-    std::optional<double> greatest_speed;
-    long cycles = 2000;
+    std::string file, point, beside, parameter, until, at, plot, data;
+    std::vector<std::string> overshoots, disturbances, ramps, waves, noises;
+    std::optional<double> greatest_speed, wave_period, memory;
+    std::optional<long> cycles; ///< none: 2000, and 100 under noise
+    std::size_t motions = 1000, seed = 1;
+    int jobs = 0; ///< 0: as many as there are cores
     OutputArguments output;
 };
 
