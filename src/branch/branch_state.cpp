@@ -2,6 +2,7 @@
 
 #include "branch/branch_point_problem.hpp"
 #include "branch/orbit_quantity.hpp"
+#include "branch/sensitivity_condition.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "orbit/newton.hpp"
 
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace graze {
@@ -93,12 +95,18 @@ bool BranchState::hold_kept(const Orbit& orbit) {
     std::unique_ptr<OrbitCondition> condition;
     if (problem_->evaluate(problem_->unknowns_of(orbit)))
         condition = rule_of(kept.type).condition(problem_->equations(), problem_->evaluation(), kept);
-    const std::size_t monitors = settings_.free.size() - 1;
-    held_.resize(monitors);
+    held_.resize(held_monitors());
     if (!condition)
         return false;
     held_.push_back(std::move(condition));
-    return true;
+    if (!settings_.kept_too)
+        return true;
+    held_.push_back(SensitivityCondition::of_touch(problem_->equations(), problem_->evaluation(), kept));
+    return held_.back() != nullptr;
+}
+
+std::size_t BranchState::held_monitors() const {
+    return settings_.free.size() - (settings_.kept ? 1U : 0U) - (settings_.kept_too ? 1U : 0U);
 }
 
 std::optional<HeldLimit> BranchState::held_limit() const {
@@ -206,8 +214,10 @@ void BranchState::renew_pieces(const BranchPoint& from) {
     const double length = continuation_->next_step();
     std::unique_ptr<OrbitProblem> old = std::move(problem_);
     std::unique_ptr<Continuation> old_continuation = std::move(continuation_);
-    std::unique_ptr<OrbitCondition> old_kept =
-        settings_.kept && !keeps_branch_point() ? std::move(held_.back()) : nullptr;
+    const auto first = held_.begin() + static_cast<std::ptrdiff_t>(held_monitors());
+    std::vector<std::unique_ptr<OrbitCondition>> old_kept(std::make_move_iterator(first),
+                                                          std::make_move_iterator(held_.end()));
+    held_.erase(first, held_.end());
     const bool holds = make_problem(from.solution.orbit);
     if (problem_->equations().layout().pieces() <= old->equations().layout().pieces())
         growth_ *= 10; // nothing was gained: ask again later
@@ -217,9 +227,9 @@ void BranchState::renew_pieces(const BranchPoint& from) {
         growth_ *= 10; // as it was, for some time
         problem_ = std::move(old);
         continuation_ = std::move(old_continuation);
-        if (old_kept) {
-            held_.resize(settings_.free.size() - 1);
-            held_.push_back(std::move(old_kept));
+        if (settings_.kept) {
+            held_.resize(held_monitors());
+            std::move(old_kept.begin(), old_kept.end(), std::back_inserter(held_));
             problem_->hold(held_);
         }
         return;

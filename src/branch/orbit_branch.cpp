@@ -33,7 +33,7 @@ class OrbitBranch::Follower {
 public:
     Follower(const System& system, const Orbit& candidate, const BranchSettings& settings)
         : state_(system, candidate, settings), candidate_(candidate), locator_(state_, point, tests_),
-          is_kept_point_(settings.kept && settings.free.size() == 1 &&
+          is_kept_point_(settings.kept && settings.free.size() == (settings.kept_too ? 2U : 1U) &&
                          settings.kept->solution.orbit.parameters == candidate.parameters) {}
 
     bool start() {
