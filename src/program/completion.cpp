@@ -1,6 +1,7 @@
 #include "program/completion.hpp"
 
 #include "graze/branch/special_point.hpp"
+#include "graze/design/design.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/study/study_catalogue.hpp"
@@ -207,6 +208,8 @@ Choices choices_for(const CLI::App& app, const CLI::App& command, const Declared
             return {shipped_models(), true};
         if (name == "STUDY")
             return {shipped_studies(), true};
+        if (name == "DESIGN")
+            return {shipped_designs(), true};
         if (name == "COMMAND")
             return {commands, false};
         if (name == "SHELL")

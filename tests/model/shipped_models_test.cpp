@@ -184,6 +184,7 @@ TEST(ShippedModels, AreAllThere) {
                                                "impact-oscillator",
                                                "impact-oscillator-two-stops",
                                                "mems-switch",
+                                               "mems-switch-device",
                                                "microbeam"};
     EXPECT_EQ(shipped_names(), expected);
 }
