@@ -3,6 +3,7 @@
 #include "graze/symbolic/parser.hpp"
 #include "program/branch_arguments.hpp"
 #include "program/help_arguments.hpp"
+#include "program/record_arguments.hpp"
 #include "program/study_arguments.hpp"
 
 #include <CLI/Config.hpp>
@@ -328,6 +329,7 @@ void declare_arguments(CLI::App& app, Arguments& arguments) {
     declare_simulate(app, arguments.simulate);
     declare_study_commands(app, arguments);
     declare_branch_commands(app, arguments);
+    declare_record_commands(app, arguments);
     declare_help_commands(app, arguments);
 }
 

@@ -61,6 +61,8 @@ int dispatch(std::span<const std::string> words, const Console& console) {
         return trip_command(arguments.trip, console);
     if (app.got_subcommand("tolerance"))
         return tolerance_command(arguments.tolerance, console);
+    if (app.got_subcommand("record"))
+        return record_command(arguments.record, console);
     return simulate_command(arguments.simulate, console);
 }
 
