@@ -129,6 +129,24 @@ struct DesignArguments {
     OutputArguments output;
 };
 
+/// Numbers that are not given are missing; lists are still to be split.
+struct RecordArguments {
+    std::vector<std::string> files;
+    std::string columns, group;
+    std::vector<std::string> scales;
+    std::optional<double> from, to;
+    std::optional<double> pass, stop;
+    std::size_t every = 1;
+    std::string derivative;
+    std::size_t half_width = 0;
+    std::string what = "channels", reference, displacement;
+    std::vector<std::string> channels, negated, phases;
+    double level = 0, hysteresis = 0, least_jump = 0;
+    std::size_t window = 12, transition = 0, part = 0;
+    OutputArguments output;
+    std::string write, plot, data;
+};
+
 struct InfoArguments {
     std::string file;
     bool all = false;
@@ -158,6 +176,7 @@ struct Arguments {
     LadderArguments ladder;
     ToleranceArguments tolerance;
     DesignArguments design;
+    RecordArguments record;
     CheckArguments check;
     ModelsArguments models;
     SimulateArguments simulate;
