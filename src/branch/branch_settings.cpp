@@ -27,11 +27,16 @@ void BranchSettings::validate(const Model& model) const {
         throw InputError(fmt::format("points of type {} ({}) cannot be followed as a curve", short_name(kept->type),
                                      name_of(kept->type)),
                          "choose another point, or hold a monitor that says what it is");
-    if (kept && held + 1 != free.size())
+    if (kept_too && (*kept_too != PointType::sensitivity || !kept || kept->type != PointType::grazing || kept->at_end))
+        throw InputError(
+            fmt::format("what makes a point of type {} cannot be held besides that of another", short_name(*kept_too)),
+            "hold a vanishing sensitivity (VS) besides a touch within an arc (GR)");
+    if (kept && held + (kept_too ? 2 : 1) != free.size())
         throw InputError(fmt::format("{} monitors are fixed, a point of type {} is kept, and {} further parameters are "
                                      "free",
-                                     held, short_name(kept->type), free.size()),
-                         "free one parameter for the point, and one for each monitor that is fixed");
+                                     held, short_name(kept_too.value_or(kept->type)), free.size()),
+                         fmt::format("free {} for the point, and one for each monitor that is fixed",
+                                     kept_too ? "two parameters" : "one parameter"));
     if (!kept && held != free.size())
         throw InputError(fmt::format("{} monitors are fixed and {} further parameters are free", held, free.size()),
                          "free one parameter for each monitor that is fixed");

@@ -1,6 +1,8 @@
 #include "branch/branch_state.hpp"
 
+#include "branch/branch_point_problem.hpp"
 #include "branch/orbit_quantity.hpp"
+#include "branch/sensitivity_condition.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "orbit/newton.hpp"
 
@@ -8,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace graze {
@@ -32,6 +35,8 @@ BranchState::BranchState(const System& system, const Orbit& candidate, const Bra
     if (!settings.monitors.empty())
         monitors_ =
             std::make_unique<OrbitMonitors>(system, candidate.signature, settings.monitors, settings.orbit.tolerance);
+    if (keeps_branch_point() && settings.free.size() > 1)
+        throw InputError("monitors cannot be fixed along a curve of branch points", "leave `fixed` out");
     hold(candidate);
     if (!make_problem(candidate))
         throw InputError(
@@ -51,7 +56,8 @@ void BranchState::hold(const Orbit& candidate) {
 
 /// False where what is kept has no condition.
 bool BranchState::make_problem(const Orbit& orbit) {
-    problem_ = std::make_unique<OrbitProblem>(simulation_, orbit, settings_);
+    problem_ = keeps_branch_point() ? std::make_unique<BranchPointProblem>(simulation_, orbit, settings_)
+                                    : std::make_unique<OrbitProblem>(simulation_, orbit, settings_);
     if (monitors_)
         hold_monitors();
     if (settings_.kept && !hold_kept(orbit))
@@ -84,15 +90,23 @@ void BranchState::hold_monitors() {
 bool BranchState::hold_kept(const Orbit& orbit) {
     SpecialPoint& kept = *settings_.kept;
     kept.solution.orbit = orbit;
+    if (keeps_branch_point()) // which the problem itself does
+        return true;
     std::unique_ptr<OrbitCondition> condition;
     if (problem_->evaluate(problem_->unknowns_of(orbit)))
         condition = rule_of(kept.type).condition(problem_->equations(), problem_->evaluation(), kept);
-    const std::size_t monitors = settings_.free.size() - 1;
-    held_.resize(monitors);
+    held_.resize(held_monitors());
     if (!condition)
         return false;
     held_.push_back(std::move(condition));
-    return true;
+    if (!settings_.kept_too)
+        return true;
+    held_.push_back(SensitivityCondition::of_touch(problem_->equations(), problem_->evaluation(), kept));
+    return held_.back() != nullptr;
+}
+
+std::size_t BranchState::held_monitors() const {
+    return settings_.free.size() - (settings_.kept ? 1U : 0U) - (settings_.kept_too ? 1U : 0U);
 }
 
 std::optional<HeldLimit> BranchState::held_limit() const {
@@ -155,7 +169,7 @@ bool BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std
     result.arclength = arclength(at.arclength);
     result.stable = is_stable(result.solution);
     std::vector<Degeneracy> degeneracies;
-    if (settings_.kept)
+    if (settings_.kept && !keeps_branch_point())
         degeneracies = held_.back()->degeneracies(equations, evaluation);
     tests = branch_tests(
         {equations, evaluation, result.solution, at.tangent, at.determinant, result.monitors, settings_, degeneracies});
@@ -200,7 +214,10 @@ void BranchState::renew_pieces(const BranchPoint& from) {
     const double length = continuation_->next_step();
     std::unique_ptr<OrbitProblem> old = std::move(problem_);
     std::unique_ptr<Continuation> old_continuation = std::move(continuation_);
-    std::unique_ptr<OrbitCondition> old_kept = settings_.kept ? std::move(held_.back()) : nullptr;
+    const auto first = held_.begin() + static_cast<std::ptrdiff_t>(held_monitors());
+    std::vector<std::unique_ptr<OrbitCondition>> old_kept(std::make_move_iterator(first),
+                                                          std::make_move_iterator(held_.end()));
+    held_.erase(first, held_.end());
     const bool holds = make_problem(from.solution.orbit);
     if (problem_->equations().layout().pieces() <= old->equations().layout().pieces())
         growth_ *= 10; // nothing was gained: ask again later
@@ -211,8 +228,8 @@ void BranchState::renew_pieces(const BranchPoint& from) {
         problem_ = std::move(old);
         continuation_ = std::move(old_continuation);
         if (settings_.kept) {
-            held_.resize(settings_.free.size() - 1);
-            held_.push_back(std::move(old_kept));
+            held_.resize(held_monitors());
+            std::move(old_kept.begin(), old_kept.end(), std::back_inserter(held_));
             problem_->hold(held_);
         }
         return;

@@ -46,7 +46,9 @@ public:
 private:
     void hold(const Orbit& candidate);
     void hold_monitors();
+    bool keeps_branch_point() const { return settings_.kept && settings_.kept->type == PointType::branch_point; }
     bool hold_kept(const Orbit& orbit);
+    std::size_t held_monitors() const;
     std::optional<HeldLimit> held_limit() const;
     void note_kept(const OrbitSolution& solution);
     bool find_touch(const Orbit& orbit);
@@ -56,7 +58,7 @@ private:
     Simulation simulation_;
     std::optional<Simulation> tighter_; ///< once it has been asked for
     std::unique_ptr<OrbitMonitors> monitors_;
-    std::vector<std::unique_ptr<OrbitCondition>> held_; ///< one for each free parameter, that of the kept point last
+    std::vector<std::unique_ptr<OrbitCondition>> held_; ///< one for each free parameter, those of the kept point last
     std::unique_ptr<OrbitProblem> problem_;
     std::unique_ptr<Continuation> continuation_;
     double arclength_ = 0, growth_ = 1;

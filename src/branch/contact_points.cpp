@@ -252,13 +252,15 @@ void test_sensitivity(const TestedPoint& point, std::vector<BranchTest>& tests) 
     const auto& kept = point.settings.kept;
     if (!kept || kept->type != PointType::grazing || kept->at_end)
         return;
-    const CycleMap map = cycle_map_of(point.equations, point.at, {kept->segment, kept->event, kept->time, false},
-                                      std::nullopt, AskedContacts::rigid);
-    const bool known = map.exists() && map.contact.order == MapOrder::square_root;
+    double value = nothing;
+    if (!point.settings.kept_too) {
+        const CycleMap map = cycle_map_of(point.equations, point.at, {kept->segment, kept->event, kept->time, false},
+                                          std::nullopt, AskedContacts::rigid);
+        if (map.exists() && map.contact.order == MapOrder::square_root)
+            value = map.projections(1).front();
+    }
     constexpr double least = 1e-9; // of a round: less is round-off, as where impacts change nothing of the next pass
-    tests.push_back({.type = PointType::sensitivity,
-                     .value = known ? map.projections(1).front() : nothing,
-                     .noise = least * point.solution.orbit.round()});
+    tests.push_back({.type = PointType::sensitivity, .value = value, .noise = least * point.solution.orbit.round()});
 }
 
 bool confirm_sensitivity(BranchState& state, SpecialPoint& special, const BranchTest&) {

@@ -33,7 +33,7 @@ class OrbitBranch::Follower {
 public:
     Follower(const System& system, const Orbit& candidate, const BranchSettings& settings)
         : state_(system, candidate, settings), candidate_(candidate), locator_(state_, point, tests_),
-          is_kept_point_(settings.kept && settings.free.size() == 1 &&
+          is_kept_point_(settings.kept && settings.free.size() == (settings.kept_too ? 2U : 1U) &&
                          settings.kept->solution.orbit.parameters == candidate.parameters) {}
 
     bool start() {
@@ -83,7 +83,7 @@ public:
                 return end(BranchOutcome::undefined, edge);
             return end(continuation.outcome() == ContinuationOutcome::undefined ? BranchOutcome::undefined
                                                                                 : BranchOutcome::no_convergence,
-                       state_.problem().evaluation().problem);
+                       state_.problem().problem());
         }
         describe_here();
         const std::size_t work = state_.problem().equations().work() - work_before;
@@ -195,7 +195,7 @@ private:
         ended_ = !begun;
         if (!begun) {
             outcome = BranchOutcome::no_start;
-            detail = state_.problem().evaluation().problem;
+            detail = state_.problem().problem();
             if (detail.empty())
                 detail = fmt::format("{} from the orbit that was given", name_of(state_.continuation().outcome()));
             return false;

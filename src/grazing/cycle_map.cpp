@@ -190,12 +190,17 @@ std::vector<OrbitTouch> touches_of(const System& system, const Orbit& orbit, con
 
 CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
                       std::optional<std::size_t> free, AskedContacts asked) {
+    const TouchFunctions functions(equations.system(), equations.signature()[touch.segment].mode, touch.event);
+    return cycle_map_of(equations, at, touch, functions, free, asked);
+}
+
+CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
+                      const TouchFunctions& functions, std::optional<std::size_t> free, AskedContacts asked) {
     const System& system = equations.system();
     CycleMap map;
     map.touch = touch;
     map.half = equations.symmetry().has_value();
     map.time = equations.orbit_of(at.unknowns).round();
-    const TouchFunctions functions(system, equations.signature()[touch.segment].mode, touch.event);
     const ReturnMap back = return_map(equations, at, touch, functions, free);
     map.reason = back.reason;
     if (!map.reason.empty())

@@ -5,6 +5,7 @@
 #include "grazing/compliant_contact.hpp"
 #include "grazing/contact_chain.hpp"
 #include "grazing/local_map.hpp"
+#include "grazing/next_order.hpp"
 #include "grazing/touch_geometry.hpp"
 #include "orbit/eigen_index.hpp"
 
@@ -120,6 +121,8 @@ DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& to
     const std::size_t n = system.states();
     TouchGeometry geometry = functions.at(touch.state, touch.parameters);
     const TouchSizes sizes(touch, geometry);
+    if (asked == AskedContacts::rigid_beside)
+        settle(functions, map.touch, geometry);
     map.reason = problem_of(system, touch, geometry, sizes);
     if (!map.reason.empty())
         return map;
@@ -139,6 +142,9 @@ DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& to
     if (!sizes.is_zero_gain(chain.gain)) {
         map.order = MapOrder::square_root;
         map.direction = without_remnants(chain.gain, sizes.scales());
+        if (chain.contacts.size() == 1 && asked == AskedContacts::all)
+            if (const auto second = next_order_of_impact(functions, map.touch, geometry, sizes, chain.contacts.front()))
+                map.second = list_of(*second, n);
         return map;
     }
     if (chain.modes.size() != 2 || !chain.only_changes_modes) {
@@ -150,7 +156,7 @@ DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& to
                                  system.model().modes[chain.modes.front()].name);
         return map;
     }
-    if (asked == AskedContacts::rigid) {
+    if (asked != AskedContacts::all) {
         map.reason = "the contact is not rigid";
         return map;
     }

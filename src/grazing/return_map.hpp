@@ -31,5 +31,8 @@ ReturnMap return_map(const OrbitEquations& equations, const OrbitEvaluation& at,
 /// The map of the cycle from it. @param free as above
 CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
                       std::optional<std::size_t> free, AskedContacts asked = AskedContacts::all);
+/// The same with the touched function compiled already.
+CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
+                      const TouchFunctions& functions, std::optional<std::size_t> free, AskedContacts asked);
 
 } // namespace graze

@@ -4,6 +4,7 @@
 #include "program/branch_arguments.hpp"
 #include "program/design_arguments.hpp"
 #include "program/help_arguments.hpp"
+#include "program/record_arguments.hpp"
 #include "program/study_arguments.hpp"
 
 #include <CLI/Config.hpp>
@@ -330,6 +331,7 @@ void declare_arguments(CLI::App& app, Arguments& arguments) {
     declare_study_commands(app, arguments);
     declare_branch_commands(app, arguments);
     declare_design_command(app, arguments);
+    declare_record_commands(app, arguments);
     declare_help_commands(app, arguments);
 }
 

@@ -6,6 +6,7 @@
 #include "graze/results/name_advice.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "program/record_arguments.hpp"
 #include "program/table_recorder.hpp"
 
 #include <fmt/format.h>
@@ -239,6 +240,8 @@ Choices choices_for(const CLI::App& app, const CLI::App& command, const Declared
     }
     if (starts("TABLE") && of == "simulate")
         return {table_kind_names(), false};
+    if (starts("TABLE") && of == "record")
+        return {record_table_names(), false};
     if (starts("TABLE"))
         return {{"points", "samples", "segments", "multipliers", "half_multipliers", "minima", "end_values", "runs"},
                 false};

@@ -76,6 +76,9 @@ void add_contact(Facts& facts, const Model& model, const CycleMap& map) {
         if (contact.direction[i] != 0)
             facts.add("direction_" + model.states[i].name, contact.direction[i],
                       rigid ? "what it gains by approach speed" : "what it gains by depth^(3/2)");
+    for (std::size_t i = 0; i < contact.second.size(); ++i)
+        if (contact.second[i] != 0)
+            facts.add("second_" + model.states[i].name, contact.second[i], "the next order: by its square");
 }
 
 void add_cycle(Facts& facts, const Findings& found) {

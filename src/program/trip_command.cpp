@@ -1,5 +1,6 @@
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
+#include "program/disturbed_trips.hpp"
 #include "program/figure.hpp"
 #include "program/interrupt.hpp"
 #include "program/picture.hpp"
@@ -57,7 +58,8 @@ std::vector<double> overshoots_of(const LossPoint& point, const std::vector<std:
 
 TripOptions options_of(const LossPoint& point, const TripArguments& arguments) {
     TripOptions options;
-    options.cycles = static_cast<double>(arguments.cycles);
+    constexpr long usual = 2000;
+    options.cycles = static_cast<double>(arguments.cycles.value_or(usual));
     options.disturbance = disturbance_of(point.model(), arguments.disturbances);
     options.interrupted = [] { return InterruptGuard::requested(); };
     if (point.fold && !options.disturbance.empty())
@@ -269,6 +271,10 @@ int trip_command(const TripArguments& arguments, const Console& console) {
     if (!arguments.plot.empty())
         picture_ending(arguments.plot, "--plot", {"svg", "png", "pdf"});
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
+    if (is_disturbed(arguments))
+        return disturbed_trips(file, arguments, console);
+    if (!arguments.at.empty())
+        throw InputError(Place{"--at", 0, 0}, "nothing changes in time", "give --ramp, --wave or --noise too");
     std::vector<Trips> all;
     const auto add = [&](const std::string& name, const std::string& option) {
         LossPoint point = loss_point(file, name, arguments.parameter, option);

@@ -104,6 +104,7 @@ PartEnd follow_part(const StudyRun& run, const BranchSettings& of_run, const Sys
     BranchSettings settings = of_run;
     settings.direction = part.direction;
     settings.kept = part.kept;
+    settings.kept_too = part.kept_too;
     OrbitBranch branch = at_place(run.place, run, [&] { return OrbitBranch(system, part.orbit, settings); });
     bool going = part.onto ? branch.start_along(part.onto->direction, part.onto->distance) : branch.start();
     if (!going) {

@@ -26,7 +26,8 @@ struct BranchPart {
     int direction = 1;
     bool again = false; ///< another part has begun at the same orbit
     std::string twin;   ///< of which part its orbits are images under the symmetry; empty: of none
-    std::optional<SpecialPoint> kept = std::nullopt; ///< of curves
+    std::optional<SpecialPoint> kept = std::nullopt;  ///< of curves
+    std::optional<PointType> kept_too = std::nullopt; ///< of curves of codimension two
 };
 
 /// Messages of numerical functions, with the place of the run.

@@ -113,6 +113,17 @@ std::string which_curves(const SpecialPoint& point) {
                         : fmt::format("say which curve through it is meant: {}", fmt::join(ways, " or "));
 }
 
+/// The touch at which a vanishing sensitivity is held besides, where one more parameter is free for that.
+SpecialPoint touch_to_keep(const StudyRun& run, const SpecialPoint& point) {
+    const PointType asked = point_type(run.start->onto).value_or(point.type);
+    if (point.type != PointType::sensitivity || asked != PointType::sensitivity)
+        throw InputError(run.start->place,
+                         fmt::format("two further parameters are free, and points of type {} ({}) need one",
+                                     short_name(asked), name_of(asked)),
+                         "leave `free` out, or start from a vanishing sensitivity (VS) on a curve of touches");
+    return at_place(run.start->place, run, [&] { return as_type(point, PointType::grazing); });
+}
+
 /// The point as that whose curve is asked for.
 SpecialPoint point_to_keep(const StudyRun& run, const SpecialPoint& point) {
     const PointType asked = point_type(run.start->onto).value_or(point.type);
@@ -120,7 +131,10 @@ SpecialPoint point_to_keep(const StudyRun& run, const SpecialPoint& point) {
         throw InputError(run.start->place,
                          fmt::format("points of type {} ({}) cannot be followed as a curve", short_name(point.type),
                                      name_of(point.type)),
-                         which_curves(point));
+                         which_curves(point) +
+                             (asked == PointType::sensitivity
+                                  ? "; the curve of such points needs a third parameter: free = { PARAMETER = [..] }"
+                                  : ""));
     return at_place(run.start->place, run, [&] { return as_type(point, asked); });
 }
 
@@ -130,12 +144,16 @@ std::vector<BranchPart> parts_of_curve(const StudyRun& run, const SpecialPoint& 
     const Orbit orbit = taken_over(run, point.solution.orbit);
     if (!run.branch.keeps_point())
         return both_directions(run, orbit);
-    const SpecialPoint kept = point_to_keep(run, point);
+    const bool twice = run.branch.kept_conditions() == 2;
+    const SpecialPoint kept = twice ? touch_to_keep(run, point) : point_to_keep(run, point);
     const bool resonant = point.type == PointType::resonance_1 || point.type == PointType::resonance_2;
     std::vector<BranchPart> parts =
         resonant && kept.type == PointType::torus ? in_directions({"up", "down"}, orbit) : both_directions(run, orbit);
-    for (BranchPart& part : parts)
+    for (BranchPart& part : parts) {
         part.kept = kept;
+        if (twice)
+            part.kept_too = PointType::sensitivity;
+    }
     return parts;
 }
 

@@ -39,9 +39,14 @@ std::string_view name_of(RunKind kind) {
 }
 
 bool BranchRequest::keeps_point() const {
+    return kept_conditions() > 0;
+}
+
+std::size_t BranchRequest::kept_conditions() const {
     const auto& monitors = settings.monitors;
-    return std::count_if(monitors.begin(), monitors.end(), [](const Monitor& one) { return one.fixed; }) <
-           static_cast<std::ptrdiff_t>(settings.free.size());
+    const auto fixed = static_cast<std::size_t>(
+        std::count_if(monitors.begin(), monitors.end(), [](const Monitor& one) { return one.fixed; }));
+    return settings.free.size() - std::min(fixed, settings.free.size());
 }
 
 void BranchRequest::validate(RunKind kind, const Model& model) const {
@@ -49,6 +54,10 @@ void BranchRequest::validate(RunKind kind, const Model& model) const {
     if (kind == RunKind::curve && keeps_point()) {
         known.kept.emplace();
         known.kept->type = PointType::fold;
+        if (kept_conditions() == 2) {
+            known.kept->type = PointType::grazing;
+            known.kept_too = PointType::sensitivity;
+        }
     }
     known.validate(model);
 }

@@ -3,6 +3,8 @@
 #include "follow.hpp"
 #include "impact_oscillator.hpp"
 
+#include "graze/branch/curve_start.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -323,6 +325,52 @@ TEST(Curves, of_touches_find_where_an_impact_does_not_act_on_the_next_one) {
         EXPECT_NEAR(found[3 - k], 2 * own / static_cast<double>(k), 1e-9) << k;
 }
 
+TEST(Curves, of_the_boundary_between_classes_of_touches_have_their_closed_form) {
+    // The same points at any damping: omega = 2 sqrt(1 - zeta^2) / k, and sigma is the amplitude there.
+    Oscillator known;
+    const Model model = oscillator_model(known, 1);
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("sigma");
+    settings.direction = -1;
+    settings.least = -1;
+    settings.greatest = 3;
+    const Branch branch = follow_branch(model, settled(model, "phase0", 400).orbit, settings);
+    ASSERT_EQ(names(branch), "GR");
+    settings.free_bounds = {{model.independent_parameter("omega"), 0.6, 3}};
+    settings.greatest = 30;
+    const auto found = of_type(curve_of(model, branch.special[0], settings, "omega", 1), PointType::sensitivity);
+    ASSERT_FALSE(found.empty());
+    for (const SpecialPoint& one : found) {
+        const double k =
+            std::round(2 * std::sqrt(1 - known.zeta * known.zeta) / value_of(model, one.solution, "omega"));
+        BranchSettings boundary;
+        boundary.parameter = model.independent_parameter("zeta");
+        boundary.free = {model.independent_parameter("omega"), model.independent_parameter("sigma")};
+        boundary.least = 0.01;
+        boundary.greatest = 0.5;
+        boundary.kept = as_type(one, PointType::grazing);
+        boundary.kept_too = PointType::sensitivity;
+        for (const int way : {1, -1}) {
+            boundary.direction = way;
+            const Branch curve = follow_branch(model, one.solution.orbit, boundary);
+            EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
+            ASSERT_GT(curve.points.size(), 5U);
+            EXPECT_NEAR(curve.points.back().parameter, way > 0 ? 0.5 : 0.01, 1e-12);
+            for (const BranchPoint& point : curve.points) {
+                const double zeta = point.parameter, omega = 2 * std::sqrt(1 - zeta * zeta) / k;
+                EXPECT_NEAR(value_of(model, point.solution, "omega"), omega, 1e-11) << zeta;
+                const double amplitude = 1 / std::hypot(1 - omega * omega, 2 * zeta * omega);
+                EXPECT_NEAR(value_of(model, point.solution, "sigma") / amplitude, 1, 1e-11) << zeta;
+                expect_kept(point, *boundary.kept, 1e-11 * amplitude);
+            }
+        }
+        boundary.free.pop_back(); // a point of codimension two needs three parameters
+        EXPECT_THROW(follow_branch(model, one.solution.orbit, boundary), InputError);
+        boundary.kept_too = PointType::fold;
+        EXPECT_THROW(follow_branch(model, one.solution.orbit, boundary), InputError);
+    }
+}
+
 TEST(Curves, of_the_microactuator_have_their_published_values) {
     Model model = load_model("impact-microactuator");
     model.set_parameter("V", 0.1);
@@ -486,7 +534,7 @@ TEST(Curves, need_a_point_that_can_be_kept_and_one_parameter_more) {
     BranchSettings settings;
     settings.parameter = model.independent_parameter("sigma");
     settings.kept = SpecialPoint{};
-    settings.kept->type = PointType::branch_point;
+    settings.kept->type = PointType::cusp;
     settings.free = {model.independent_parameter("omega")};
     EXPECT_THROW(settings.validate(model), InputError);
     settings.kept->type = PointType::fold;

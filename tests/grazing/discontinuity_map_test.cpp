@@ -58,7 +58,7 @@ double error_at(const System& system, const DiscontinuityMap& map, double depth,
     std::vector<double> before = state, predicted = state;
     const double gained = map.order == MapOrder::square_root ? speed : depth * std::sqrt(depth);
     for (std::size_t i = 0; i < n; ++i)
-        predicted[i] += map.direction[i] * gained;
+        predicted[i] += map.direction[i] * gained + (map.second.empty() ? 0 : map.second[i] * gained * gained);
     EXPECT_EQ(flow.run(touch.mode, before, -time), ModeFlow::Ending::done);
     EXPECT_EQ(flow.run(touch.mode, predicted, time), ModeFlow::Ending::done);
     Observer nobody;
@@ -74,9 +74,23 @@ double error_at(const System& system, const DiscontinuityMap& map, double depth,
     return error;
 }
 
-/// The power of the depth with which the error falls over a hundredth.
-void expect_rate(const System& system, const DiscontinuityMap& map, double depth, double time, double rate) {
+/// The same with the next order, which is known of all that single jumps make: by half a power more.
+void expect_next_order(const System& system, DiscontinuityMap map, double depth, double time) {
+    ASSERT_EQ(map.contacts.size(), 1U);
+    ASSERT_EQ(map.second.size(), map.direction.size());
+    const double far = error_at(system, map, 10 * depth, time), near = error_at(system, map, depth, time);
+    EXPECT_GT(std::log10(far / near), 1.5 - 0.05) << far << ' ' << near;
+    map.second.clear();
+    EXPECT_LT(near, 0.3 * error_at(system, map, depth, time));
+}
+
+/// The power of the depth with which the error falls over a hundredth, to leading order.
+void expect_rate(const System& system, DiscontinuityMap map, double depth, double time, double rate) {
     ASSERT_TRUE(map.exists()) << map.reason;
+    EXPECT_EQ(map.second.empty(), map.order != MapOrder::square_root || map.contacts.size() != 1);
+    if (!map.second.empty())
+        expect_next_order(system, map, depth, time);
+    map.second.clear();
     const double far = error_at(system, map, depth, time), near = error_at(system, map, depth / 100, time);
     // What comes next may happen to be zero.
     EXPECT_GT(std::log(far / near) / std::log(100), rate - 0.05) << far << ' ' << near;

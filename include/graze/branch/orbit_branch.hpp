@@ -33,7 +33,12 @@ struct BranchSettings {
     /// A point whose own condition is held all along, so that the branch is the curve of such points in one parameter
     /// more: of the folds, flips or grazings of what was found as one. Its kind says whether it can be kept.
     std::optional<SpecialPoint> kept;
-    /// Further parameters that vary: one for each monitor that is fixed, and one for the point that is kept.
+    /// What is held besides the touch that is kept, so that the branch is a curve of points of codimension two in three
+    /// parameters: `sensitivity`, the boundary between touches beyond which an attractor may persist and such beyond
+    /// which it is lost.
+    std::optional<PointType> kept_too;
+    /// Further parameters that vary: one for each monitor that is fixed, one for the point that is kept, and one for
+    /// what is held besides.
     std::vector<ParameterId> free;
     std::vector<FreeBounds> free_bounds; ///< of some of those, or of all
     std::vector<PointType> stop_at;      ///< types at which the branch ends

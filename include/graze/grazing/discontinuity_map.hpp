@@ -35,6 +35,9 @@ std::string_view name_of(MapOrder order);
 ///     direction * s  with the approach speed s = sqrt(2 acceleration d)     (square_root)
 ///     direction * d^(3/2)                                                   (three_halves)
 ///
+/// Of a square_root map that a single jump makes the next order is known, too: the gain is direction s + second s^2,
+/// with an error of s^3.
+///
 /// It follows from the symbolic model alone: derivatives of the event's function along the flow, of jumps, and of the
 /// fields; a contact may lead through other modes for a time that vanishes with s.
 struct DiscontinuityMap {
@@ -48,6 +51,7 @@ struct DiscontinuityMap {
     std::vector<double> rate_gradient; ///< of its rate
     std::vector<double> field;         ///< rates of the states
     std::vector<double> direction;     ///< what the states gain
+    std::vector<double> second;        ///< the next order, by s^2; empty: not known
     std::vector<std::size_t> contacts; ///< transitions of the model that are made, in their order
     double time = 0;                   ///< that they take, from touch to return, for each unit of s
 

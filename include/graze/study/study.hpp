@@ -66,6 +66,8 @@ struct BranchRequest {
     bool has_table() const { return !table.empty() || !table_text.empty(); }
     /// Whether a curve holds what its first point is, rather than a monitor that is fixed.
     bool keeps_point() const;
+    /// How many of the free parameters are those of the point: two for one of codimension two.
+    std::size_t kept_conditions() const;
     /// Of curves as if a point that can be kept was known already. @throws InputError as BranchSettings::validate
     void validate(RunKind kind, const Model& model) const;
 };

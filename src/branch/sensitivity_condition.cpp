@@ -1,0 +1,76 @@
+#include "branch/sensitivity_condition.hpp"
+
+#include "grazing/return_map.hpp"
+#include "orbit/certify.hpp"
+#include "orbit/eigen_index.hpp"
+
+#include <cmath>
+
+namespace graze {
+
+SensitivityCondition::SensitivityCondition(const OrbitEquations& equations, const SpecialPoint& touch)
+    : beside_(equations.simulation(), touch.solution.orbit, equations.free()), tried_(beside_.evaluation()),
+      segment_(touch.segment), event_(touch.event), share_(touch.time / touch.solution.orbit.durations[touch.segment]),
+      functions_(equations.system(), equations.signature()[touch.segment].mode, touch.event) {}
+
+std::unique_ptr<OrbitCondition> SensitivityCondition::of_touch(const OrbitEquations& equations,
+                                                               const OrbitEvaluation& at, const SpecialPoint& touch) {
+    if (touch.at_end)
+        return nullptr;
+    std::unique_ptr<SensitivityCondition> condition(new SensitivityCondition(equations, touch));
+    const bool alike = condition->beside_.unknowns() == equations.unknowns(); // laid out for the same orbit
+    return alike && condition->projection(equations, at) ? std::move(condition) : nullptr;
+}
+
+/// Also a little off the touch, where it is that of the contact at the nearest touching state: any smooth function
+/// that is the projection at touches would do.
+std::optional<double> SensitivityCondition::projection(const OrbitEquations& equations,
+                                                       const OrbitEvaluation& at) const {
+    const double duration = equations.orbit_of(at.unknowns).durations[segment_];
+    const CycleMap map = cycle_map_of(equations, at, {segment_, event_, share_ * duration, false}, functions_,
+                                      std::nullopt, AskedContacts::rigid_beside);
+    if (!map.exists() || map.contact.order != MapOrder::square_root)
+        return std::nullopt;
+    const double value = map.projections(1).front();
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+bool SensitivityCondition::evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    constexpr double step = 1e-5; // in sizes: errors of the value over it and the square of it are both some 1e-9
+    const auto here = projection(equations, at);
+    if (!here)
+        return false;
+    value_ = *here;
+    gradient_.resize(at.unknowns.size());
+    for (Eigen::Index i = 0; i < at.unknowns.size(); ++i) {
+        double values[2], places[2];
+        for (const int side : {0, 1}) {
+            Eigen::VectorXd unknowns = at.unknowns;
+            unknowns[i] += (side == 0 ? -step : step) * at.scales[i];
+            if (!beside_.evaluate(unknowns, tried_))
+                return false;
+            const auto there = projection(beside_, tried_);
+            if (!there)
+                return false;
+            values[side] = *there;
+            places[side] = unknowns[i];
+        }
+        gradient_[i] = (values[1] - values[0]) / (places[1] - places[0]);
+    }
+    return gradient_.allFinite();
+}
+
+/// The touch is looked for where it is now.
+void SensitivityCondition::renew(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    if (!beside_.evaluate(at.unknowns, tried_))
+        return;
+    std::optional<OrbitMinimum> nearest;
+    for (const OrbitMinimum& minimum : certify(beside_, tried_).minima)
+        if (minimum.segment == segment_ && minimum.event == event_ &&
+            (!nearest || std::abs(minimum.value) < std::abs(nearest->value)))
+            nearest = minimum;
+    if (nearest)
+        share_ = nearest->time / equations.orbit_of(at.unknowns).durations[segment_];
+}
+
+} // namespace graze

@@ -1,0 +1,87 @@
+#include "grazing/next_order.hpp"
+
+#include "flow/lie_derivative.hpp"
+#include "graze/symbolic/transform.hpp"
+#include "orbit/eigen_index.hpp"
+
+#include <Eigen/Dense>
+
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+/// Derivatives at a touch: of the field F, of the jump J, of the touched function.
+struct Derivatives {
+    Eigen::VectorXd curve;       ///< of F along F
+    Eigen::MatrixXd of_field;    ///< states x states
+    Eigen::MatrixXd of_jump;     ///< the same, less the identity
+    Eigen::VectorXd second_jump; ///< of J along F, twice
+    double jerk = 0;             ///< third rate of the touched function
+};
+
+Derivatives derivatives_at(const System& system, const TouchState& touch, std::size_t transition) {
+    Model model = system.model();
+    const std::size_t n = system.states();
+    const std::vector<Expression> field = model.expand(model.modes[touch.mode].rates),
+                                  jump = model.expand(
+                                      std::vector<Expression>(model.jumps[model.transitions[transition].jump].map));
+    std::vector<Expression> outputs = lie_derivatives(model, field, field);
+    const std::vector<Expression> second = lie_derivatives(model, lie_derivatives(model, jump, field), field);
+    outputs.insert(outputs.end(), second.begin(), second.end());
+    std::vector<Expression> rate{model.expand(model.events[touch.event].function)};
+    for (int order = 0; order < 3; ++order)
+        rate = lie_derivatives(model, rate, field);
+    outputs.push_back(rate.front());
+    const SymbolIndex states(model.state_symbols());
+    const auto of_field = sparse_jacobian(field, states), of_jump = sparse_jacobian(jump, states);
+    for (const auto* entries : {&of_field, &of_jump})
+        for (const JacobianEntry& entry : *entries)
+            outputs.push_back(entry.value);
+    std::vector<double> inputs = touch.state;
+    inputs.insert(inputs.end(), touch.parameters.begin(), touch.parameters.end());
+    const std::vector<double> values = Function(model.inputs(), outputs)(inputs);
+
+    Derivatives result;
+    result.curve = Eigen::Map<const Eigen::VectorXd>(values.data(), index(n));
+    result.second_jump = Eigen::Map<const Eigen::VectorXd>(values.data() + n, index(n));
+    result.jerk = values[2 * n];
+    result.of_field = Eigen::MatrixXd::Zero(index(n), index(n));
+    result.of_jump = -Eigen::MatrixXd::Identity(index(n), index(n));
+    std::size_t place = 2 * n + 1;
+    for (const JacobianEntry& entry : of_field)
+        result.of_field(index(entry.row), index(entry.column)) = values[place++];
+    for (const JacobianEntry& entry : of_jump)
+        result.of_jump(index(entry.row), index(entry.column)) += values[place++];
+    return result;
+}
+
+/// A direction along which the function grows by 1 and its rate does not.
+Eigen::VectorXd off_surface(const TouchGeometry& geometry, const TouchSizes& sizes) {
+    const Eigen::Index n = sizes.scales().size();
+    const Eigen::VectorXd h = geometry.gradient.head(n).cwiseProduct(sizes.scales()),
+                          v = geometry.rate_gradient.head(n).cwiseProduct(sizes.scales());
+    const Eigen::VectorXd along = h - v * (h.dot(v) / v.squaredNorm());
+    return along.cwiseProduct(sizes.scales()) / along.dot(h);
+}
+
+} // namespace
+
+/// The motion meets the surface at the time -s/a - j s^2/(6 a^3), with j the function's third rate; is there moved by
+/// K = J - 1, which is zero where the surface is touched; and is compared at time 0, to which what it has gained is
+/// carried by the field. All is expanded to s^2. The motion starts off the surface by the depth s^2/(2 a).
+std::optional<Eigen::VectorXd> next_order_of_impact(const TouchFunctions& functions, const TouchState& touch,
+                                                    const TouchGeometry& geometry, const TouchSizes& sizes,
+                                                    std::size_t transition) {
+    const Derivatives at = derivatives_at(functions.system(), touch, transition);
+    const double a = geometry.acceleration;
+    const Eigen::VectorXd first = at.of_jump * geometry.field;    // of K along F
+    const Eigen::VectorXd bent = (at.second_jump - at.curve) / 2; // K twice along the motion, by half its time^2
+    const Eigen::VectorXd carried = at.of_field * first;
+    const Eigen::VectorXd result = -first * (at.jerk / (6 * a * a * a)) + (bent - carried) / (a * a) -
+                                   at.of_jump * off_surface(geometry, sizes) / (2 * a);
+    return result.allFinite() ? std::optional(result) : std::nullopt;
+}
+
+} // namespace graze
