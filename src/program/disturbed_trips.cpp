@@ -5,8 +5,8 @@
 #include "program/commands.hpp"
 #include "program/figure.hpp"
 #include "program/interrupt.hpp"
+#include "program/loss_point.hpp"
 #include "program/status_line.hpp"
-#include "program/trip_point.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty
 struct Asked {
     const TripArguments& arguments;
     const Console& console;
-    TripPoint point;
+    LossPoint point;
     AskedEnd end;
     Table table{};
     Figure figure{};
@@ -45,7 +45,7 @@ struct Asked {
 };
 
 TripOrigin origin_at(const Asked& asked, double value) {
-    const TripPoint& point = asked.point;
+    const LossPoint& point = asked.point;
     try {
         if (point.fold)
             return trip_origin(point.system, *point.fold, value);
@@ -109,7 +109,7 @@ void for_each_of(Asked& asked, const std::vector<double>& values, const char* op
 }
 
 /// Where a ramp begins that is not told where: so far before the point that the beginning is forgotten.
-double beginning_of_ramp(const TripPoint& point, double rate) {
+double beginning_of_ramp(const LossPoint& point, double rate) {
     constexpr double cycles = 100, delays = 5, tellable = 10;
     double way = cycles * std::abs(rate) * point.cycle;
     if (point.fold)
@@ -119,7 +119,7 @@ double beginning_of_ramp(const TripPoint& point, double rate) {
 }
 
 void ramp(Asked& asked) {
-    const TripPoint& point = asked.point;
+    const LossPoint& point = asked.point;
     const std::string& time = point.model().time_unit;
     const std::string rate_unit =
         point.unit.empty() && time.empty()
@@ -171,7 +171,7 @@ void ramp(Asked& asked) {
 }
 
 void wave(Asked& asked) {
-    const TripPoint& point = asked.point;
+    const LossPoint& point = asked.point;
     const TripOrigin origin = resting_origin(asked, "wave");
     constexpr double usual = 100; // cycles
     const double period = asked.arguments.wave_period.value_or(usual) * origin.cycle;
@@ -213,7 +213,7 @@ NoiseSettings settings_of(const Asked& asked) {
 }
 
 void noise(Asked& asked) {
-    const TripPoint& point = asked.point;
+    const LossPoint& point = asked.point;
     const TripOrigin origin = resting_origin(asked, "noise");
     NoiseSettings settings = settings_of(asked);
     asked.table = Table({{"level", point.unit},
@@ -304,7 +304,7 @@ bool is_disturbed(const TripArguments& arguments) {
 
 int disturbed_trips(const ResultFile& file, const TripArguments& arguments, const Console& console) {
     require_together(arguments);
-    TripPoint point = trip_point(file, arguments.point, arguments.parameter, "POINT");
+    LossPoint point = loss_point(file, arguments.point, arguments.parameter, "POINT");
     AskedEnd end = end_of(point, arguments);
     if (point.fold && !end.given)
         throw InputError(Place{"POINT", 0, 0}, "nothing says where a motion ends that has left a fold",

@@ -10,7 +10,7 @@ namespace graze {
 bool is_disturbed(const TripArguments& arguments);
 
 /// The tables and pictures of `graze trip` with --ramp, --wave or --noise. @return the exit code
-/// @throws InputError as trip_point does, and for options that do not go together
+/// @throws InputError as loss_point does, and for options that do not go together
 int disturbed_trips(const ResultFile& file, const TripArguments& arguments, const Console& console);
 
 } // namespace graze
