@@ -284,6 +284,7 @@ private:
             return false;
         OrbitProblem& problem = state_.problem();
         const std::size_t steps = point.step, old = state_.settings().kept->segment;
+        const double share = state_.settings().kept->time / point.solution.orbit.durations[old];
         const std::vector<double> u = problem.unknowns_of(point.solution.orbit);
         if (!problem.evaluate(u))
             return false;
@@ -297,7 +298,13 @@ private:
             guesses.push_back(problem.orbit_of(there));
         }
         for (const Orbit& guess : guesses) {
-            if (!state_.go_on_curve(guess, rise < 0 ? -1 : 1, arclength) || state_.settings().kept->segment == old)
+            if (!state_.go_on_curve(guess, rise < 0 ? -1 : 1, arclength))
+                continue;
+            // The only segment of an orbit is its own neighbour: the touch goes on at its other end.
+            const SpecialPoint& kept = *state_.settings().kept;
+            const bool at_other_end =
+                (kept.time / guess.durations[kept.segment] < 0.5) != (share < 0.5) || kept.segment != old;
+            if (!at_other_end)
                 continue;
             BranchPoint beyond;
             std::vector<BranchTest> tests;
