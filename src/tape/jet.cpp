@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -198,9 +199,10 @@ private:
     std::vector<KernelLink> kernels_;
     std::vector<KernelOperands> operands_;
     std::vector<Choice> choices_;
-    std::vector<char> moving_;  ///< of each constant, whether it had derivatives when kernels were chosen
-    std::vector<Chain> chains_; ///< in their order
-    std::size_t beginning_ = 0; ///< chains of orders 0 and 1
+    std::vector<std::uint32_t> movable_; ///< constants that may have derivatives
+    std::vector<char> moving_;           ///< of each constant, whether it had derivatives when kernels were chosen
+    std::vector<Chain> chains_;          ///< in their order
+    std::size_t beginning_ = 0;          ///< chains of orders 0 and 1
     std::vector<KernelStep> constant_code_;
     std::vector<Copy> constant_copies_; ///< to rates and outputs that are constants
     std::vector<const double*> outputs_;
@@ -219,7 +221,7 @@ private:
 TapeJet::TapeJet(const Tape& tape, int order, LaneKind kind, const KernelTable& table)
     : table_(table), tangent_(kind == LaneKind::tangent), order_(order), states_(tape.states),
       parameters_(tape.parameters), layout_(tape, order, table.width), memory_(layout_.size),
-      moving_(tape.constants, 2) {
+      moving_(tape.constants, 0) {
     const auto register_at = [&](std::uint32_t index) {
         return memory_.data() + layout_.registers + index * layout_.series;
     };
@@ -316,6 +318,9 @@ void TapeJet::find_operands(std::vector<Segment>& segments) {
 
 void TapeJet::find_chains(const std::vector<Segment>& segments, const Tape& tape) {
     const std::vector<char> movable = movable_constants(tape);
+    for (std::uint32_t i = 0; i < tape.constants; ++i)
+        if (movable[i] != 0)
+            movable_.push_back(i);
     std::size_t most = 0;
     for (const Segment& segment : segments)
         most += 2 * segment.steps.size() + 3;
@@ -339,7 +344,8 @@ void TapeJet::find_chains(const std::vector<Segment>& segments, const Tape& tape
                 const bool may_move = step.fixed && has_any(*operands, movable);
                 if (may_move)
                     choices_.push_back({kernels_.size(), operands, step.kernel, step.fixed});
-                kernels_.push_back({.kernel = step.fixed && !may_move ? step.fixed : step.kernel});
+                // At first parameters are zero, without derivatives.
+                kernels_.push_back({.kernel = step.fixed ? step.fixed : step.kernel});
                 ++length;
             }
             ++operands;
@@ -390,7 +396,7 @@ bool TapeJet::moves(const double* constant) const {
 /// Most coefficients are the same whatever parameters do: half of the products of their combinations are zero.
 void TapeJet::choose_kernels() {
     bool changed = false;
-    for (std::size_t i = 0; i < moving_.size(); ++i) {
+    for (const std::uint32_t i : movable_) {
         const char now = moves(memory_.data() + i * layout_.number) ? 1 : 0;
         changed = changed || now != moving_[i];
         moving_[i] = now;
@@ -420,6 +426,8 @@ bool TapeJet::has_any(const KernelOperands& combination, const std::vector<char>
 
 void TapeJet::set_parameters(std::span<const double> parameters) {
     require_size(parameters.size(), parameters_ * layout_.number, "parameters of a jet");
+    if (std::memcmp(parameters.data(), memory_.data(), parameters.size_bytes()) == 0)
+        return;
     begun_ = false;
     std::ranges::copy(parameters, memory_.data());
     compute_constants();
