@@ -85,7 +85,7 @@ std::vector<Text> texts() {
 std::map<std::string, std::string> commands() {
     std::map<std::string, std::string> result;
     for (const char* name : {"models", "check", "simulate", "run", "points", "orbit", "grazing", "trip", "ladder",
-                             "tolerance", "record", "export", "plot", "info", "help", "completion"}) {
+                             "tolerance", "record", "identify", "export", "plot", "info", "help", "completion"}) {
         const Printed help = run_graze(std::string(name) + " --help");
         EXPECT_EQ(help.code, 0) << name;
         result[name] = help.out;
