@@ -147,6 +147,18 @@ struct RecordArguments {
     std::string write, plot, data;
 };
 
+struct IdentifyArguments {
+    std::string what;
+    RecordArguments reading; ///< files, and what is done to them before; output and picture
+    std::string channel, displacement, voltage, current;
+    std::size_t peaks = 10, window = 12, transition = 0;
+    double least_jump = 0;
+    std::optional<double> gap, stiffness, frequency;
+    double gap_error = 0, stiffness_error = 0, clamped = 0;
+    std::vector<double> noise; ///< of displacement and current; empty: not given
+    std::string beta1, beta2;
+};
+
 struct InfoArguments {
     std::string file;
     bool all = false;
@@ -177,6 +189,7 @@ struct Arguments {
     ToleranceArguments tolerance;
     DesignArguments design;
     RecordArguments record;
+    IdentifyArguments identify;
     CheckArguments check;
     ModelsArguments models;
     SimulateArguments simulate;

@@ -6,6 +6,7 @@
 #include "graze/results/name_advice.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "program/identify_arguments.hpp"
 #include "program/record_arguments.hpp"
 #include "program/table_recorder.hpp"
 
@@ -213,6 +214,8 @@ Choices choices_for(const CLI::App& app, const CLI::App& command, const Declared
             return {shipped_designs(), true};
         if (name == "COMMAND")
             return {commands, false};
+        if (name == "WHAT")
+            return {identify_kinds(), false};
         if (name == "SHELL")
             return {completion_shells(), false};
         return {of == "info" ? both(shipped_models(), shipped_studies()) : std::vector<std::string>(), name == "FILE"};
