@@ -431,6 +431,16 @@ TEST(ShippedFigures, distance_of_the_fold_from_the_touch) {
         EXPECT_NEAR(*verdict.fold_depth, std::pow(2 / (3 * *verdict.alpha), 2), 1e-12);
         EXPECT_NEAR(*verdict.fold_clearance, -4 / (27 * *verdict.alpha * *verdict.alpha), 1e-12);
         EXPECT_NEAR(measured.monitors.at(0) / *verdict.fold_depth, 1, 3 * 100.0 / stiffness);
+        // Fig. 3.2: orbits between touch and fold are roots of the cubic, tau = -depth^(1/2), as well as the fold is.
+        std::size_t roots = 0;
+        for (const OrbitRecord& record : results.file().orbits(fold, false)) {
+            const double depth = record.point.monitors.at(0), tau = -std::sqrt(std::max(0.0, depth));
+            const double beta = *map.clearance_rate * (record.point.parameter - voltage);
+            const double cubic = *verdict.alpha * tau * tau * tau + tau * tau + beta;
+            EXPECT_NEAR(cubic, 0, 150.0 / stiffness * std::abs(*verdict.fold_clearance)) << stiffness << ' ' << depth;
+            ++roots;
+        }
+        EXPECT_GE(roots, 2U);
         if (before > 0) {
             const double times = stiffness / stiffness_before;
             EXPECT_NEAR(*verdict.alpha / alpha_before, times, 1e-6 * times); // its force is in proportion
