@@ -6,12 +6,24 @@ include(GoogleTest)
 # Wrong uses of the library are tried on all of it.
 set(before_misuse ${GRAZE_FOLDERS})
 
-foreach(folder IN LISTS GRAZE_FOLDERS ITEMS program misuse)
+# What runs in several threads is tried under the thread sanitizer, and nothing else: it would tell nothing of the rest.
+set(test_folders ${GRAZE_FOLDERS} program misuse)
+if(GRAZE_SANITIZERS STREQUAL "thread")
+    set(test_folders threads)
+    set(before_threads ${GRAZE_FOLDERS})
+    set(test_threads sweep/plan study/run_schedule study/runner study/shared_model study/side_by_side branch/yield
+                     branch/disturbed_trip design/value_map)
+endif()
+
+foreach(folder IN LISTS test_folders)
     file(GLOB sources CONFIGURE_DEPENDS tests/${folder}/*.cpp)
+    list(TRANSFORM test_${folder} REPLACE "(.+)" "tests/\\1_test.cpp" OUTPUT_VARIABLE chosen)
+    list(APPEND sources ${chosen})
     if(NOT sources OR (folder STREQUAL program AND NOT TARGET graze_program))
         continue()
     endif()
     add_executable(test_${folder} ${sources})
+    compile_together(test_${folder} ${sources})
     target_include_directories(test_${folder} PRIVATE include src tests)
     target_link_libraries(test_${folder} PRIVATE GTest::gtest_main graze_options graze_headers fmt::fmt)
     if(folder STREQUAL program)
@@ -56,6 +68,13 @@ add_test(
     NAME layers COMMAND bash ${PROJECT_SOURCE_DIR}/tests/layers/check_layers.sh ${PROJECT_SOURCE_DIR} ${GRAZE_FOLDERS}
                         program
 )
+
+find_package(Python3 COMPONENTS Interpreter QUIET)
+if(Python3_FOUND)
+    add_test(NAME names COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/layers/check_names.py
+                                ${PROJECT_SOURCE_DIR}
+    )
+endif()
 
 if(TARGET graze_executable)
     if(GRAZE_INSTALL)

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -54,9 +55,9 @@ AutoRun run_auto(const AutoSettings& settings) {
     std::ifstream in("fort.7");
     for (std::string line; std::getline(in, line);) {
         std::istringstream words(line);
-        int branch = 0, number = 0, label = 0;
+        int branch = 0, number = 0;
         AutoPoint point;
-        if (!(words >> branch) || branch == 0 || !(words >> number >> point.type >> label))
+        if (!(words >> branch) || branch == 0 || !(words >> number >> point.type >> point.label))
             continue;
         for (double column = 0; words >> column;)
             point.columns.push_back(column);
@@ -65,6 +66,10 @@ AutoRun run_auto(const AutoSettings& settings) {
     if (run.points.empty())
         throw std::runtime_error("AUTO has found nothing: " + settings.problem + ".log says why");
     return run;
+}
+
+void keep_solutions() {
+    std::filesystem::copy_file("fort.8", "fort.3", std::filesystem::copy_options::overwrite_existing);
 }
 
 } // namespace peers

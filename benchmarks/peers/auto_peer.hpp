@@ -9,7 +9,8 @@ namespace peers {
 
 /// A line of AUTO's fort.7: what it found, and the columns.
 struct AutoPoint {
-    int type = 0; ///< 5: fold, 6: branch point, 7: flip, -4: a value that was asked for, 9: an end, -9: no convergence
+    int type = 0;  ///< 5: fold, 6: branch point, 7: flip, -4: a value that was asked for, 9: an end, -9: no convergence
+    int label = 0; ///< of its solution, from which AUTO can go on; 0: none is kept
     std::vector<double> columns; ///< the branch's parameter, the norm, maxima of the first states, other parameters
 };
 
@@ -32,5 +33,7 @@ struct AutoSettings {
 
 /// Runs an AUTO program, in one thread, in the present folder. @throws std::runtime_error when it fails
 AutoRun run_auto(const AutoSettings& settings);
+/// Lets the next run begin from solutions of the last one: IRS is their label.
+void keep_solutions();
 
 } // namespace peers

@@ -5,6 +5,7 @@
 #include "auto_peer.hpp"
 #include "work_precision.hpp"
 
+#include "graze/branch/located_value.hpp"
 #include "graze/branch/switching.hpp"
 #include "graze/flow/mode_flow.hpp"
 
@@ -16,6 +17,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace peers {
@@ -236,6 +238,111 @@ void compare_resting() {
     }
 }
 
+/// AUTO's curve through the first point of a type on the branch in V, over the frequency.
+AutoRun curve_of_auto(const Fineness& one, int type) {
+    AutoSettings settings{.problem = "resting",
+                          .constants = "IPS= 2, IRS= 0, ISP= 2, NBC= 0, NINT= 0\n"
+                                       "ICP= [1, 11], NPAR= 11, THL= {11: 0.0}, STOP= ['LP1']",
+                          .states = 4,
+                          .intervals = one.intervals,
+                          .points = 200,
+                          .accuracy = one.accuracy};
+    const AutoRun branch = run_auto(settings);
+    const auto point = std::find_if(branch.points.begin(), branch.points.end(),
+                                    [&](const AutoPoint& found) { return found.type == type; });
+    if (point == branch.points.end())
+        throw std::runtime_error("AUTO has found no point of the type whose curve is to be followed");
+    // The first run from it only makes starting data, whose label is the last.
+    double seconds = 0;
+    int label = point->label;
+    AutoRun run;
+    for (int part = 0; part < 2; ++part) {
+        keep_solutions();
+        settings.constants = "IPS= 2, IRS= " + std::to_string(label) +
+                             ", ISP= 0, ISW= 2, NBC= 0, NINT= 0\n"
+                             "ICP= [2, 1, 11], NPAR= 11, THL= {11: 0.0}, UZSTOP= {2: [0.7, 1.5]}";
+        run = run_auto(settings);
+        label = run.points.back().label;
+        seconds += run.seconds;
+    }
+    run.seconds = seconds;
+    return run;
+}
+
+/// In how many digits, at least, AUTO's points are right: of the frequency and the voltage the one that changes less
+/// along the curve, against what graze solves for at the other's value, from the nearest of its own points. So turns
+/// are no harder than the rest.
+double digits_of(const AutoRun& run, const System& system, const SpecialPoint& kept, const TimedBranch& curve,
+                 ParameterId voltage, ParameterId frequency) {
+    constexpr std::size_t column = 6; // of the voltage: after the frequency, the norm and four maxima
+    double least = std::numeric_limits<double>::infinity();
+    for (const AutoPoint& point : run.points) {
+        const auto distance = [&](const BranchPoint& one) {
+            const std::vector<double>& values = one.solution.orbit.parameters;
+            return std::hypot(values[frequency.place()] - point.columns.front(),
+                              values[voltage.place()] - point.columns[column]);
+        };
+        const auto nearest = std::min_element(
+            curve.points.begin(), curve.points.end(),
+            [&](const BranchPoint& one, const BranchPoint& other) { return distance(one) < distance(other); });
+        SpecialPoint near = kept;
+        near.solution = nearest->solution;
+        const std::vector<double>& rise = nearest->tangent.parameters; // of the frequency, then the voltage
+        const bool turns = std::abs(rise[1]) > std::abs(rise[0]);
+        const double given = point.columns[turns ? column : 0], wanted = point.columns[turns ? 0 : column];
+        LocatedValue value(system, near, turns ? frequency : voltage, {turns ? voltage : frequency});
+        const LocatedSolution exact = value({&given, 1});
+        least = std::min(least, exact.found ? digits(wanted, exact.value) : 0);
+    }
+    return least;
+}
+
+/// Curves of the fold and of the first flip in two parameters.
+void compare_curves(bool quick) {
+    constexpr double agreement =
+        8; // digits: AUTO's accuracy is 1e-7 or 1e-9 of a correction, and its points are better
+    Model model = microactuator(0.1);
+    BranchSettings settings;
+    settings.greatest = 0.65;
+    settings.least = 0.05;
+    const System system(model);
+    const TimedBranch branch = follow(system, settled(model), settings, 60);
+    for (const auto& [type, type_of_auto, name] :
+         {std::tuple{PointType::fold, fold_of_auto, "fold"}, std::tuple{PointType::flip, flip_of_auto, "first flip"}}) {
+        const auto point = std::find_if(branch.special.begin(), branch.special.end(),
+                                        [type = type](const SpecialPoint& found) { return found.type == type; });
+        const ParameterId voltage = settings.parameter, frequency = model.independent_parameter("omega");
+        print_head(std::string("The curve of its ") + name + " in the frequency and V", "omega", "digits");
+        const AutoRun first = curve_of_auto(fineness.front(), type_of_auto);
+        BranchSettings along;
+        along.parameter = frequency;
+        along.direction = first.points[1].columns.front() < first_of(first) ? -1 : 1;
+        along.least = 0.7;
+        along.greatest = 1.5;
+        along.free = {voltage};
+        along.kept = *point;
+        TimedBranch curve;
+        double seconds = std::numeric_limits<double>::infinity();
+        for (int repeat = 0; repeat < (quick ? 1 : 5); ++repeat) {
+            curve = follow(system, point->solution.orbit, along, 60);
+            seconds = std::min(seconds, curve.seconds);
+        }
+        curve.seconds = seconds;
+        print_row("graze, 1e-13", curve.points.size(), curve.milliseconds_per_point(), curve.points.front().parameter,
+                  curve.points.back().parameter, "-");
+        for (const Fineness& one : fineness) {
+            const AutoRun run = curve_of_auto(one, type_of_auto);
+            const double agreed = digits_of(run, system, *point, curve, voltage, frequency);
+            if (!(agreed >= agreement))
+                throw std::runtime_error(std::string("the curves of the ") + name + " do not agree");
+            char text[96];
+            std::snprintf(text, sizeof text, "%.1f at least; %.2g times graze's time a point", agreed,
+                          run.milliseconds_per_point() / curve.milliseconds_per_point());
+            print_row(one.name, run.points.size(), run.milliseconds_per_point(), first_of(run), last_of(run), text);
+        }
+    }
+}
+
 /// The chain far from its walls, so that both follow the same branch.
 void compare_chain(std::size_t oscillators, bool quick) {
     constexpr double far = 100, first_force = 0.05, last_force = 2;
@@ -274,6 +381,7 @@ void compare_chain(std::size_t oscillators, bool quick) {
 void compare_branches(bool quick) {
     compare_microactuator(quick);
     compare_resting();
+    compare_curves(quick);
     for (const std::size_t oscillators : quick ? std::vector<std::size_t>{5} : std::vector<std::size_t>{5, 10, 20})
         compare_chain(oscillators, quick);
 }

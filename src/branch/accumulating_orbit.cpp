@@ -143,9 +143,10 @@ bool AccumulatingOrbit::judge(const VectorXd& before, const VectorXd& after, Res
         return false;
     rest.contacts = self_similar_contacts(restitution);
     rest.excess = speed / deceleration * (third / deceleration) / rest.contacts.speed - 1;
-    // Heights fall with the third power of the time that is left, and the states that they are made of do not.
-    const double left = deceleration / third, height = third * left * left * left;
-    rest.uncertainty = 4 * epsilon * slopes(after).row(0).cwiseAbs().dot(after.cwiseAbs()) / height;
+    // Heights fall with the third power of the time that is left, and the states that they are made of do not: speeds,
+    // and so the excess, are known no better than the height to which the mass comes in its next flight.
+    const double height = speed * speed / (2 * deceleration);
+    rest.uncertainty = epsilon * slopes(after).row(0).cwiseAbs().dot(after.cwiseAbs()) / height;
     return std::isfinite(rest.excess);
 }
 
@@ -178,6 +179,7 @@ bool AccumulatingOrbit::accumulate(const VectorXd& before, const VectorXd& after
         if (std::abs(change) <= 4 * epsilon * std::abs(time))
             break;
     }
+    rest.left = time;
     return true;
 }
 
@@ -202,6 +204,7 @@ bool AccumulatingOrbit::follow(std::size_t count, Rest& rest) {
         if (motion.segments[contact].mode == mode_ && motion.segments[contact].end == SegmentEnd::event &&
             system.model().transitions[motion.segments[contact].index].event == event_ && ++contacts == count)
             break;
+    rest.contact = contact;
     rest.segments = contact + 1;
     while (rest.segments < motion.segments.size() && motion.segments[rest.segments].mode != mode_)
         ++rest.segments;
@@ -257,7 +260,7 @@ bool AccumulatingOrbit::differentiate(const VectorXd& values) {
 bool AccumulatingOrbit::renew_excess(const VectorXd& values) {
     constexpr double largest_step = 1e-6, wanted = 1e-3, smallest_step = 1e3 * epsilon;
     const Eigen::Index last = values.size() - 1;
-    jacobian_.row(last) /= contacts_.ratio;
+    jacobian_.row(last) /= std::pow(contacts_.ratio, static_cast<double>(added_));
     VectorXd shifted = unknowns_, there;
     Rest rest;
     for (Eigen::Index i = 0; i < unknowns_.size(); ++i) {
@@ -320,8 +323,9 @@ bool AccumulatingOrbit::solve() {
     return solved_;
 }
 
-void AccumulatingOrbit::add_contact() {
-    ++count_;
+void AccumulatingOrbit::add_contacts(std::size_t more) {
+    count_ += more;
+    added_ = more;
 }
 
 std::optional<Orbit> AccumulatingOrbit::shown(double& gap) {
@@ -334,12 +338,16 @@ std::optional<Orbit> AccumulatingOrbit::shown(double& gap) {
         const auto taken = [&](const auto& values) {
             return std::vector(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rest.segments));
         };
-        const Orbit orbit{taken(rest.motion.segments), parameters_, taken(rest.motion.starts),
-                          taken(rest.motion.durations), like_.symmetry};
+        Orbit orbit{taken(rest.motion.segments), parameters_, taken(rest.motion.starts), taken(rest.motion.durations),
+                    like_.symmetry};
         const VectorXd after = vector_of(rest.motion.starts[rest.segments]);
+        // All contacts to come as one: the orbit ends where they accumulate, in time and state.
+        orbit.signature.push_back(orbit.signature[rest.contact]);
+        orbit.starts.push_back(rest.motion.starts[rest.segments]);
+        orbit.durations.push_back(rest.left);
         gap = 0;
         for (Eigen::Index i = 0; i < n; ++i) {
-            const double period = periods_[static_cast<std::size_t>(i)], apart = after[i] - rest.start[i];
+            const double period = periods_[static_cast<std::size_t>(i)], apart = rest.state[i] - rest.start[i];
             if (closes_[static_cast<std::size_t>(i)])
                 gap = std::max(gap, std::abs(period > 0 ? std::remainder(apart, period) : apart) / scales_[i]);
         }

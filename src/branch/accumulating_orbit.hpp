@@ -31,16 +31,16 @@ public:
     bool solve();
     bool has_solution() const { return solved_; }
     std::size_t contacts_of_solution() const { return solution_count_; }
-    /// From now on, with one contact more.
-    void add_contact();
+    /// From now on, with more contacts.
+    void add_contacts(std::size_t more);
 
     ParameterId along() const { return along_; }
     double parameter() const { return unknowns_[parameter_place()]; }
     /// Of the parameter, by round-off of heights.
     double uncertainty() const { return uncertainty_; }
     const SelfSimilarContacts& contacts() const { return contacts_; }
-    /// The last solution's motion over contacts until little is left. @param gap between its ends, relative to the
-    /// sizes of the states. @return none where it cannot be followed
+    /// The last solution's motion over contacts until little is left, for which a last segment stands. @param gap
+    /// between its ends, relative to the sizes of the states. @return none where it cannot be followed
     std::optional<Orbit> shown(double& gap);
 
 private:
@@ -48,11 +48,12 @@ private:
     struct Rest {
         Eigen::VectorXd start;  ///< in which they have accumulated before
         Eigen::VectorXd state;  ///< in which contacts will accumulate
+        double left = 0;        ///< time until then
         double excess = 0;      ///< of the speed over that of the self-similar sequence
         double uncertainty = 0; ///< of the excess, by round-off of heights
         SelfSimilarContacts contacts;
         FollowedMotion motion;
-        std::size_t segments = 0; ///< until there
+        std::size_t contact = 0, segments = 0; ///< the last one that counts; until there
     };
     Eigen::Index parameter_place() const { return scales_.size() - 1; }
     std::vector<double> inputs(const Eigen::VectorXd& state) const;
@@ -82,7 +83,7 @@ private:
     Eigen::VectorXd scales_, unknowns_, rows_; ///< of states, then the parameter; of the equations
     Eigen::MatrixXd jacobian_;                 ///< in units of the scales
     std::vector<bool> closes_;                 ///< states that come back
-    std::size_t count_ = 2;
+    std::size_t count_ = 2, added_ = 1;
     bool solved_ = false;
     double uncertainty_ = 0;
     SelfSimilarContacts contacts_;

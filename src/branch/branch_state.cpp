@@ -1,5 +1,6 @@
 #include "branch/branch_state.hpp"
 
+#include "branch/branch_point_problem.hpp"
 #include "branch/orbit_quantity.hpp"
 #include "branch/sensitivity_condition.hpp"
 #include "graze/symbolic/input_error.hpp"
@@ -34,6 +35,8 @@ BranchState::BranchState(const System& system, const Orbit& candidate, const Bra
     if (!settings.monitors.empty())
         monitors_ =
             std::make_unique<OrbitMonitors>(system, candidate.signature, settings.monitors, settings.orbit.tolerance);
+    if (keeps_branch_point() && settings.free.size() > 1)
+        throw InputError("monitors cannot be fixed along a curve of branch points", "leave `fixed` out");
     hold(candidate);
     if (!make_problem(candidate))
         throw InputError(
@@ -53,7 +56,8 @@ void BranchState::hold(const Orbit& candidate) {
 
 /// False where what is kept has no condition.
 bool BranchState::make_problem(const Orbit& orbit) {
-    problem_ = std::make_unique<OrbitProblem>(simulation_, orbit, settings_);
+    problem_ = keeps_branch_point() ? std::make_unique<BranchPointProblem>(simulation_, orbit, settings_)
+                                    : std::make_unique<OrbitProblem>(simulation_, orbit, settings_);
     if (monitors_)
         hold_monitors();
     if (settings_.kept && !hold_kept(orbit))
@@ -86,6 +90,8 @@ void BranchState::hold_monitors() {
 bool BranchState::hold_kept(const Orbit& orbit) {
     SpecialPoint& kept = *settings_.kept;
     kept.solution.orbit = orbit;
+    if (keeps_branch_point()) // which the problem itself does
+        return true;
     std::unique_ptr<OrbitCondition> condition;
     if (problem_->evaluate(problem_->unknowns_of(orbit)))
         condition = rule_of(kept.type).condition(problem_->equations(), problem_->evaluation(), kept);
@@ -163,7 +169,7 @@ bool BranchState::describe(const ContinuationPoint& at, BranchPoint& result, std
     result.arclength = arclength(at.arclength);
     result.stable = is_stable(result.solution);
     std::vector<Degeneracy> degeneracies;
-    if (settings_.kept)
+    if (settings_.kept && !keeps_branch_point())
         degeneracies = held_.back()->degeneracies(equations, evaluation);
     tests = branch_tests(
         {equations, evaluation, result.solution, at.tangent, at.determinant, result.monitors, settings_, degeneracies});

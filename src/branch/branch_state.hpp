@@ -46,6 +46,7 @@ public:
 private:
     void hold(const Orbit& candidate);
     void hold_monitors();
+    bool keeps_branch_point() const { return settings_.kept && settings_.kept->type == PointType::branch_point; }
     bool hold_kept(const Orbit& orbit);
     std::size_t held_monitors() const;
     std::optional<HeldLimit> held_limit() const;

@@ -34,9 +34,14 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
+struct Extrapolated {
+    double value = 0, error = 0;
+    double amplified = 1; ///< by how much independent noise of the sequence is greater in the value
+};
+
 /// Richardson's extrapolation of a sequence whose errors fall by known factors, one after the other; and how far its
 /// last steps and levels still differ.
-std::pair<double, double> extrapolate(std::vector<double> values, std::span<const double> factors) {
+Extrapolated extrapolate(std::vector<double> values, std::span<const double> factors) {
     // The errors of the last values, and what they are made of.
     const auto spread = [](const std::vector<double>& row, double factor) {
         double greatest = 0;
@@ -45,7 +50,8 @@ std::pair<double, double> extrapolate(std::vector<double> values, std::span<cons
         return greatest / (1 - factor);
     };
     constexpr double safety = 4;
-    std::pair<double, double> best{values.back(), std::numeric_limits<double>::infinity()};
+    Extrapolated best{values.back(), std::numeric_limits<double>::infinity(), 1};
+    double amplified = 1;
     for (const double factor : factors) {
         if (values.size() < 3)
             break;
@@ -53,8 +59,9 @@ std::pair<double, double> extrapolate(std::vector<double> values, std::span<cons
             values[k] += (values[k] - values[k - 1]) * factor / (1 - factor);
         values.erase(values.begin());
         const double error = safety * spread(values, factor) + 16 * epsilon * std::abs(values.back());
-        if (error < best.second)
-            best = {values.back(), error};
+        amplified *= std::sqrt(1 + factor * factor) / (1 - factor);
+        if (error < best.error)
+            best = {values.back(), error, amplified};
     }
     return best;
 }
@@ -98,7 +105,7 @@ public:
                 if (noise_.back() > least)
                     break;
             }
-            orbit_.add_contact();
+            orbit_.add_contacts(stride(limit.contacts));
             orbit_.solve();
         }
         const auto orbit = limit.direct ? orbit_.shown(limit.gap) : std::nullopt;
@@ -118,7 +125,7 @@ private:
     /// The more contacts, the better the guess has to be, and the nearer the first solution is to it.
     bool start(double guess, std::size_t contacts, const std::vector<double>& state, std::string& problem) {
         std::vector<std::size_t> numbers;
-        for (const std::size_t more : {0U, 4U, 8U, 16U})
+        for (const std::size_t more : {0U, 4U, 8U, 16U, 32U, 64U, 128U})
             numbers.push_back(std::max<std::size_t>(contacts, 4) + more);
         for (std::size_t fewer = numbers.front() - 1; fewer > 1; --fewer)
             numbers.push_back(fewer);
@@ -147,14 +154,25 @@ private:
         return {estimates.back().first, error + (high - low)};
     }
 
-    std::pair<double, double> estimate(const SelfSimilarContacts& known) const {
+    /// Contacts from one value to the next: as many as halve what is left, which near a restitution of 1 are many.
+    static std::size_t stride(const SelfSimilarContacts& known) {
+        constexpr double most = 100;
+        const double halving = std::log(0.5) / std::log(known.times * known.ratio);
+        return static_cast<std::size_t>(std::clamp(std::round(halving), 1.0, most));
+    }
+
+    std::pair<double, double> estimate(const SelfSimilarContacts& one) const {
+        const auto more = static_cast<double>(stride(one));
+        const SelfSimilarContacts known{one.restitution, std::pow(one.times, more), std::pow(one.ratio, more),
+                                        one.speed};
         const double first = known.times * known.ratio;
         const std::array factors{first, first * known.times, first * known.times * known.times};
-        auto result = extrapolate(values_, factors);
-        constexpr std::size_t used = 4; // in a value, each with a weight of about one
+        const Extrapolated result = extrapolate(values_, factors);
+        constexpr std::size_t used = 4; // values in one that is extrapolated
+        double noise = 0;
         for (std::size_t k = noise_.size() - std::min(noise_.size(), used); k < noise_.size(); ++k)
-            result.second += noise_[k];
-        return result;
+            noise = std::max(noise, noise_[k]);
+        return {result.value, result.error + result.amplified * noise};
     }
 
     AccumulatingOrbit orbit_;
@@ -194,8 +212,10 @@ ChatterLimit chatter_limit(const System& system, std::span<const SpecialPoint> g
         return limit;
     const double ratio = limit.contacts.ratio;
     const std::array factors{ratio, ratio * limit.contacts.times, ratio * limit.contacts.times * limit.contacts.times};
-    if (values.size() > 3)
-        limit.extrapolated = extrapolate(values, factors);
+    if (values.size() > 3) {
+        const Extrapolated result = extrapolate(values, factors);
+        limit.extrapolated = {result.value, result.error};
+    }
     return limit;
 }
 

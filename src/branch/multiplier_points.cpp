@@ -52,7 +52,8 @@ void test_fold(const TestedPoint& point, std::vector<BranchTest>& tests) {
         test.value = point.tangent[place];
         test.noise = least_rise * point.at.scales[index(place)];
     } else {
-        test.value = is_kept(point, PointType::fold) ? nothing : point.at.system.periodic_determinant();
+        const bool kept = is_kept(point, PointType::fold) || is_kept(point, PointType::branch_point);
+        test.value = kept ? nothing : point.at.system.periodic_determinant();
         test.noise = point.at.system.periodic_noise();
     }
     tests.push_back(test);
@@ -110,7 +111,9 @@ std::vector<BranchStart> leave_asymmetry(const System& system, const SpecialPoin
 }
 
 void test_branch_point(const TestedPoint& point, std::vector<BranchTest>& tests) {
-    tests.push_back({.type = PointType::branch_point, .value = point.determinant, .singular = true});
+    tests.push_back({.type = PointType::branch_point,
+                     .value = is_kept(point, PointType::branch_point) ? nothing : point.determinant,
+                     .singular = true});
 }
 
 std::vector<BranchStart> leave_branch_point(const System& system, const SpecialPoint& point,

@@ -79,11 +79,15 @@ public:
         Continuation& continuation = state_.continuation();
         const std::size_t work_before = state_.problem().equations().work();
         if (!step_on_branch()) {
-            if (const std::string edge = touch_at_edge(); !edge.empty())
-                return end(BranchOutcome::undefined, edge);
+            if (const std::string edge = touch_at_edge(); !edge.empty()) {
+                if (!go_on_in_next_segment())
+                    return end(BranchOutcome::undefined, edge);
+                ++point.step;
+                return true;
+            }
             return end(continuation.outcome() == ContinuationOutcome::undefined ? BranchOutcome::undefined
                                                                                 : BranchOutcome::no_convergence,
-                       state_.problem().evaluation().problem);
+                       state_.problem().problem());
         }
         describe_here();
         const std::size_t work = state_.problem().equations().work() - work_before;
@@ -195,7 +199,7 @@ private:
         ended_ = !begun;
         if (!begun) {
             outcome = BranchOutcome::no_start;
-            detail = state_.problem().evaluation().problem;
+            detail = state_.problem().problem();
             if (detail.empty())
                 detail = fmt::format("{} from the orbit that was given", name_of(state_.continuation().outcome()));
             return false;
@@ -269,6 +273,52 @@ private:
                    ? fmt::format("the touch has come to the {} of segment {}", at_start ? "start" : "end",
                                  kept.segment + 1)
                    : "";
+    }
+    /// The touch that has come to an edge of its segment, in the one beside it: there the event's function has another
+    /// second rate, but no other value or speed.
+    bool go_on_in_next_segment() {
+        constexpr double distances[] = {1e-4, 1e-3, 1e-2}; // in units of the scales
+        constexpr double first_step = 1e-3;
+        constexpr std::size_t most = 100;
+        if (++reorderings_ > most)
+            return false;
+        OrbitProblem& problem = state_.problem();
+        const std::size_t steps = point.step, old = state_.settings().kept->segment;
+        const double share = state_.settings().kept->time / point.solution.orbit.durations[old];
+        const std::vector<double> u = problem.unknowns_of(point.solution.orbit);
+        if (!problem.evaluate(u))
+            return false;
+        const std::vector<double> tangent = problem.unknowns_of(point.tangent);
+        const double rise = point.tangent.parameters.front(), arclength = point.arclength;
+        std::vector<Orbit> guesses;
+        for (const double distance : distances) {
+            std::vector<double> there = u;
+            for (std::size_t i = 0; i < there.size(); ++i)
+                there[i] += distance * tangent[i];
+            guesses.push_back(problem.orbit_of(there));
+        }
+        for (const Orbit& guess : guesses) {
+            if (!state_.go_on_curve(guess, rise < 0 ? -1 : 1, arclength))
+                continue;
+            // The only segment of an orbit is its own neighbour: the touch goes on at its other end.
+            const SpecialPoint& kept = *state_.settings().kept;
+            const bool at_other_end =
+                (kept.time / guess.durations[kept.segment] < 0.5) != (share < 0.5) || kept.segment != old;
+            if (!at_other_end)
+                continue;
+            BranchPoint beyond;
+            std::vector<BranchTest> tests;
+            if (!state_.describe(state_.continuation().point(), beyond, tests) ||
+                !beyond.solution.certificate.admissible)
+                continue;
+            point = std::move(beyond);
+            point.step = steps;
+            tests_ = std::move(tests);
+            locator_.forget();
+            state_.continuation().set_next_step(first_step);
+            return true;
+        }
+        return false;
     }
     bool keeps_touch() const {
         const auto& kept = state_.settings().kept;

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace graze {
@@ -38,6 +39,8 @@ public:
 
     /// The evaluation that is at hand: of the last unknowns at which there was one.
     const OrbitEvaluation& evaluation() const { return at_; }
+    /// Why nothing could be evaluated or solved, if that is known.
+    virtual std::string problem() const { return at_.problem; }
     /// Unknowns that change as the orbit does, at the last evaluation. @throws InputError when the direction does not
     /// fit the orbit
     std::vector<double> unknowns_of(const OrbitDirection& direction) const;

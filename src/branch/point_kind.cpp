@@ -62,6 +62,7 @@ constexpr std::array table{
                        .changes = true,
                        .leads_on = true,
                        .may_stop = true,
+                       .may_be_kept = true,
                        .mark = 5},
               .test = test_branch_point,
               .leave = leave_branch_point},

@@ -178,8 +178,8 @@ void set_moments(Yield& result, const std::vector<double>& values, double confid
     const double spread = std::max(0.0, fourth / n - variance * variance);
     const double of_deviation = deviation > 0 ? z * std::sqrt(spread / n) / (2 * deviation) : 0;
     const double centre = result.nominal + mean;
-    result.mean = Estimate{centre, centre - of_mean, centre + of_mean};
-    result.deviation = Estimate{deviation, std::max(0.0, deviation - of_deviation), deviation + of_deviation};
+    result.mean = ConfidenceInterval{centre, centre - of_mean, centre + of_mean};
+    result.deviation = ConfidenceInterval{deviation, std::max(0.0, deviation - of_deviation), deviation + of_deviation};
 }
 
 /// The number of values below a quantile is binomial: limits are the values between which it lies with the confidence.
@@ -264,7 +264,7 @@ void YieldSettings::validate() const {
     solver.validate();
 }
 
-Estimate wilson_interval(std::size_t hits, std::size_t trials, double confidence) {
+ConfidenceInterval wilson_interval(std::size_t hits, std::size_t trials, double confidence) {
     require_share(confidence, "the confidence");
     if (trials == 0 || hits > trials)
         throw InputError(fmt::format("{} of {} is no share", hits, trials),

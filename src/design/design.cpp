@@ -17,6 +17,16 @@ Tolerance DesignTolerance::at(ParameterId parameter, double value) const {
     return {parameter, spread, share ? size * std::abs(value) : size};
 }
 
+void DesignDimension::require_first(double value) const {
+    if (!(least <= value && value <= greatest))
+        throw InputError(place,
+                         fmt::format("'{}' is {} at first, which is not from {} to {}", name, value, least, greatest),
+                         "give a range around it, or another value in `set`");
+    if (tolerance && tolerance->share && value == 0)
+        throw InputError(place, fmt::format("'{}' is zero, of which there are no percents", name),
+                         "give the tolerance in its unit");
+}
+
 bool Wanted::is_empty() const {
     return !least && !greatest && !value && !outcome && !overshoot && !least_reset && !clear && sensitivities.empty();
 }

@@ -254,6 +254,7 @@ DesignTolerance DesignReader::tolerance_of(const TomlEntry& entry) const {
 void DesignReader::read_dimension(const TomlEntry& entry) {
     DesignDimension dimension;
     dimension.name = entry.name;
+    dimension.place = entry.place;
     dimension.parameter = parameter_of(entry, entry.name);
     if (dimension.parameter == design_.control_parameter && !design_.control.empty())
         throw InputError(entry.place,
@@ -271,18 +272,11 @@ void DesignReader::read_dimension(const TomlEntry& entry) {
         else
             std::tie(dimension.least, dimension.greatest) = reader_.range(design_.model, item), ranged = true;
     });
-    const double value = design_.model.parameter_values()[dimension.parameter.place()];
     if (!ranged)
         throw InputError(entry.place, fmt::format("{} has no range", entry.path),
                          "give range = [A, B], within which it may be chosen");
-    if (!(dimension.least <= value && value <= dimension.greatest))
-        throw InputError(entry.place,
-                         fmt::format("'{}' is {} at first, which is not from {} to {}", entry.name, value,
-                                     dimension.least, dimension.greatest),
-                         "give a range around it, or another value in `set`");
-    if (dimension.tolerance && dimension.tolerance->share && value == 0)
-        throw InputError(entry.place, fmt::format("'{}' is zero, of which there are no percents", entry.name),
-                         "give the tolerance in its unit");
+    if (design_.approach.study.empty()) // whose runs may have other values
+        dimension.require_first(design_.model.parameter_values()[dimension.parameter.place()]);
     design_.dimensions.push_back(std::move(dimension));
 }
 

@@ -98,6 +98,10 @@ private:
             report_.reset.reason = "the device does not trip: contacts cease where they have begun";
             return;
         }
+        if (trip_.is_touch() && report_.found.outcome == GrazingOutcome::folds) {
+            report_.reset.reason = "the orbit goes on beyond the touch: it does not trip there";
+            return;
+        }
         const std::vector<double> overshoots = overshoots_of(design_.trip, report_.value, report_.found.verdict.side);
         ResetOptions options;
         options.overshoot = *std::max_element(overshoots.begin(), overshoots.end(),

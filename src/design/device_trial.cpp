@@ -1,5 +1,6 @@
 #include "graze/design/device_trial.hpp"
 
+#include "graze/branch/orbit_branch.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/trajectory/trajectory.hpp"
 
@@ -37,12 +38,47 @@ std::size_t own_contacts(const Model& model, const Orbit& whole, std::size_t eve
         }));
 }
 
+/// A fold is left along its branch, to the side whose orbits are stable. @return the fold itself if neither is
+Orbit before_fold(const TripPoint& trip, const Orbit& orbit, double value) {
+    constexpr double first = 1e-3; // of the unknowns' sizes
+    constexpr std::size_t most = 100;
+    for (const int way : {1, -1}) {
+        OrbitDirection along = trip.point.tangent;
+        const auto turn = [&](std::vector<double>& numbers) {
+            for (double& number : numbers)
+                number *= way;
+        };
+        std::for_each(along.starts.begin(), along.starts.end(), turn);
+        turn(along.durations);
+        turn(along.parameters);
+        BranchSettings settings;
+        settings.parameter = trip.control;
+        settings.steps = most;
+        settings.orbit.error_estimate = false;
+        OrbitBranch branch(trip.system, orbit, settings);
+        if (!branch.start_along(along, first))
+            continue;
+        do {
+            const BranchPoint& point = branch.point();
+            if (!point.stable)
+                break;
+            if ((value - point.parameter) * trip.fold_side >= 0)
+                return point.solution.orbit;
+        } while (branch.step());
+    }
+    return orbit;
+}
+
 /// Whether the orbit that was there before the trip point is, and the motion remains on it.
 void try_below(DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, const DeviceTrialOptions& options) {
-    Orbit candidate = orbit;
-    candidate.parameters[trip.control.place()] = trial.below;
     OrbitOptions numbers;
     numbers.error_estimate = false;
+    const bool fold = trip.point.type == PointType::fold;
+    Orbit candidate = fold ? before_fold(trip, orbit, trial.below) : orbit;
+    // Beside a fold are two orbits: the stable one is tried where it was met.
+    if (fold)
+        trial.below = candidate.parameters[trip.control.place()];
+    candidate.parameters[trip.control.place()] = trial.below;
     const OrbitSolution solution = solve_orbit(trip.system, candidate, numbers);
     if (solution.outcome != OrbitOutcome::converged) {
         trial.seen_below = "no orbit was found: " + solution.detail;

@@ -203,7 +203,7 @@ Table times_table(const DesignReport& report, const std::string& unit, const std
                  {"simulated_time", time_unit}});
     for (const TripTimeRow& row : report.times.rows) {
         table.add(row.overshoot);
-        table.add(row.predicted ? row.predicted->first_speed : nothing);
+        table.add(row.continued ? row.predicted->first_speed : nothing);
         const bool ended = row.predicted && row.predicted->ended;
         table.add(ended ? row.predicted->cycles : nothing);
         table.add(ended ? row.predicted->time : nothing);
@@ -274,6 +274,11 @@ Table facts_of(const Design& design, const TripPoint& trip, const DesignReport& 
               fmt::format("of {}, at {} of run '{}'", design.control, trip.label, trip.run));
     facts.add("class", class_name(report.found.outcome),
               report.found.reason.empty() ? fmt::format("at a {}", name_of(trip.point.type)) : report.found.reason);
+    for (const DesignDimension& one : design.dimensions)
+        for (const Sensitivity& by : report.sensitivities)
+            if (by.parameter == one.parameter)
+                facts.add("sensitivity_" + one.name, by.relative, "",
+                          fmt::format("percents of the trip value for one of {}", one.name));
     if (report.found.map && report.found.map->exists()) {
         facts.add("next_contact", static_cast<double>(report.found.verdict.next_contact), "",
                   "cycles from one contact to the next; 0 where they do not grow");

@@ -107,7 +107,7 @@ Reset reset_of(const TripPoint& trip, const Orbit& orbit, const ResetOptions& op
     try {
         OrbitOptions numbers;
         numbers.error_estimate = false;
-        tripped = find_orbit(system, settle, numbers, {}, options.interrupted);
+        tripped = find_orbit(system, settle, numbers, {}, [&] { return options.interrupted && options.interrupted(); });
     } catch (const InputError& error) {
         reset.reason = error.problem();
         return reset;

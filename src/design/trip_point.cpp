@@ -2,6 +2,7 @@
 
 #include "graze/results/stored_orbit.hpp"
 #include "graze/study/study_catalogue.hpp"
+#include "graze/symbolic/input_errors.hpp"
 #include "study/json.hpp"
 
 #include <fmt/format.h>
@@ -90,6 +91,20 @@ const SpecialPoint& with_condition(const SpecialPoint& point, const Place& place
     return point;
 }
 
+/// All that is wrong with the first device.
+void require_first(const Design& design, const Orbit& orbit) {
+    Mistakes mistakes;
+    for (const DesignDimension& one : design.dimensions)
+        mistakes.attempt([&] { one.require_first(orbit.parameters[one.parameter.place()]); });
+    mistakes.throw_noted();
+}
+
+/// Neighbours on a branch that turns lie on the side where there are orbits.
+int fold_side(const SpecialPoint& point) {
+    const double middle = 0.5 * (point.bracket.first + point.bracket.second);
+    return middle > point.parameter ? -1 : 1;
+}
+
 } // namespace
 
 Study approach_study(const Design& design) {
@@ -122,13 +137,16 @@ TripPoint find_trip_point(const Design& design, const Study& study, const Result
         const std::string leaves = name != last && next != study.runs.end() ? next->start->point : "";
         for (const std::string& label : run.special_labels()) {
             const OrbitRecord record = orbit_of_run(file, run.record, label, approach.place);
-            if (name == last && is_wanted(design, run.model, record.point, label))
+            if (name == last && is_wanted(design, run.model, record.point, label)) {
+                require_first(design, record.point.solution.orbit);
                 return {System(run.model),
                         with_condition(record.point, approach.place, label),
                         design.control_parameter,
                         name,
                         label,
-                        std::move(earlier)};
+                        std::move(earlier),
+                        fold_side(record.point)};
+            }
             if (record.point.type != PointType::end)
                 earlier.push_back(earlier_of(record, name, design.control_parameter));
             if (label == leaves)
@@ -176,6 +194,7 @@ TripClass class_at(const TripPoint& trip) {
     const SpecialPoint& point = trip.point;
     if (!trip.is_touch()) {
         const bool fold = point.type == PointType::fold;
+        result.verdict.side = trip.fold_side;
         result.outcome = fold ? GrazingOutcome::folds : GrazingOutcome::undecided;
         result.reason = fold ? "the branch of orbits turns: nothing remains beyond"
                              : fmt::format("what remains beyond a {} is not said", name_of(point.type));

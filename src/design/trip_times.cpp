@@ -1,11 +1,13 @@
 #include "graze/design/trip_times.hpp"
 
+#include "graze/branch/fold_passage.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/trajectory/trajectory.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace graze {
 
@@ -56,6 +58,15 @@ void add_touch_row(TripTimes& times, const TripPoint& trip, const TripClass& fou
         continued_trip(trip.system, *found.map, trip.control, overshoot, *row.predicted, request.end, options);
     if (std::abs(overshoot) >= least_overshoot(*found.map, trip.control))
         row.simulated = simulated_trip(trip.system, *found.map, trip.control, overshoot, request.end, options);
+}
+
+/// The motion that begins on the orbit as it was at the trip point.
+TripTime simulated_from_orbit(const TripPoint& trip, const Orbit& orbit, double overshoot, const TripEnd& end,
+                              const TripOptions& options) {
+    std::vector<double> parameters = orbit.parameters;
+    parameters[trip.control.place()] += overshoot;
+    return simulate_until(trip.system, parameters, orbit.starts.front(), orbit.signature.front().mode, orbit.period(),
+                          end, options);
 }
 
 } // namespace
@@ -111,6 +122,41 @@ TripTime simulate_until(const System& system, std::span<const double> parameters
     return trip;
 }
 
+namespace {
+
+/// Of a fold: the passage from its orbit on by the normal form, until it is far; and by simulation.
+void add_fold_rows(TripTimes& times, const TripPoint& trip, const Orbit& orbit, const TripRequest& request, int side,
+                   const TripOptions& options) {
+    SpecialPoint point = trip.point;
+    point.solution.orbit = orbit;
+    std::optional<FoldPassage> fold;
+    try {
+        fold = fold_passage(trip.system, point, trip.control);
+    } catch (const InputError&) { // it has no normal form that could be computed: simulation remains
+    }
+    const double value = orbit.parameters[trip.control.place()];
+    constexpr double digits = 1e-12; // of the parameter, to which a fold is known
+    for (const double overshoot : overshoots_of(request, value, side)) {
+        if (options.interrupted && options.interrupted())
+            return;
+        TripTimeRow& row = times.rows.emplace_back();
+        row.overshoot = overshoot;
+        if (fold && fold->attracting && overshoot * fold->side > 0) {
+            PredictedTrip& predicted = row.predicted.emplace();
+            predicted.cycles = cycles_of_passage(*fold, overshoot, 0, fold->gate);
+            predicted.time = predicted.cycles * fold->cycle;
+            predicted.ended = std::isfinite(predicted.time);
+            predicted.ending = "passage";
+        }
+        const bool short_enough = !row.predicted || row.predicted->cycles < options.cycles;
+        if (std::abs(overshoot) < digits * std::abs(value) || !short_enough)
+            continue;
+        row.simulated = simulated_from_orbit(trip, orbit, overshoot, request.end, options);
+    }
+}
+
+} // namespace
+
 TripTimes trip_times(const TripPoint& trip, const Orbit& orbit, const TripClass& found, const TripRequest& request,
                      const std::function<bool()>& interrupted) {
     TripTimes times;
@@ -118,34 +164,31 @@ TripTimes trip_times(const TripPoint& trip, const Orbit& orbit, const TripClass&
     options.cycles = request.cycles;
     options.interrupted = interrupted;
     const double value = orbit.parameters[trip.control.place()];
-    if (found.outcome == GrazingOutcome::lost && found.map && found.map->clearance_rate &&
-        *found.map->clearance_rate != 0) {
-        const double level = level_of_map(*found.map, found.verdict);
-        for (const double overshoot : overshoots_of(request, value, found.verdict.side)) {
-            if (interrupted && interrupted())
-                break;
-            add_touch_row(times, trip, found, request, overshoot,
-                          request.end.speed > 0 ? std::min(level, request.end.speed) : level, options);
-        }
+    if (trip.point.type == PointType::fold) {
+        add_fold_rows(times, trip, orbit, request, found.verdict.side, options);
         return times;
     }
-    if (trip.point.type != PointType::fold) {
+    if (found.outcome != GrazingOutcome::lost) {
         times.reason = found.outcome == GrazingOutcome::persists ? "the motion persists beyond the touch: nothing trips"
                        : found.outcome == GrazingOutcome::folds
                            ? "the orbit goes on beyond the touch, to a fold: design for that point"
                            : "it is not known whether the motion is lost: " + found.reason;
         return times;
     }
-    constexpr double digits = 1e-12; // of the parameter, to which a fold is known
-    for (const double overshoot : overshoots_of(request, value, 1)) {
-        if (std::abs(overshoot) < digits * std::abs(value) || (interrupted && interrupted()))
-            continue;
-        TripTimeRow& row = times.rows.emplace_back();
-        row.overshoot = overshoot;
-        std::vector<double> parameters = orbit.parameters;
-        parameters[trip.control.place()] += overshoot;
-        row.simulated = simulate_until(trip.system, parameters, orbit.starts.front(), orbit.signature.front().mode,
-                                       orbit.period(), request.end, options);
+    const bool mapped = found.map && found.map->exists() && found.map->clearance_rate &&
+                        *found.map->clearance_rate != 0 && found.verdict.side != 0;
+    const double level = mapped ? level_of_map(*found.map, found.verdict) : 0;
+    for (const double overshoot : overshoots_of(request, value, found.verdict.side)) {
+        if (interrupted && interrupted())
+            break;
+        if (mapped) {
+            add_touch_row(times, trip, found, request, overshoot,
+                          request.end.speed > 0 ? std::min(level, request.end.speed) : level, options);
+        } else { // the contact itself ends the motion
+            TripTimeRow& row = times.rows.emplace_back();
+            row.overshoot = overshoot;
+            row.simulated = simulated_from_orbit(trip, orbit, overshoot, request.end, options);
+        }
     }
     return times;
 }

@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace graze {
@@ -34,6 +36,24 @@ MappedValue mapped(const TripPoint& trip, LocatedValue& located, std::span<const
     if (solution.admissible)
         result.outcome = class_at(moved_to(trip, solution.orbit)).outcome;
     return result;
+}
+
+/// Points of a plane on a side of what is solved for from one device in its middle: the way from the trip point is then
+/// gone once for all of them.
+constexpr std::size_t tile = 8;
+
+/// The device in the middle of a tile, if there is one, and the solver that begins there.
+void begin_tile(const TripPoint& trip, LocatedValue& located, std::span<const double> values,
+                const MapSettings& settings, std::optional<TripPoint>& middle, std::optional<LocatedValue>& near) {
+    const LocatedSolution solution = located(values);
+    if (!solution.found || !solution.admissible)
+        return;
+    middle = moved_to(trip, solution.orbit);
+    try {
+        near.emplace(middle->system, middle->point, middle->control, located.others(), settings.solver);
+    } catch (const InputError&) { // nothing follows from others there
+        middle.reset();
+    }
 }
 
 /// Does numbered pieces of work on threads, each with a solver of its own.
@@ -66,7 +86,7 @@ public:
         };
         {
             std::vector<std::jthread> threads;
-            constexpr std::size_t enough = 32; // points for which a thread is worth its start
+            constexpr std::size_t enough = 8; // pieces for which a thread is worth its start
             const std::size_t jobs =
                 std::clamp<std::size_t>(count / enough, 1, static_cast<std::size_t>(settings_->jobs));
             for (std::size_t i = 1; i < jobs; ++i)
@@ -93,7 +113,10 @@ void set_limits(Tuning& tuning, const DesignDimension& stop, std::size_t nominal
     const auto problem_at = [&](const TuningPoint& point) -> std::string {
         if (!point.found || !point.admissible)
             return point.problem.empty() ? "the model would not come there" : point.problem;
-        return point.position < stop.least || point.position > stop.greatest ? "the stop's range ends" : "";
+        // The ends themselves are found again but for round-off.
+        const double rounding = 1e-9 * (stop.greatest - stop.least);
+        const bool beyond = point.position < stop.least - rounding || point.position > stop.greatest + rounding;
+        return beyond ? "the stop's range ends" : "";
     };
     std::size_t low = nominal, high = nominal;
     tuning.ends_below = tuning.ends_above = "the stop's range ends";
@@ -139,13 +162,30 @@ std::vector<MappedValue> value_curve(const TripPoint& trip, const DesignDimensio
 std::vector<MappedValue> value_plane(const TripPoint& trip, const DesignDimension& across, const DesignDimension& up,
                                      const MapSettings& settings) {
     settings.validate();
-    const std::size_t points = settings.points;
+    const std::size_t points = settings.points, tiles = (points + tile - 1) / tile;
     std::vector<MappedValue> result(points * points);
-    MapWork work(trip, {across.parameter, up.parameter}, settings);
-    work.each(points * points, [&](LocatedValue& located, std::size_t i) {
-        const double values[] = {spread_over(across.least, across.greatest, i % points, points),
-                                 spread_over(up.least, up.greatest, i / points, points)};
-        result[i] = mapped(trip, located, values);
+    const std::vector<ParameterId> others{across.parameter, up.parameter};
+    const auto values_at = [&](std::size_t i, std::size_t j) {
+        return std::array{spread_over(across.least, across.greatest, i, points),
+                          spread_over(up.least, up.greatest, j, points)};
+    };
+    MapWork work(trip, others, settings);
+    work.each(tiles * tiles, [&](LocatedValue& located, std::size_t t) {
+        const std::size_t left = t % tiles * tile, low = t / tiles * tile;
+        const std::size_t right = std::min(points, left + tile), high = std::min(points, low + tile);
+        std::optional<TripPoint> middle;
+        std::optional<LocatedValue> near;
+        if (tiles > 1)
+            begin_tile(trip, located, values_at((left + right) / 2, (low + high) / 2), settings, middle, near);
+        for (std::size_t j = low; j < high; ++j)
+            for (std::size_t i = left; i < right; ++i) {
+                MappedValue& one = result[j * points + i];
+                const auto values = values_at(i, j);
+                if (near)
+                    one = mapped(*middle, *near, values);
+                if (!one.found) // what is far from the trip point says more of why not
+                    one = mapped(trip, located, values);
+            }
     });
     if (work.stopped())
         result.clear();

@@ -75,6 +75,26 @@ private:
     std::string problem_;
 };
 
+/// The least projection of a contact on what comes after it, in units of the largest one. Each is measured by what the
+/// leading multiplier leaves of an effect until then: else all late ones would be small, whatever the class.
+std::optional<double> least_projection(const CycleMap& map, const Verdict& verdict) {
+    constexpr std::size_t looked_at = 100;
+    constexpr double faintest = 1e-200; // below which numbers lose their digits
+    const double leading = map.multipliers.empty() ? 1 : std::abs(map.multipliers.front());
+    double least = infinite, largest = 0, left = 1;
+    for (const double one : map.projections(looked_at)) {
+        if (!(left > faintest))
+            break;
+        least = std::min(least, one / left);
+        largest = std::max(largest, std::abs(one / left));
+        left *= leading;
+    }
+    if (!(largest > 0) || !std::isfinite(least / largest))
+        return std::nullopt;
+    // A contact that comes later still is no want that is met.
+    return verdict.outcome == GrazingOutcome::persists ? least / largest : std::min(least / largest, 0.0);
+}
+
 /// Makes the list.
 class WishMaker {
 public:
@@ -157,14 +177,7 @@ private:
                           const TripClass found = class_at(device);
                           if (!found.map || !found.map->exists())
                               return std::nullopt;
-                          constexpr std::size_t looked_at = 12;
-                          const std::vector<double> all = found.map->projections(looked_at);
-                          double least = infinite, largest = 0;
-                          for (const double one : all) {
-                              least = std::min(least, one);
-                              largest = std::max(largest, std::abs(one));
-                          }
-                          return largest > 0 ? std::optional(least / largest) : std::nullopt;
+                          return least_projection(*found.map, found.verdict);
                       });
     }
 

@@ -120,6 +120,12 @@ private:
     std::size_t seen_ = 0;
 };
 
+/// What one state does to another.
+struct Pull {
+    std::size_t to, from; ///< in sizes
+    double gain;
+};
+
 /// Raises the sizes of one state by those of another; whether any grew by much.
 template <std::size_t lanes>
 bool raise(double* to, const double* from, double gain) {
@@ -133,14 +139,35 @@ bool raise(double* to, const double* from, double gain) {
     return grown != 0;
 }
 
-bool raise(double* to, const double* from, double gain, std::size_t lanes) {
+/// The same for all pulls, one after the other.
+template <std::size_t lanes>
+bool sweep(std::span<const Pull> pulls, double* sizes) {
     bool grown = false;
-    std::size_t l = 0;
-    for (; l + 4 <= lanes; l += 4)
-        grown = raise<4>(to + l, from + l, gain) || grown;
-    for (; l < lanes; ++l)
-        grown = raise<1>(to + l, from + l, gain) || grown;
+    for (const Pull& pull : pulls)
+        grown = raise<lanes>(sizes + pull.to, sizes + pull.from, pull.gain) || grown;
     return grown;
+}
+
+bool sweep(std::span<const Pull> pulls, double* sizes, std::size_t lanes) {
+    if (lanes == 1)
+        return sweep<1>(pulls, sizes);
+    if (lanes == 2)
+        return sweep<2>(pulls, sizes);
+    if (lanes == 8)
+        return sweep<8>(pulls, sizes);
+    bool grown = false;
+    for (const Pull& pull : pulls)
+        for (std::size_t l = 0; l < lanes; ++l)
+            grown = raise<1>(sizes + pull.to + l, sizes + pull.from + l, pull.gain) || grown;
+    return grown;
+}
+
+/// Puts ones where the directions of the colours from one on are.
+void seed(std::span<double> seeds, std::size_t width, std::span<const std::size_t> colours, std::size_t first) {
+    std::fill(seeds.begin(), seeds.end(), 0.0);
+    for (std::size_t k = 0; k < colours.size(); ++k)
+        if (colours[k] >= first && colours[k] - first + 1 < width)
+            seeds[k * width + 1 + colours[k] - first] = 1;
 }
 
 } // namespace
@@ -153,6 +180,7 @@ Couplings::Couplings(const System& system, std::size_t mode)
     parameter_lanes_.assign(system.parameters() * width_, 0.0);
     find_entries(system.mode(mode).tape);
     find_colours();
+    seed(seeds_, width_, colours_, 0);
 }
 
 void Couplings::find_entries(const Tape& tape) {
@@ -237,16 +265,15 @@ void Couplings::measure(std::span<const double> states) {
     require_size(states.size(), states_, "states");
     const std::size_t lanes = width_ - 1;
     for (std::size_t first = 0; first < colour_count_; first += lanes) {
-        for (std::size_t k = 0; k < states_; ++k) {
-            std::fill_n(&seeds_[k * width_], width_, 0.0);
+        if (colour_count_ > lanes)
+            seed(seeds_, width_, colours_, first);
+        for (std::size_t k = 0; k < states_; ++k)
             seeds_[k * width_] = states[k];
-            if (colours_[k] >= first && colours_[k] < first + lanes)
-                seeds_[k * width_ + 1 + colours_[k] - first] = 1;
-        }
         jet_->begin(seeds_);
+        const std::span<const Series> series = jet_->series();
         for (Entry& entry : entries_)
             if (const std::size_t colour = colours_[entry.column]; colour >= first && colour < first + lanes)
-                entry.strength = std::abs(jet_->state(entry.row)[width_ + 1 + colour - first]);
+                entry.strength = std::abs(series[entry.row].first[width_ + 1 + colour - first]);
     }
     const bool finite =
         std::all_of(entries_.begin(), entries_.end(), [](const Entry& e) { return std::isfinite(e.strength); });
@@ -277,6 +304,31 @@ void Couplings::find_cycles() {
     });
     for (Entry& entry : entries_)
         entry.returns = entry.strength != 0 && components.of(entry.row) == components.of(entry.column);
+    sort_cycles();
+}
+
+void Couplings::sort_cycles() {
+    for (Sorted* sorted : {&in_rows_, &in_columns_})
+        *sorted = {{0}, {}, {}, {}};
+    for (std::size_t i = 0; i < states_; ++i) {
+        for (std::size_t e = row_starts_[i]; e < row_starts_[i + 1]; ++e)
+            if (entries_[e].returns && entries_[e].column != i) {
+                in_rows_.entries.push_back(e);
+                in_rows_.others.push_back(entries_[e].column);
+            }
+        for (const std::size_t e : columns_[i])
+            if (entries_[e].returns && entries_[e].row != i) {
+                in_columns_.entries.push_back(e);
+                in_columns_.others.push_back(entries_[e].row);
+            }
+        in_rows_.starts.push_back(in_rows_.entries.size());
+        in_columns_.starts.push_back(in_columns_.entries.size());
+    }
+}
+
+void Couplings::Sorted::note_strengths(const std::vector<Entry>& all) {
+    strengths.resize(entries.size());
+    std::ranges::transform(entries, strengths.begin(), [&](std::size_t e) { return all[e].strength; });
 }
 
 /// Gives each state a unit in which what acts on it, of those on which it acts again, is as large as what it does.
@@ -285,17 +337,17 @@ void Couplings::balance() {
     constexpr int most_sweeps = 20;
     constexpr double close = 1.5; // the bound is about as good then as it becomes
     std::fill(units_.begin(), units_.end(), 1.0);
+    in_rows_.note_strengths(entries_);
+    in_columns_.note_strengths(entries_);
     bool moved = true;
     for (int sweep = 0; sweep < most_sweeps && moved; ++sweep) {
         moved = false;
         for (std::size_t i = 0; i < states_; ++i) {
             double row = 0, column = 0;
-            for (std::size_t e = row_starts_[i]; e < row_starts_[i + 1]; ++e)
-                if (const Entry& entry = entries_[e]; entry.returns && entry.column != i)
-                    row += entry.strength * units_[entry.column];
-            for (const std::size_t e : columns_[i])
-                if (const Entry& entry = entries_[e]; entry.returns && entry.row != i)
-                    column += entry.strength / units_[entry.row];
+            for (std::size_t n = in_rows_.starts[i]; n < in_rows_.starts[i + 1]; ++n)
+                row += in_rows_.strengths[n] * units_[in_rows_.others[n]];
+            for (std::size_t n = in_columns_.starts[i]; n < in_columns_.starts[i + 1]; ++n)
+                column += in_columns_.strengths[n] / units_[in_columns_.others[n]];
             const double unit = std::sqrt(row / column);
             if (!(unit > 0 && std::isfinite(unit)))
                 continue;
@@ -323,25 +375,29 @@ void Couplings::spread(double time, std::span<double> sizes, std::size_t width, 
                        Through through) const {
     require_size(sizes.size(), states_ * width, "sizes of states");
     require_index(lanes, width + 1, "number of lanes");
-    const auto pull = [&](std::size_t e) {
-        const Entry& entry = entries_[e];
-        return entry.strength > 0 && entry.row != entry.column && (through == Through::all || entry.constant) &&
-               raise(&sizes[entry.row * width], &sizes[entry.column * width], time * entry.strength, lanes);
-    };
     // States are mostly counted along what they are the states of: in turn up and down. What has been passed is raised
     // at once, so that a chain is gone along in one sweep, however position and speed take turns in it.
+    std::vector<Pull> ways[2];
     bool grown = true;
-    for (std::size_t sweep = 0; sweep <= states_ && grown; ++sweep) {
-        const bool up = sweep % 2 == 0;
-        grown = false;
-        for (std::size_t count = 0; count < states_; ++count) {
-            const std::size_t i = up ? count : states_ - 1 - count;
-            for (std::size_t e = row_starts_[i]; e < row_starts_[i + 1]; ++e)
-                grown = pull(e) || grown;
-            for (const std::size_t e : columns_[i])
-                if (up ? entries_[e].row < i : entries_[e].row > i)
-                    grown = pull(e) || grown;
+    for (std::size_t count = 0; count <= states_ && grown; ++count) {
+        const bool up = count % 2 == 0;
+        std::vector<Pull>& way = ways[up ? 0 : 1];
+        if (count < 2) {
+            way.reserve(2 * entries_.size());
+            const auto pull = [&](const Entry& entry) {
+                if (entry.strength > 0 && entry.row != entry.column && (through == Through::all || entry.constant))
+                    way.push_back({entry.row * width, entry.column * width, time * entry.strength});
+            };
+            for (std::size_t n = 0; n < states_; ++n) {
+                const std::size_t i = up ? n : states_ - 1 - n;
+                for (std::size_t e = row_starts_[i]; e < row_starts_[i + 1]; ++e)
+                    pull(entries_[e]);
+                for (const std::size_t e : columns_[i])
+                    if (up ? entries_[e].row < i : entries_[e].row > i)
+                        pull(entries_[e]);
+            }
         }
+        grown = sweep(way, sizes.data(), lanes);
     }
 }
 

@@ -44,7 +44,9 @@ ModeFlow::ModeFlow(const System& system, double tolerance, int order, std::vecto
       directions_(starts_.size() + free_.size()), step_size_(order_of(tolerance, order), tolerance),
       step_check_(system, order_of(tolerance, order), tolerance), late_states_(system),
       single_(system, order_of(tolerance, order), LaneKind::single),
-      tangents_(system, single_.order(), tolerance, directions_) {
+      tangents_(system, single_.order(), tolerance, directions_), allowance_{StepCheck::allowance * tolerance,
+                                                                             StepCheck::value_allowance * tolerance,
+                                                                             StepCheck::smallest_size} {
     for (const ParameterId parameter : free_)
         require_index(parameter.place(), system.parameters(), "independent parameter");
     for (const std::size_t state : starts_)
@@ -53,6 +55,7 @@ ModeFlow::ModeFlow(const System& system, double tolerance, int order, std::vecto
     for (std::size_t f = 0; f < free_.size(); ++f)
         parameter_seeds_[free_[f].place() * directions_ + starts_.size() + f] = 1;
     sums_.resize(std::max<std::size_t>(states_, 1));
+    slopes_.resize(sums_.size());
     next_.resize(states_ * directions_);
     matrix_.resize(states_ * directions_);
 }
@@ -74,9 +77,28 @@ void ModeFlow::set_parameters(std::span<const double> parameters) {
     tangents_.set_parameters(parameters_, parameter_seeds_);
 }
 
+/// Looks at all states and events at once; what is found there begins the next step.
+bool ModeFlow::agrees(std::size_t mode, double length) {
+    if (!(length > 0))
+        return false;
+    const Jet& jet = single_(mode);
+    Jet& next = single_.next(mode);
+    jet.evaluate_states({&length, 1}, sums_, slopes_);
+    next.begin(std::span<const double>(sums_).first(states_));
+    double disagreement = 0;
+    jet.find_disagreement(next, allowance_, {&length, 1}, sums_, slopes_, {&disagreement, 1});
+    seen_ = length;
+    return disagreement <= 0;
+}
+
+bool ModeFlow::agrees_with_tangents(std::size_t mode, double length) {
+    return tangents_.agrees(mode, length, allowance_);
+}
+
 /// Length of the next step, with the sign of what remains: chosen from the series, and believed as far as the model
 /// agrees with them. @param watched events are looked at, whose functions must then be as accurate as the states
-double ModeFlow::step_of(std::size_t mode, const Jet& jet, double remaining, bool watched) {
+/// @param look tells of most steps that they are right; more is allowed by StepCheck, which is asked about the others
+double ModeFlow::step_of(std::size_t mode, const Jet& jet, double remaining, bool watched, EndLook look) {
     const std::span<const Series> all = jet.series(), series = watched ? all : all.first(states_);
     double step = step_size_(series, previous_);
     // A state that starts at almost zero, such as a phase of 1e-18, is no measure of its own changes.
@@ -91,8 +113,10 @@ double ModeFlow::step_of(std::size_t mode, const Jet& jet, double remaining, boo
     guarded_.assign(static_cast<std::size_t>(jet.width()), std::numeric_limits<double>::infinity());
     guarded_[0] = std::min(step, std::abs(remaining));
     jet.guard_steps(guarded_);
-    const double longest =
-        std::abs(step_check_.longest(mode, series, std::copysign(guarded_[0], remaining), leap, late_states_.floors()));
+    const double wanted = std::copysign(guarded_[0], remaining);
+    const double longest = !leap && (this->*look)(mode, wanted)
+                               ? guarded_[0]
+                               : std::abs(step_check_.longest(mode, series, wanted, leap, late_states_.floors()));
     if (longest < std::min(step, std::abs(remaining)))
         previous_ = longest;
     else if (bounded)
@@ -104,23 +128,23 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
     require_fitting(mode, state);
     if (!std::isfinite(duration))
         return Ending::undefined;
-    Jet& jet = single_(mode);
     double time = 0, remaining = duration;
     previous_ = 0;
     late_states_.begin();
     for (std::size_t count = 0; remaining != 0; ++count) {
         if (count >= most_steps)
             return Ending::too_long;
-        jet.compute(state);
-        const double step = step_of(mode, jet, remaining, static_cast<bool>(visit));
+        const Jet& jet = single_.computed(mode, state);
+        seen_ = 0;
+        const double step = step_of(mode, jet, remaining, static_cast<bool>(visit), &ModeFlow::agrees);
         if (std::isnan(step))
             return Ending::undefined;
         if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining)
             return Ending::singular;
         if (visit)
             visit(jet, time, step);
-        const double at[1] = {step};
-        jet.evaluate_states(at, sums_);
+        if (seen_ != step)
+            jet.evaluate_states({&step, 1}, sums_);
         std::copy_n(sums_.begin(), states_, state.begin());
         ++steps_;
         time += step;
@@ -164,7 +188,7 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
         if (count >= most_steps)
             return Ending::too_long;
         const Jet& jet = tangents_.begin(mode, state, matrix_);
-        const double wanted = step_of(mode, jet, remaining, looks);
+        const double wanted = step_of(mode, jet, remaining, looks, &ModeFlow::agrees_with_tangents);
         if (std::isnan(wanted))
             return Ending::undefined;
         if (looks)

@@ -39,7 +39,7 @@ RootFinder::Isolation::Isolation(RootFinder& finder, std::span<const double> c, 
 }
 
 void RootFinder::Isolation::load(std::size_t size) {
-    std::span<BernsteinCoefficient> b{finder_.coefficients_.data(), size};
+    std::span<BernsteinCoefficient> b{finder_.coefficients_.get(), size};
     double power = 1, sum = 0;
     std::size_t used = 0;
     zeros_ = size;
@@ -57,6 +57,7 @@ void RootFinder::Isolation::load(std::size_t size) {
         return;
     usable_ = true;
     power_ = {finder_.power_.data(), used};
+    finder_.find_reciprocals();
     reciprocals_ = {finder_.reciprocals_.data() + used * (used - 1) / 2, used};
     bernstein::from_power(row(0), reciprocals_);
     // Powers k u, coefficients 4 u, conversion (n + 2) u: together no more than 2 n + 8.

@@ -43,7 +43,7 @@ private:
     double first_scale_ = 0;
 
     std::span<BernsteinCoefficient> row(std::size_t i) {
-        return {finder_.coefficients_.data() + i * finder_.power_.size(), power_.size()};
+        return {finder_.coefficients_.get() + i * finder_.power_.size(), power_.size()};
     }
     bool is_fresh(const Node& node) const { return node.floor > 0 && node.scale <= first_scale_; }
     double place(double t) const { return length_ * t; }

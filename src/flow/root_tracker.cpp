@@ -14,18 +14,28 @@ constexpr int refinement_steps = 200;
 
 } // namespace
 
+// Even and odd terms side by side, by powers of the square: p(s) = e(s^2) + s o(s^2).
 PointValue evaluate(std::span<const double> c, double s) {
-    double value = 0, slope = 0, size = 0, size_slope = 0;
-#pragma GCC unroll 4
-    for (std::size_t k = c.size(); k-- > 0;) {
-        slope = slope * s + value;
-        value = value * s + c[k];
-        size_slope = size_slope * s + size;
-        size = size * s + std::abs(c[k]);
+    const double square = s * s;
+    double value[2] = {0, 0}, slope[2] = {0, 0}, size[2] = {0, 0}, size_slope[2] = {0, 0};
+    std::size_t k = c.size();
+    if (k % 2 == 1) {
+        value[0] = c[--k];
+        size[0] = std::abs(value[0]);
     }
-    const double degree = static_cast<double>(c.size());
-    return {value, slope, size, unit_roundoff * (4 * size + 2 * s * size_slope),
-            unit_roundoff * (2 * degree + 4) * size_slope};
+    for (const double* pair = c.data() + k; pair != c.data();) {
+        pair -= 2;
+        for (std::size_t j = 0; j < 2; ++j) {
+            slope[j] = slope[j] * square + value[j];
+            value[j] = value[j] * square + pair[j];
+            size_slope[j] = size_slope[j] * square + size[j];
+            size[j] = size[j] * square + std::abs(pair[j]);
+        }
+    }
+    const double degree = static_cast<double>(c.size()), all = size[0] + s * size[1],
+                 all_slopes = size[1] + 2 * s * (size_slope[0] + s * size_slope[1]);
+    return {value[0] + s * value[1], value[1] + 2 * s * (slope[0] + s * slope[1]), all,
+            unit_roundoff * (4 * all + 2 * s * all_slopes), unit_roundoff * (2 * degree + 4) * all_slopes};
 }
 
 double refine(std::span<const double> c, double low, double high, int sign_low, double guess) {

@@ -120,6 +120,17 @@ RootFinder::RootFinder(int highest_degree) : highest_degree_(std::max(highest_de
                          fmt::format("give a degree from 0 to {}", most));
     const std::size_t size = static_cast<std::size_t>(highest_degree_) + 1;
     reciprocals_.reserve(size * (size + 1) / 2);
+    power_.resize(size);
+    slope_.resize(size);
+    coefficients_ = std::make_unique_for_overwrite<BernsteinCoefficient[]>((Isolation::stack_rows + 1) * size);
+    stack_.reserve(Isolation::stack_rows);
+}
+
+/// Most polynomials need none: a trajectory that is made anew for a few periods should not pay for them.
+void RootFinder::find_reciprocals() {
+    if (!reciprocals_.empty())
+        return;
+    const std::size_t size = power_.size();
     for (std::size_t n = 0; n < size; ++n) {
         double binomial = 1;
         for (std::size_t k = 0; k <= n; ++k) {
@@ -127,10 +138,6 @@ RootFinder::RootFinder(int highest_degree) : highest_degree_(std::max(highest_de
             binomial = binomial * static_cast<double>(n - k) / static_cast<double>(k + 1);
         }
     }
-    power_.resize(size);
-    slope_.resize(size);
-    coefficients_.resize((Isolation::stack_rows + 1) * size);
-    stack_.reserve(Isolation::stack_rows);
 }
 
 RootFinder::Enclosure RootFinder::enclosure(std::span<const double> c, double length, RootStart start) {

@@ -34,6 +34,14 @@ Sizes sizes_at(const Series& c, std::size_t order, double s) {
     return sizes;
 }
 
+/// The first of these.
+double size_at(const Series& c, std::size_t order, double s) {
+    double size = 0;
+    for (std::size_t k = order + 1; k-- > 0;)
+        size = size * s + std::abs(c[k]);
+    return size;
+}
+
 /// Keeps the largest; what is no number is larger than any.
 void keep_most(double& most, double ratio) {
     most = std::isnan(ratio) ? infinity : std::max(most, ratio);
@@ -83,7 +91,7 @@ void StepCheck::find_errors(double s) {
         return;
     errors_known_ = true;
     for (std::size_t i = 0; i < states_; ++i)
-        input_errors_[i] = 4 * unit * sizes_at(series_[i], order_, std::abs(s)).value;
+        input_errors_[i] = 4 * unit * size_at(series_[i], order_, std::abs(s));
     system_.mode(mode_).evidence.error_bounds(inputs_, input_errors_, errors_, work_);
 }
 
@@ -93,7 +101,7 @@ double StepCheck::size_of_state(std::size_t i, double s) const {
     const Series& c = series_[i];
     double size = size_over(c[0], c[1], inputs_[i], truth_[i], s);
     if (c[0] == 0 && c[1] == 0 && c[2] == 0)
-        size = std::max({seen_[i], sizes_at(c, order_, s).value, smallest_size});
+        size = std::max({seen_[i], size_at(c, order_, s), smallest_size});
     return floors_.empty() ? size : std::max(size, floors_[i]);
 }
 
@@ -122,7 +130,7 @@ double StepCheck::misfit_of_values(double s) {
         const double value = evaluate_polynomial(c, order_ + 1, s), difference = std::abs(value - truth_[j]);
         if (difference == 0)
             continue;
-        const double sum = sizes_at(c, order_, length).value,
+        const double sum = size_at(c, order_, length),
                      first = std::abs(c[0]) + length * (std::abs(c[1]) + length * std::abs(c[2]));
         const double size = std::max(first > 0 ? first : sum, floors_.empty() ? 0 : floors_[j]);
         double allowed = value_allowance * tolerance_ * (size + smallest_size);
@@ -141,7 +149,7 @@ double StepCheck::misfit_of_sums(double s) {
     const double length = std::abs(s);
     for (std::size_t i = 0; i < states_; ++i) {
         const double size = size_of_state(i, length);
-        if (const double noise = 4 * unit * sizes_at(series_[i], order_, length).value; noise > 0)
+        if (const double noise = 4 * unit * size_at(series_[i], order_, length); noise > 0)
             keep_most(most, noise / (std::max(tolerance_, 64 * unit) * size));
     }
     return most;

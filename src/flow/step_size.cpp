@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -45,22 +44,42 @@ StepSize::StepSize(int order, double tolerance)
     require_tolerance(tolerance);
 }
 
+/// Logarithm to base 2 of the least step over which a term of a series comes to one of the first terms before it, or
+/// `known`, if that is less: most terms show without logarithms that it is.
+double StepSize::logarithm_of_change(const Series& c, double known) const {
+    constexpr std::size_t terms = 3; // those by which sizes are measured
+    constexpr double surely = 1 - 1e-9, tiny = 1e-290, huge = std::numeric_limits<double>::infinity();
+    double least = known, ratio = std::exp2(-least);
+    for (std::size_t j = 0; j < std::min(terms, order_); ++j) {
+        const double first = std::abs(c[j]);
+        if (!(first > 0 && first < huge))
+            continue;
+        double reached = first; // what the term before comes to over the least step, as a coefficient of this order
+        for (std::size_t k = j + 1; k <= order_; ++k) {
+            const double size = std::abs(c[k]);
+            reached *= ratio;
+            if (!(size > 0 && size < huge) || (size < surely * reached && reached > tiny))
+                continue;
+            const double distance = static_cast<double>(k - j);
+            if (const double change = (std::log2(first) - std::log2(size)) / distance; change < least) {
+                least = change;
+                ratio = std::exp2(-least);
+                reached = size;
+            }
+        }
+    }
+    return least;
+}
+
 double StepSize::operator()(std::span<const Series> states, double previous) const {
     if (previous > 0)
         return step_for(states, previous);
     // Without a previous step the sizes of states that start at zero are unknown: begin with a step over which
     // the state changes by about its own size, and let it settle.
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    constexpr std::size_t terms = 3; // those by which sizes are measured
-    double least = infinity;         // logarithm to base 2 of that step
-    std::array<double, highest_order + 1> logarithms;
-    for (const Series& c : states) {
-        for (std::size_t k = 0; k <= order_; ++k)
-            logarithms[k] = c[k] != 0 ? std::log2(std::abs(c[k])) : infinity;
-        for (std::size_t k = 1; k <= order_; ++k)
-            for (std::size_t j = 0; j < std::min(k, terms) && logarithms[k] < infinity; ++j)
-                least = std::min(least, (logarithms[j] - logarithms[k]) / static_cast<double>(k - j));
-    }
+    double least = infinity; // logarithm to base 2 of that step
+    for (const Series& c : states)
+        least = std::min(least, logarithm_of_change(c, least));
     double reference = std::isfinite(least) ? std::exp2(least) : 1;
     for (int sweep = 0; sweep < 3; ++sweep) {
         const double step = step_for(states, reference);
@@ -93,14 +112,17 @@ double StepSize::step_for(std::span<const Series> states, double reference) cons
 double StepSize::with_floors(std::span<const Series> states, double previous, std::span<const double> floors) const {
     require_room(floors.size(), states.size(), "floors of series");
     const double tolerance = std::exp2(log_tolerance_);
-    double step = std::numeric_limits<double>::infinity();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double at_last = infinity, at_before = infinity; // powers of the step
     for (std::size_t i = 0; i < states.size(); ++i) {
-        const double size = std::max(size_of(states[i], previous), floors[i]);
-        for (const std::size_t k : {order_, order_ - 1})
-            if (const double last = std::abs(states[i][k]); !(last <= 0))
-                step = std::min(step, std::pow(tolerance * size / last, 1.0 / static_cast<double>(k)));
+        const double size = tolerance * std::max(size_of(states[i], previous), floors[i]);
+        if (const double last = std::abs(states[i][order_]); !(last <= 0))
+            at_last = std::min(at_last, size / last);
+        if (const double before = std::abs(states[i][order_ - 1]); !(before <= 0))
+            at_before = std::min(at_before, size / before);
     }
-    return step;
+    return std::min(std::pow(at_last, 1.0 / static_cast<double>(order_)),
+                    std::pow(at_before, 1.0 / static_cast<double>(order_ - 1)));
 }
 
 double StepSize::size_of(const Series& c, double reference) const {

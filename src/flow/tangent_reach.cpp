@@ -15,6 +15,15 @@ namespace {
 /// Share of a step that derivatives are content with before other sizes than their own are asked for.
 constexpr double little_shorter = 0.8;
 
+/// Excess of rates over what is allowed from which on floors are worth asking for: so much is what a step of that share
+/// would take away.
+double worth_floors(int order) {
+    double excess = 1;
+    for (int k = 0; k < order; ++k)
+        excess /= little_shorter;
+    return excess;
+}
+
 void require_lanes(const Jet& jet, std::size_t states, std::size_t count) {
     require_index(count, static_cast<std::size_t>(jet.width()), "number of derivatives");
     if (states > 0)
@@ -39,22 +48,26 @@ public:
           width_(static_cast<std::size_t>(jet.width())), tolerance_(tolerance), times_(times), sums_(sums),
           slopes_(slopes) {}
 
-    /// The largest, in units of what is allowed.
-    double after(double step) {
+    /// The largest, in units of what is allowed; or, where that is so much that it no longer matters by how much, any.
+    double after(double step, double enough = std::numeric_limits<double>::infinity()) {
         evaluate(step);
-        return compare(step);
+        return here(step, enough);
+    }
+    /// The same where what is there has been evaluated.
+    double here(double step, double enough = std::numeric_limits<double>::infinity()) const {
+        return compare(step, enough);
     }
     /// The same as before, where floors allow more.
     double above(std::span<const double> floors, double step) {
         floors_ = floors;
-        return compare(step);
+        return compare(step, std::numeric_limits<double>::infinity());
     }
     /// From now on differences are allowed that there are for no other reason than round-off.
     /// @param known what of it is known, or none
     void measure_noise(double step, std::span<const double> known);
 
 private:
-    double compare(double step) const;
+    double compare(double step, double enough) const;
     double excess(std::size_t i, std::size_t lane, double apart, double size, double length) const;
     void evaluate(double step) {
         std::fill(times_.begin(), times_.end(), step);
@@ -74,13 +87,14 @@ private:
     std::vector<double> noise_; ///< of rates, states x count; none before it is measured
 };
 
-double Misfit::compare(double step) const {
+double Misfit::compare(double step, double enough) const {
     const double length = std::abs(step);
     const EndAllowance allowed{StepCheck::allowance * tolerance_, 0, StepCheck::smallest_size};
     const std::span<const Series> here = jet_.series(), there = next_.series();
     double most = 0;
     std::size_t i = 0;
-    while ((i = jet_.find_tangent_misfit(next_, allowed, states_, count_, length, sums_, slopes_, i)) < states_) {
+    while (most <= enough &&
+           (i = jet_.find_tangent_misfit(next_, allowed, states_, count_, length, sums_, slopes_, i)) < states_) {
         const double *c = here[i].first, *rates = there[i].first + width_;
         const double *ends = &sums_[i * width_], *slopes = &slopes_[i * width_];
         for (std::size_t l = 1; l <= count_; ++l) {
@@ -96,9 +110,12 @@ double Misfit::compare(double step) const {
 
 /// A difference in units of what is allowed, where it exceeds what the ends of the step allow. @param lane of the jet
 double Misfit::excess(std::size_t i, std::size_t lane, double apart, double size, double length) const {
-    size = std::max(size, size_of_all(jet_.series()[i].first + lane, width_, order_, length));
-    if (!floors_.empty())
+    if (!floors_.empty()) {
         size = std::max(size, floors_[i * width_ + lane]);
+        if (apart <= StepCheck::allowance * tolerance_ * size)
+            return 0;
+    }
+    size = std::max(size, size_of_all(jet_.series()[i].first + lane, width_, order_, length));
     const double noise = noise_.empty() ? 0 : length * noise_[i * count_ + lane - 1],
                  ratio = apart / ((StepCheck::allowance * tolerance_ + TangentCheck::round_off) * size + noise);
     return std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio;
@@ -131,34 +148,37 @@ double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, doub
         return step;
     // Sizes shrink with the step: a few rounds, each of which aims at a little less than what is allowed.
     constexpr double aim = 0.98;
-    const auto shorten = [&](std::span<const double> least) {
+    const auto shorten = [&](std::span<const double> least, double shortest) {
         for (int round = 0; round < 6 && worst > tolerance; ++round) {
             reach *= std::pow(aim * tolerance / worst, root);
+            if (reach < shortest)
+                return;
             worst = jet.tangent_tails(states, count, reach, least);
         }
     };
-    shorten({});
+    shorten({}, floors ? little_shorter * step : 0); // below, other sizes decide
     if (floors && !(reach >= little_shorter * step)) {
         const std::span<const double> least = floors();
         require_room(least.size(), states * static_cast<std::size_t>(jet.width()), "floors of derivatives");
         reach = step;
         worst = jet.tangent_tails(states, count, reach, least);
-        shorten(least);
+        shorten(least, 0);
     }
     return std::isfinite(reach) && reach > 0 ? reach : step;
 }
 
 double follow_tangents(const Jet& jet, Jet& next, std::size_t states, std::size_t count, double tolerance, double step,
                        std::span<double> times, std::span<double> sums, std::span<double> slopes,
-                       const TangentFloors& floors, const TangentFloors& noise) {
+                       const TangentFloors& floors, const TangentFloors& noise, bool seen) {
     require_lanes(jet, states, count);
     require_room(times.size(), static_cast<std::size_t>(jet.width()), "times");
     constexpr int most_halvings = TangentCheck::most_halvings;
     Misfit misfit(jet, next, states, count, tolerance, times, sums, slopes);
-    const double most = misfit.after(step);
+    const double much = floors ? worth_floors(jet.order()) : std::numeric_limits<double>::infinity();
+    const double most = seen ? misfit.here(step, much) : misfit.after(step, much);
     if (most <= 1)
         return step;
-    if (floors && most > std::pow(little_shorter, -jet.order())) {
+    if (floors && most > much) {
         const std::span<const double> least = floors();
         require_room(least.size(), states * static_cast<std::size_t>(jet.width()), "floors of derivatives");
         if (misfit.above(least, step) <= 1)

@@ -17,6 +17,7 @@ TangentSteps::TangentSteps(const System& system, int order, double tolerance, st
     sums_.resize(std::max<std::size_t>(states_, 1) * width);
     slopes_.resize(sums_.size());
     times_.resize(width);
+    disagreement_.resize(width);
     state_.resize(states_);
     floors_.resize(states_ * width);
     noise_.resize(floors_.size());
@@ -57,6 +58,7 @@ const Jet& TangentSteps::begin(std::size_t mode, std::span<const double> state, 
     require_size(matrix.size(), states_ * directions_, "derivatives");
     require_index(first, directions_, "direction");
     load_parameters(mode, first);
+    seen_ = 0;
     const std::size_t width = lanes_ + 1, count = count_from(first);
     for (std::size_t i = 0; i < states_; ++i) {
         seeds_[i * width] = state[i];
@@ -64,6 +66,19 @@ const Jet& TangentSteps::begin(std::size_t mode, std::span<const double> state, 
             seeds_[i * width + 1 + l] = l < count ? matrix[i * directions_ + first + l] : 0.0;
     }
     return jets_.computed(mode, seeds_);
+}
+
+bool TangentSteps::agrees(std::size_t mode, double length, const EndAllowance& allowed) {
+    if (!(length > 0))
+        return false;
+    const Jet& jet = jets_(mode);
+    Jet& next = jets_.next(mode);
+    std::fill(times_.begin(), times_.end(), length);
+    jet.evaluate_states(times_, sums_, slopes_);
+    next.begin(std::span<const double>(sums_).first(states_ * (lanes_ + 1)));
+    jet.find_disagreement(next, allowed, times_, sums_, slopes_, disagreement_);
+    seen_ = length;
+    return disagreement_[0] <= 0;
 }
 
 /// Measured where the step begins, once it is asked for.
@@ -110,14 +125,16 @@ std::span<const double> TangentSteps::noise_of(const Jet& jet, std::size_t mode,
     return noise_;
 }
 
-/// Follows a jet's series for a step or a part of it. @return how far; what is there is in `sums_`
-double TangentSteps::follow(const Jet& jet, std::size_t mode, std::size_t first, double length) {
+/// Follows a jet's series for a step or a part of it. @param seen whether what is at its end has been evaluated
+/// @return how far; what is there is in `sums_`
+double TangentSteps::follow(const Jet& jet, std::size_t mode, std::size_t first, double length, bool seen) {
     const std::size_t count = count_from(first);
     std::span<const double> known;
     const TangentFloors floors = [&] { return known.empty() ? known = floors_of(jet, mode, count, length) : known; };
     const double reach = tangent_reach(jet, states_, count, tolerance_, std::abs(length), floors);
+    const TangentFloors noise = [&] { return noise_of(jet, mode, count); };
     return follow_tangents(jet, jets_.next(mode), states_, count, tolerance_, std::copysign(reach, length), times_,
-                           sums_, slopes_, floors, [&] { return noise_of(jet, mode, count); });
+                           sums_, slopes_, floors, noise, seen && reach == length);
 }
 
 void TangentSteps::finish(const Jet& jet, std::size_t first, std::span<double> after, std::size_t output,
@@ -141,7 +158,7 @@ double TangentSteps::carry(std::size_t mode, std::span<const double> state, std:
     measured_ = nullptr;
     for (std::size_t first = 0; first < directions_; first += lanes_) {
         const Jet* jet = first == 0 ? &jets_(mode) : &begin(mode, state, matrix, first);
-        double part = follow(*jet, mode, first, length);
+        double part = follow(*jet, mode, first, length, first == 0 && seen_ == length);
         if (first == 0) {
             length = part;
             for (std::size_t i = 0; i < states_; ++i)

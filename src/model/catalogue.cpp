@@ -71,11 +71,8 @@ Model load_model(const std::string& name_or_path) {
         return read_model(name_or_path);
     if (const auto entry = find_in_catalogue(name_or_path))
         return parse_model(entry->text, name_or_path);
-    if (const auto modes = microbeam_modes(name_or_path)) {
-        MicrobeamOptions options;
-        options.modes = *modes;
-        return microbeam(options);
-    }
+    if (const auto member = microbeam_member(name_or_path))
+        return microbeam(*member);
     std::vector<std::string> names;
     for (const EmbeddedModel& model : embedded_models())
         names.emplace_back(model.name);

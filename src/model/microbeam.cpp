@@ -4,6 +4,7 @@
 #include "graze/symbolic/transform.hpp"
 #include "model/microbeam_quadrature.hpp"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -39,6 +40,8 @@ void require_sensible(const MicrobeamOptions& o) {
     constexpr int most_modes = 200;
     require(o.modes >= 1 && o.modes <= most_modes, "the number of modes is " + std::to_string(o.modes),
             "give a number between 1 and " + std::to_string(most_modes));
+    require(o.modes == 1 || o.trial == TrialFunctions::eigenmodes, "there is one polynomial only",
+            "ask for one mode, or for eigenmodes");
     require(o.thickness > 0 && o.width > 0, "thickness and width must be positive", "give the shape of a beam");
     require(o.gap > 0, "the gap must be positive", "give the distance of the electrode from the undeformed beam");
     require(o.gamma >= 0 && o.damping >= 0 && o.stop_stiffness >= 0,
@@ -68,9 +71,13 @@ public:
         add_stretching();
         add_electrostatics();
         add_stop();
-        add_events_and_jumps();
-        add_modes();
-        add_transitions();
+        if (options_.steady) {
+            add_steady_motion();
+        } else {
+            add_events_and_jumps();
+            add_modes();
+            add_transitions();
+        }
         add_sections_and_quantities();
         model_.validate();
         return std::move(model_);
@@ -83,6 +90,12 @@ private:
 
     static std::string numbered(const std::string& stem, int i) { return stem + std::to_string(i); }
     int count() const { return beam_.count(); }
+    bool polynomial() const { return options_.trial == TrialFunctions::polynomial; }
+    double frequency_of(int i) const { return polynomial() ? polynomial_.frequency() : beam_.frequency(i); }
+    double shape(int i, double x) const { return polynomial() ? polynomial_.shape(x) : beam_.shape(i, x); }
+    double slope_product(int i, int j) const {
+        return polynomial() ? polynomial_.slope_product() : beam_.slope_product(i, j);
+    }
     Expression symbol(std::string_view name) const { return model_.symbol(name); }
     Expression q(int i) const { return symbol(numbered("q", i)); }
     Expression v(int i) const { return symbol(numbered("v", i)); }
@@ -105,15 +118,21 @@ private:
         const bool simpson = options_.quadrature == Quadrature::simpson;
         const std::string rule = simpson ? "Simpson's rule with " + std::to_string(options_.points) + " intervals"
                                          : "Gauss's rule with " + std::to_string(options_.points) + " nodes";
-        model_.name = count() == 1 ? "microbeam" : numbered("microbeam-", count());
-        model_.text = "A doubly clamped microbeam is pulled by electrostatic pulses against a compliant stop. Its "
-                      "deflection is projected onto " +
-                      (count() == 1 ? std::string("the first eigenmode")
-                                    : "the first " + std::to_string(count()) + " eigenmodes") +
-                      " of the linear beam, and the electrostatic force is integrated by " + rule +
+        model_.name = polynomial()  ? "microbeam-polynomial"
+                      : count() > 1 ? numbered("microbeam-", count())
+                                    : std::string(options_.steady ? "microbeam-steady" : "microbeam");
+        const std::string functions = polynomial() ? "the polynomial x^2 (x - 1)^2"
+                                      : count() == 1
+                                          ? "the first eigenmode of the linear beam"
+                                          : "the first " + std::to_string(count()) + " eigenmodes of the linear beam";
+        model_.text = std::string("A doubly clamped microbeam is pulled by ") +
+                      (options_.steady ? "a steady voltage" : "electrostatic pulses") +
+                      " against a compliant stop. Its deflection is projected onto " + functions +
+                      ", and the electrostatic force is integrated by " + rule +
                       ". Nondimensional: lengths in units of the beam's length l, time in units of "
-                      "sqrt(rho b h l^4/(E I)). Closure of the gap to the electrode (snap-through) ends the motion: "
-                      "while the voltage is on it is singular, and while it is off an event.";
+                      "sqrt(rho b h l^4/(E I)). Closure of the gap to the electrode (snap-through) ends the motion: " +
+                      (options_.steady ? "it is singular."
+                                       : "while the voltage is on it is singular, and while it is off an event.");
         model_.source = "B. E. Wilcox, On the use of impact-induced nonlinearities in limit switch design, chapter 3: "
                         "Eqs. (3.7)-(3.17), (3.22), (3.23) and (3.30); section 3.4 for the parameters. The damping "
                         "factor is not given there: 0.05 agrees with what is.";
@@ -155,13 +174,13 @@ private:
 
     void add_stretching() {
         for (int i = 1; i <= count(); ++i) {
-            define(numbered("frequency_", i), numbered("modal frequency ", i), number(beam_.frequency(i)));
+            define(numbered("frequency_", i), numbered("modal frequency ", i), number(frequency_of(i)));
         }
         Expression stretch = number(0);
         for (int i = 1; i <= count(); ++i) {
             Expression slope = number(0);
             for (int j = 1; j <= count(); ++j) {
-                slope = added(slope, beam_.slope_product(i, j) * q(j));
+                slope = added(slope, slope_product(i, j) * q(j));
             }
             define(numbered("slope_", i), numbered("slope of the beam projected onto that of mode ", i), slope);
             stretch = added(stretch, symbol(numbered("slope_", i)) * q(i));
@@ -173,7 +192,7 @@ private:
     Expression partial_deflection(double x, int first) const {
         Expression sum = number(0);
         for (int i = first; i <= count(); i += 2) {
-            sum = added(sum, beam_.shape(i, x) * q(i));
+            sum = added(sum, shape(i, x) * q(i));
         }
         return sum;
     }
@@ -215,7 +234,7 @@ private:
                 const Expression& pressures = i % 2 == 1 ? sum : difference;
                 if (!pressures.empty()) {
                     Expression& pull = pulls[static_cast<std::size_t>(i - 1)];
-                    pull = added(pull, node.weight * beam_.shape(i, node.x) * pressures);
+                    pull = added(pull, node.weight * shape(i, node.x) * pressures);
                 }
             }
         }
@@ -228,9 +247,9 @@ private:
     void add_stop() {
         Expression deflection = number(0), velocity = number(0);
         for (int i = 1; i <= count(); ++i) {
-            const double shape = beam_.shape(i, options_.stop_position);
-            deflection = added(deflection, shape * q(i));
-            velocity = added(velocity, shape * v(i));
+            const double there = shape(i, options_.stop_position);
+            deflection = added(deflection, there * q(i));
+            velocity = added(velocity, there * v(i));
         }
         const std::string where = "of the beam at the stop, x = " + to_string(number(options_.stop_position));
         const Expression w = define("deflection", "deflection " + where, deflection);
@@ -275,7 +294,7 @@ private:
                 rate = rate + pow(symbol("V"), 2.0) * symbol(numbered("pull_", i));
             }
             if (contact) {
-                rate = added(rate, beam_.shape(i, options_.stop_position) * symbol("stop_force"));
+                rate = added(rate, shape(i, options_.stop_position) * symbol("stop_force"));
             }
             rates.push_back(rate);
         }
@@ -291,6 +310,27 @@ private:
             {"contact_off", "voltage off, beam on the stop", rates(false, true), {pulse_start, leave, closure}},
         };
         model_.initial_mode = free_on;
+    }
+
+    /// The voltage is always on. The phase goes on turning, so that equilibria are orbits with a period.
+    void add_steady_motion() {
+        constexpr std::size_t free = 0, contact = 1;
+        model_.events = {{"touch", "the beam meets the stop", symbol("clearance"), EventKind::barrier},
+                         {"leave", "the beam leaves the stop", -symbol("clearance"), EventKind::barrier}};
+        model_.jumps[identity].map = model_.state_symbols();
+        model_.modes = {{"free", "beam clear of the stop", rates(true, false), {touch}},
+                        {"contact", "beam on the stop", rates(true, true), {leave}}};
+        model_.initial_mode = free;
+        for (const auto& [from, event, to] :
+             {std::array{free, std::size_t{touch}, contact}, std::array{contact, std::size_t{leave}, free}}) {
+            Transition transition;
+            transition.label = model_.modes[from].name + ":" + model_.events[event].name;
+            transition.mode = from;
+            transition.event = event;
+            transition.jump = identity;
+            transition.next = {{{}, "", to}};
+            model_.transitions.push_back(std::move(transition));
+        }
     }
 
     void add_transition(ModeIndex mode, EventIndex event, JumpIndex jump, std::optional<std::size_t> next) {
@@ -337,6 +377,7 @@ private:
 
     MicrobeamOptions options_;
     ClampedBeamModes beam_;
+    ClampedBeamPolynomial polynomial_;
     std::vector<NodePair> pairs_;
     Model model_;
 };
@@ -348,15 +389,24 @@ Model microbeam(const MicrobeamOptions& options) {
     return MicrobeamBuilder(options).build();
 }
 
-std::optional<int> microbeam_modes(std::string_view model_name) {
+std::optional<MicrobeamOptions> microbeam_member(std::string_view model_name) {
     constexpr std::string_view family = "microbeam-";
-    if (!model_name.starts_with(family) || model_name.substr(family.size()).starts_with('0'))
+    if (!model_name.starts_with(family))
         return std::nullopt;
-    const char* const end = model_name.data() + model_name.size();
-    int modes = 0;
-    const auto read = std::from_chars(model_name.data() + family.size(), end, modes);
+    const std::string_view member = model_name.substr(family.size());
+    MicrobeamOptions options;
+    if (member == "polynomial") {
+        options.trial = TrialFunctions::polynomial;
+        return options;
+    }
+    if (member == "steady") {
+        options.steady = true;
+        return options;
+    }
+    const auto read = std::from_chars(member.data(), member.data() + member.size(), options.modes);
     // One mode makes the member that is called by the family's own name.
-    return read.ec == std::errc() && read.ptr == end && modes > 1 ? std::optional(modes) : std::nullopt;
+    const bool number = !member.starts_with('0') && read.ec == std::errc() && read.ptr == member.data() + member.size();
+    return number && options.modes > 1 ? std::optional(options) : std::nullopt;
 }
 
 } // namespace graze

@@ -122,4 +122,29 @@ double ClampedBeamModes::slope_product(int i, int j) const {
     return -8 * product * product * (si - sj) / ((ki - kj) * (ki + kj) * (ki * ki + kj * kj));
 }
 
+namespace {
+
+constexpr double mean_square = 128.0 / 315; // of 16 x^2 (x - 1)^2
+
+} // namespace
+
+double ClampedBeamPolynomial::frequency() const {
+    return std::sqrt(1024.0 / 5 / mean_square);
+}
+
+double ClampedBeamPolynomial::shape(double x) const {
+    require_place(x);
+    const double root = x * (1 - x);
+    return 16 * root * root / std::sqrt(mean_square);
+}
+
+double ClampedBeamPolynomial::slope(double x) const {
+    require_place(x);
+    return 32 * x * (1 - x) * (1 - 2 * x) / std::sqrt(mean_square);
+}
+
+double ClampedBeamPolynomial::slope_product() const {
+    return 512.0 / 105 / mean_square;
+}
+
 } // namespace graze

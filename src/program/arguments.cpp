@@ -4,6 +4,8 @@
 #include "program/branch_arguments.hpp"
 #include "program/design_arguments.hpp"
 #include "program/help_arguments.hpp"
+#include "program/identify_arguments.hpp"
+#include "program/record_arguments.hpp"
 #include "program/study_arguments.hpp"
 
 #include <CLI/Config.hpp>
@@ -282,6 +284,7 @@ std::string explain_required(const std::string& message, const CLI::App& command
                        : missing == "POINT" ? "the point"
                        : missing == "FILE"  ? "the file"
                        : missing == "SHELL" ? "the shell"
+                       : missing == "WHAT"  ? "what to find"
                                             : missing,
                        name, all);
 }
@@ -330,6 +333,8 @@ void declare_arguments(CLI::App& app, Arguments& arguments) {
     declare_study_commands(app, arguments);
     declare_branch_commands(app, arguments);
     declare_design_command(app, arguments);
+    declare_record_commands(app, arguments);
+    declare_identify_command(app, arguments);
     declare_help_commands(app, arguments);
 }
 

@@ -105,10 +105,12 @@ struct GrazingArguments {
 };
 
 struct TripArguments {
-    std::string file, point, beside, parameter, until, plot, data;
-    std::vector<std::string> overshoots, disturbances;
-    std::optional<double> greatest_speed;
-    long cycles = 2000;
+    std::string file, point, beside, parameter, until, at, plot, data;
+    std::vector<std::string> overshoots, disturbances, ramps, waves, noises;
+    std::optional<double> greatest_speed, wave_period, memory;
+    std::optional<long> cycles; ///< none: 2000, and 100 under noise
+    std::size_t motions = 1000, seed = 1;
+    int jobs = 0; ///< 0: as many as there are cores
     OutputArguments output;
 };
 
@@ -125,6 +127,36 @@ struct DesignArguments {
     int jobs = 0; ///< 0: as many as there are cores
     bool quiet = false, list = false, show = false, no_pictures = false;
     OutputArguments output;
+};
+
+/// Numbers that are not given are missing; lists are still to be split.
+struct RecordArguments {
+    std::vector<std::string> files;
+    std::string columns, group;
+    std::vector<std::string> scales;
+    std::optional<double> from, to;
+    std::optional<double> pass, stop;
+    std::size_t every = 1;
+    std::string derivative;
+    std::size_t half_width = 0;
+    std::string what = "channels", reference, displacement;
+    std::vector<std::string> channels, negated, phases;
+    double level = 0, hysteresis = 0, least_jump = 0;
+    std::size_t window = 12, transition = 0, part = 0;
+    OutputArguments output;
+    std::string write, plot, data;
+};
+
+struct IdentifyArguments {
+    std::string what;
+    RecordArguments reading; ///< files, and what is done to them before; output and picture
+    std::string channel, displacement, voltage, current;
+    std::size_t peaks = 10, window = 12, transition = 0;
+    double least_jump = 0;
+    std::optional<double> gap, stiffness, frequency;
+    double gap_error = 0, stiffness_error = 0, clamped = 0;
+    std::vector<double> noise; ///< of displacement and current; empty: not given
+    std::string beta1, beta2;
 };
 
 struct InfoArguments {
@@ -156,6 +188,8 @@ struct Arguments {
     LadderArguments ladder;
     ToleranceArguments tolerance;
     DesignArguments design;
+    RecordArguments record;
+    IdentifyArguments identify;
     CheckArguments check;
     ModelsArguments models;
     SimulateArguments simulate;

@@ -63,14 +63,17 @@ At a touch whose verdict (graze grazing) is that the motion is lost: cycles and 
 moved beyond by each overshoot, until contacts are hard. The map of a cycle tells it for any overshoot, also for those that
 no simulation can see; the columns with `end` go on by simulation until the end that is asked for, and `simulated_time`
 is simulation alone, where the digits of the parameter allow it. At a fold (SN): cycles and time of the passage by its
-normal form, for any overshoot, and by simulation from before the fold to beyond it. POINT is written as for graze orbit.)";
+normal form, for any overshoot, and by simulation from before the fold to beyond it. With --ramp, --wave or --noise the
+parameter changes in time instead, and all is by simulation. POINT is written as for graze orbit.)";
 
 constexpr const char* trip_examples = R"(Examples:
   graze trip results GR1                           ten overshoots from 1e-2 to 1e-20 of the parameter's size
   graze trip results GR1 --until end               until the motion comes to its own end, as by snap-through
   graze trip results GR1 --overshoot 1e-3:1e-9 --until q=0.9
   graze trip results SN1 --overshoot 1e-2:1e-6     passage through a fold
-  graze trip results GR1 --beside SN1 --until end --plot trip.svg)";
+  graze trip results GR1 --beside SN1 --until end --plot trip.svg
+  graze trip results GR1 --ramp 1e-4:1e-8          the value at which it trips when the parameter rises
+  graze trip results GR1 --noise 0.001,0.002 --at 0.19)";
 
 constexpr const char* tolerance_text = R"(Say how far a special point depends on the other parameters.
 The value of the run's parameter at which the point lies, such as the voltage at which a switch trips, is a function of
@@ -160,6 +163,27 @@ void declare_grazing(CLI::App& app, GrazingArguments& arguments) {
     declare_table(command, arguments.output);
 }
 
+void declare_disturbances(CLI::App& command, TripArguments& arguments) {
+    const char* group = "Parameter that changes in time";
+    add(command, group, "--ramp", arguments.ramps, "RATES",
+        "It rises or falls steadily: rates by time, as a list or by decades");
+    add(command, group, "--wave", arguments.waves, "AMPLITUDES", "It swings about the value of --at");
+    add(command, group, "--wave-period", arguments.wave_period, "CYCLES", "Period of the wave (100)")
+        ->check(CLI::PositiveNumber);
+    add(command, group, "--noise", arguments.noises, "LEVELS",
+        "It is the value of --at plus noise of these standard deviations, constant in each cycle");
+    add(command, group, "--memory", arguments.memory, "CYCLES",
+        "After which the noise has forgotten all but 1/e of itself (0: at once)")
+        ->check(CLI::NonNegativeNumber);
+    add(command, group, "--at", arguments.at, "VALUE",
+        "Of the parameter at rest, before the point; of a ramp, where it begins");
+    add(command, group, "--motions", arguments.motions, "N", "How many under noise (1000)")
+        ->check(whole_number(1, 100'000'000));
+    add(command, group, "--seed", arguments.seed, "N", "Of the noise (1)")->check(whole_number(0, 1'000'000'000));
+    add(command, group, "--jobs", arguments.jobs, "N", "Threads (one for each core); results do not depend on them")
+        ->check(whole_number(1, 1024));
+}
+
 void declare_trip(CLI::App& app, TripArguments& arguments) {
     CLI::App& command = declare_of_point(app, "trip", trip_text, trip_examples, arguments);
     const char* group = "What to compute";
@@ -178,11 +202,13 @@ void declare_trip(CLI::App& app, TripArguments& arguments) {
         "End at a contact of this approach speed")
         ->check(CLI::PositiveNumber)
         ->excludes(until);
-    add(command, group, "--cycles", arguments.cycles, "N", "Cycles that are simulated at most (2000)")
+    add(command, group, "--cycles", arguments.cycles, "N",
+        "Cycles that are simulated at most (2000; 100 under noise; of a ramp those beyond the point)")
         ->check(whole_number(1, 1'000'000));
+    declare_disturbances(command, arguments);
     declare_table(command, arguments.output);
     group = "Picture";
-    add(command, group, "--plot", arguments.plot, "FILE", "Draw times instead, as svg, png or pdf");
+    add(command, group, "--plot", arguments.plot, "FILE", "Draw the table instead, as svg, png or pdf");
     declare_data(command, arguments.data);
 }
 

@@ -22,6 +22,8 @@ int grazing_command(const GrazingArguments& arguments, const Console& console);
 int trip_command(const TripArguments& arguments, const Console& console);
 int tolerance_command(const ToleranceArguments& arguments, const Console& console);
 int design_command(const DesignArguments& arguments, const Console& console);
+int record_command(const RecordArguments& arguments, const Console& console);
+int identify_command(const IdentifyArguments& arguments, const Console& console);
 
 /// Hands a table to the user: for people the columns that fit a terminal, unless all are asked for.
 /// @param kept names of columns that are shown in any case

@@ -1,10 +1,13 @@
 #include "program/completion.hpp"
 
 #include "graze/branch/special_point.hpp"
+#include "graze/design/design.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "program/identify_arguments.hpp"
+#include "program/record_arguments.hpp"
 #include "program/table_recorder.hpp"
 
 #include <fmt/format.h>
@@ -207,8 +210,12 @@ Choices choices_for(const CLI::App& app, const CLI::App& command, const Declared
             return {shipped_models(), true};
         if (name == "STUDY")
             return {shipped_studies(), true};
+        if (name == "DESIGN")
+            return {shipped_designs(), true};
         if (name == "COMMAND")
             return {commands, false};
+        if (name == "WHAT")
+            return {identify_kinds(), false};
         if (name == "SHELL")
             return {completion_shells(), false};
         return {of == "info" ? both(shipped_models(), shipped_studies()) : std::vector<std::string>(), name == "FILE"};
@@ -236,6 +243,8 @@ Choices choices_for(const CLI::App& app, const CLI::App& command, const Declared
     }
     if (starts("TABLE") && of == "simulate")
         return {table_kind_names(), false};
+    if (starts("TABLE") && of == "record")
+        return {record_table_names(), false};
     if (starts("TABLE"))
         return {{"points", "samples", "segments", "multipliers", "half_multipliers", "minima", "end_values", "runs"},
                 false};

@@ -31,7 +31,7 @@ void declare_design_command(CLI::App& app, Arguments& arguments) {
     const auto flag = [&](const char* group, const char* name, bool& value, const char* text) {
         return command.add_flag(name, value, text)->group(group);
     };
-    add("Where results go", "--output", design.folder, "DIR", "Folder, made if need be (the design's name)")
+    add("Where results go", "--output", design.folder, "FOLDER", "Folder, made if need be (the design's name)")
         ->check(not_empty());
     flag("Where results go", "--no-pictures", design.no_pictures, "Draw no page");
     flag("Instead of a design", "--list", design.list, "List the designs that come with graze");

@@ -152,8 +152,10 @@ MetWishes wished(const Design& design, const TripPoint& trip, const DesignReport
 }
 
 /// What calls for a look at the numbers.
-bool is_irregular(const DesignReport& report) {
-    return report.trial.outcome == TrialOutcome::contradicted || (report.yield && report.yield->failed > 0) ||
+bool is_irregular(const Design& design, const DesignReport& report) {
+    const bool other_class = design.wanted.outcome && report.found.outcome != *design.wanted.outcome;
+    return other_class || report.trial.outcome == TrialOutcome::contradicted ||
+           (report.yield && report.yield->failed > 0) ||
            (report.wishes && report.wishes->found.outcome != WishOutcome::met);
 }
 
@@ -217,7 +219,7 @@ int design_command(const DesignArguments& arguments, const Console& console) {
     }
     if (report.yield)
         tell(*report.yield, console);
-    return is_irregular(report) ? exit_irregular : exit_success;
+    return is_irregular(design, report) ? exit_irregular : exit_success;
 }
 
 } // namespace graze

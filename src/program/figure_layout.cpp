@@ -142,10 +142,12 @@ private:
     /// Texts that depend on how much room there is.
     void write_labels(std::size_t p) {
         const FigurePanel& panel = figure_->panels[p];
-        const double width = frame_width_ / font(), height = frame_height_ / font();
+        const double width = frame_width_ / font();
         titles_[p] = wrapped(panel.title, width, 2);
         x_labels_[p] =
             axis_label(panel.x_label, panel.x_words, panel.x_unit, page_.panels[p].x.power, width, figure_->symbols);
+        // Beside title and numbers below there is room for it as well.
+        const double height = (frame_height_ + 2 * std::min(room_above(p), room_of_axis(p))) / font();
         y_labels_[p] =
             axis_label(panel.y_label, panel.y_words, panel.y_unit, page_.panels[p].y.power, height, figure_->symbols);
     }

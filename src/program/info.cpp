@@ -48,7 +48,7 @@ void add_text_file(Facts& facts, const std::string& path) {
 void add_shipped(Facts& facts, const std::string& name) {
     const std::vector<std::string> studies = shipped_studies();
     const bool study = std::find(studies.begin(), studies.end(), name) != studies.end();
-    const bool model = find_in_catalogue(name).has_value() || microbeam_modes(name).has_value();
+    const bool model = find_in_catalogue(name).has_value() || microbeam_member(name).has_value();
     if (!study && !model) {
         std::vector<std::string> known = studies;
         for (std::string& model_name : shipped_models())

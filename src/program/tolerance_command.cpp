@@ -213,7 +213,7 @@ public:
     void add(const std::string& name, double value, const std::string& meaning) {
         add(name, value, nothing, nothing, meaning);
     }
-    void add(const std::string& name, const std::optional<Estimate>& one, const std::string& meaning) {
+    void add(const std::string& name, const std::optional<ConfidenceInterval>& one, const std::string& meaning) {
         if (one)
             add(name, one->value, one->low, one->high, meaning);
     }

@@ -1,9 +1,10 @@
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
+#include "program/disturbed_trips.hpp"
 #include "program/figure.hpp"
 #include "program/interrupt.hpp"
 #include "program/picture.hpp"
-#include "program/trip_point.hpp"
+#include "program/loss_point.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>
@@ -35,14 +36,14 @@ struct TripRow {
 
 /// All rows of one point.
 struct Trips {
-    TripPoint point;
+    LossPoint point;
     AskedEnd end;
     std::vector<TripRow> rows{};
     bool all_ended = true;
 };
 
 /// Those asked for, or ten from 1e-2 to 1e-20 of the size of the parameter, on the side on which the motion is lost.
-std::vector<double> overshoots_of(const TripPoint& point, const std::vector<std::string>& asked) {
+std::vector<double> overshoots_of(const LossPoint& point, const std::vector<std::string>& asked) {
     std::vector<double> values = numbers_by_decades(point.model(), asked, "--overshoot");
     if (!values.empty())
         return values;
@@ -55,9 +56,10 @@ std::vector<double> overshoots_of(const TripPoint& point, const std::vector<std:
     return values;
 }
 
-TripOptions options_of(const TripPoint& point, const TripArguments& arguments) {
+TripOptions options_of(const LossPoint& point, const TripArguments& arguments) {
     TripOptions options;
-    options.cycles = static_cast<double>(arguments.cycles);
+    constexpr long usual = 2000;
+    options.cycles = static_cast<double>(arguments.cycles.value_or(usual));
     options.disturbance = disturbance_of(point.model(), arguments.disturbances);
     options.interrupted = [] { return InterruptGuard::requested(); };
     if (point.fold && !options.disturbance.empty())
@@ -68,7 +70,7 @@ TripOptions options_of(const TripPoint& point, const TripArguments& arguments) {
 
 /// One more row. @return false when it was interrupted
 bool add_row(Trips& trips, double overshoot, const TripOptions& options) {
-    const TripPoint& point = trips.point;
+    const LossPoint& point = trips.point;
     TripRow row;
     row.overshoot = overshoot;
     bool ended = true;
@@ -234,7 +236,7 @@ void add_fold(FigurePanel& panel, const Trips& trips, const std::string& which) 
 }
 
 Figure figure_of(const std::vector<Trips>& all) {
-    const TripPoint& point = all.front().point;
+    const LossPoint& point = all.front().point;
     FigurePanel panel;
     panel.x_label = point.name + (point.side > 0 ? " beyond its " : " short of its ") + point.kind();
     if (all.size() > 1)
@@ -269,9 +271,13 @@ int trip_command(const TripArguments& arguments, const Console& console) {
     if (!arguments.plot.empty())
         picture_ending(arguments.plot, "--plot", {"svg", "png", "pdf"});
     const ResultFile file(result_path(arguments.file), ResultFile::Access::read);
+    if (is_disturbed(arguments))
+        return disturbed_trips(file, arguments, console);
+    if (!arguments.at.empty())
+        throw InputError(Place{"--at", 0, 0}, "nothing changes in time", "give --ramp, --wave or --noise too");
     std::vector<Trips> all;
     const auto add = [&](const std::string& name, const std::string& option) {
-        TripPoint point = trip_point(file, name, arguments.parameter, option);
+        LossPoint point = loss_point(file, name, arguments.parameter, option);
         AskedEnd end = end_of(point, arguments);
         all.push_back({std::move(point), std::move(end)});
     };

@@ -141,7 +141,7 @@ WithDerivative::WithDerivative(SampleSource& source, const DerivativeSettings& s
                          "choose 4 or more, or 0 for the best");
     RecordHeader& header = state_->header = source.header();
     const Channel& channel = header.channels[settings.channel];
-    const std::string name = settings.name.empty() ? "d" + channel.name + "/d" + header.time.name : settings.name;
+    const std::string name = settings.name.empty() ? channel.name + "_rate" : settings.name;
     const std::string unit =
         channel.unit.empty() || header.time.unit.empty() ? "" : fmt::format("{}/{}", channel.unit, header.time.unit);
     for (const Channel& one : header.channels)

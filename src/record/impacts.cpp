@@ -32,13 +32,16 @@ double noise_of(const std::vector<double>& values) {
     std::nth_element(differences.begin(), middle, differences.end());
     constexpr double median_of_normal = 0.6744897501960817, third_differences = 20; // 1 + 9 + 9 + 1
     double largest = 0, step = std::numeric_limits<double>::infinity();
+    std::size_t still = 0;
     for (std::size_t i = 1; i < values.size(); ++i) {
         largest = std::max(largest, std::abs(values[i]));
         const double difference = std::abs(values[i] - values[i - 1]);
+        still += difference == 0 ? 1 : 0;
         step = difference > 0 ? std::min(step, difference) : step;
     }
+    constexpr std::size_t often = 10; // one of so many
     // Numbers of few digits stand still and then jump by one: that is noise, too.
-    const double digits = std::isfinite(step) ? step / std::sqrt(12.0) : 0;
+    const double digits = often * still > values.size() && std::isfinite(step) ? step / std::sqrt(12.0) : 0;
     return std::max({*middle / (median_of_normal * std::sqrt(third_differences)), digits,
                      4 * std::numeric_limits<double>::epsilon() * largest});
 }
@@ -55,23 +58,27 @@ std::vector<double> side(std::size_t count, std::size_t transition, double offse
 struct Continued {
     double value = 0, slope = 0; ///< slope in units of one sample's distance, away from the impact
     double error = 0;            ///< of the value
-    double squares = 0;
 };
 
+/// A parabola, or a polynomial of higher degree where its next term stands out of the noise.
 /// @param samples of one side, nearest first. @param offset of the nearest from the impact, in samples
 Continued continued(const std::vector<double>& samples, std::size_t transition, double offset, double noise) {
-    const std::size_t degree = std::min<std::size_t>(parabola, samples.size() / 3);
+    constexpr std::size_t most = 5;
+    const std::size_t known = std::min(most, samples.size() / 2), least = std::min(parabola, samples.size() / 3);
     const auto scale = static_cast<double>(samples.size() + transition);
-    const LocalPolynomial fit(side(samples.size(), transition, offset, scale), degree);
+    const LocalPolynomial fit(side(samples.size(), transition, offset, scale), std::max(known, least));
     Continued result;
     double variance = 0;
-    for (std::size_t k = 0; k <= degree; ++k) {
+    for (std::size_t k = 0; k <= fit.degree(); ++k) {
         const double factor = fit.coefficient(k, samples.data());
+        constexpr double chance = 3;
+        if (k > least && std::abs(factor) < chance * noise)
+            break;
         result.value += factor * fit.at_zero(k);
         result.slope += factor * fit.slope_at_zero(k) / scale;
-        variance += fit.at_zero(k) * fit.at_zero(k);
+        variance += std::pow(noise * fit.at_zero(k), 2);
     }
-    result.error = noise * std::sqrt(variance);
+    result.error = std::sqrt(variance);
     return result;
 }
 
@@ -120,11 +127,13 @@ struct ImpactFinder::State {
         return size / (noise * value_noise + by_misfit + 1e-300);
     }
 
-    RecordedImpact impact_at(std::size_t i, std::size_t from, std::size_t to, double spacing) const;
+    RecordedImpact impact_at(std::size_t i, std::size_t from, std::size_t to, double spacing, double noise,
+                             double place_noise) const;
 };
 
 /// @param from,to rows between which there is no other impact, the last not among them
-RecordedImpact ImpactFinder::State::impact_at(std::size_t i, std::size_t from, std::size_t to, double spacing) const {
+RecordedImpact ImpactFinder::State::impact_at(std::size_t i, std::size_t from, std::size_t to, double spacing,
+                                              double noise, double place_noise) const {
     const Samples& rows = window.samples();
     const std::vector<double>& values = rows.values[settings.velocity];
     const std::size_t before = std::min(settings.window, i + 1 - std::min(i + 1, from + settings.transition)),
@@ -147,12 +156,11 @@ RecordedImpact ImpactFinder::State::impact_at(std::size_t i, std::size_t from, s
     if (settings.displacement) {
         const std::vector<double>& places = rows.values[*settings.displacement];
         const std::vector<double> first = rows_before(places), second = rows_after(places);
-        const double noise = noise_of(places);
         // Newton's method for the place at which both continuations are equal.
         constexpr int steps = 20;
         for (int step = 0; step < steps; ++step) {
-            const Continued a = continued(first, settings.transition, offset, noise),
-                            b = continued(second, settings.transition, 1 - offset, noise);
+            const Continued a = continued(first, settings.transition, offset, place_noise),
+                            b = continued(second, settings.transition, 1 - offset, place_noise);
             const double difference = b.value - a.value, slope = b.slope + a.slope;
             if (!(std::abs(slope) > 0))
                 break;
@@ -165,7 +173,6 @@ RecordedImpact ImpactFinder::State::impact_at(std::size_t i, std::size_t from, s
                 break;
         }
     }
-    const double noise = noise_of(values);
     const Continued a = continued(rows_before(values), settings.transition, offset, noise),
                     b = continued(rows_after(values), settings.transition, 1 - offset, noise);
     impact.time = rows.times[i] + offset * spacing;
@@ -200,6 +207,7 @@ bool ImpactFinder::next(std::vector<RecordedImpact>& impacts) {
     const Samples& rows = state.window.samples();
     const std::vector<double>& values = rows.values[state.settings.velocity];
     const double spacing = 1 / sampling_frequency(rows.times), noise = noise_of(values);
+    const double place_noise = state.settings.displacement ? noise_of(rows.values[*state.settings.displacement]) : 0;
     const std::size_t reach = state.settings.window + state.settings.transition;
     // Impacts beside the rows that are asked for are sought too, for they limit what tells of those among them.
     std::vector<double> sizes(rows.rows(), 0.0);
@@ -222,7 +230,7 @@ bool ImpactFinder::next(std::vector<RecordedImpact>& impacts) {
             continue;
         const std::size_t from = f > 0 ? found[f - 1] + 1 : 0,
                           to = f + 1 < found.size() ? found[f + 1] + 1 : rows.rows();
-        impacts.push_back(state.impact_at(found[f], from, to, spacing));
+        impacts.push_back(state.impact_at(found[f], from, to, spacing, noise, place_noise));
     }
     return true;
 }

@@ -189,17 +189,14 @@ std::vector<BranchPart> parts_from_orbit(const StudyRun& run, const System& syst
     return parts;
 }
 
+/// @param first the orbit of an earlier run from which it starts, if it does
 /// @return none when interrupted
 std::vector<BranchPart> parts_of(const Study& study, const StudyRun& run, const System& system, SharedFile& file,
-                                 const RunnerOptions& options) {
+                                 const std::optional<OrbitRecord>& first, const RunnerOptions& options) {
     const BranchRequest& branch = run.branch;
+    if (first)
+        return parts_from_orbit(run, system, run_named(study, run.start->run), *first);
     if (run.start) {
-        const StudyRun& parent = run_named(study, run.start->run);
-        if (parent.is_branch()) {
-            const OrbitRecord record =
-                file.with([&](const ResultFile& results) { return orbit_to_start_from(*run.start, parent, results); });
-            return parts_from_orbit(run, system, parent, record);
-        }
         const StartPoint start =
             file.with([&](const ResultFile& results) { return point_to_start_from(run, study, results); });
         const auto orbit = settled(run, system_at(run, start), options);
@@ -211,6 +208,14 @@ std::vector<BranchPart> parts_of(const Study& study, const StudyRun& run, const 
     return orbit ? both_directions(run, *orbit) : std::vector<BranchPart>();
 }
 
+/// The orbit of an earlier run from which a run starts, if it does.
+std::optional<OrbitRecord> first_orbit(const Study& study, const StudyRun& run, SharedFile& file) {
+    if (!run.start || !run_named(study, run.start->run).is_branch())
+        return std::nullopt;
+    const StudyRun& parent = run_named(study, run.start->run);
+    return file.with([&](const ResultFile& results) { return orbit_to_start_from(*run.start, parent, results); });
+}
+
 /// A curve that leads nowhere has failed.
 [[noreturn]] void refuse_curve(const StudyRun& run, const SpecialPoint& kept, const std::string& why) {
     throw InputError(run.start->place,
@@ -220,8 +225,8 @@ std::vector<BranchPart> parts_of(const Study& study, const StudyRun& run, const 
 }
 
 bool compute_orbit(const Study& study, const StudyRun& run, const System& system, SharedFile& file,
-                   const RunnerOptions& options, PointWriter& writer) {
-    const std::vector<BranchPart> parts = parts_of(study, run, system, file, options);
+                   const std::optional<OrbitRecord>& first, const RunnerOptions& options, PointWriter& writer) {
+    const std::vector<BranchPart> parts = parts_of(study, run, system, file, first, options);
     if (parts.empty())
         return false;
     const BranchPart& part = parts.front();
@@ -257,27 +262,18 @@ bool run_branch(const Study& study, const StudyRun& run, SharedFile& file, const
     const System system = at_place(run.place, run, [&] { return System(run.model); });
     PointWriter writer(run, file, options, report);
     report.points = 0;
+    const std::optional<OrbitRecord> first = first_orbit(study, run, file);
     if (run.kind == RunKind::orbit)
-        return compute_orbit(study, run, system, file, options, writer);
+        return compute_orbit(study, run, system, file, first, options, writer);
     if (run.kind == RunKind::ladder) {
-        const StudyRun& parent = run_named(study, run.start->run);
-        if (!parent.is_branch())
-            throw InputError(run.start->place, fmt::format("run '{}' has no grazings", parent.name),
+        if (!first)
+            throw InputError(run.start->place, fmt::format("run '{}' has no grazings", run.start->run),
                              "start from a run of kind \"continue\"");
-        const OrbitRecord first =
-            file.with([&](const ResultFile& results) { return orbit_to_start_from(*run.start, parent, results); });
-        return run_ladder(run, system, first, writer, options);
+        return run_ladder(run, system, *first, writer, options);
     }
-    if (run.kind == RunKind::curve && run.start && run.branch.keeps_point()) {
-        const StudyRun& parent = run_named(study, run.start->run);
-        if (parent.is_branch()) {
-            const OrbitRecord first =
-                file.with([&](const ResultFile& results) { return orbit_to_start_from(*run.start, parent, results); });
-            if (first.point.type == PointType::chatter)
-                return run_chatter_curve(run, system, first.point, writer, options);
-        }
-    }
-    const std::vector<BranchPart> parts = parts_of(study, run, system, file, options);
+    if (run.kind == RunKind::curve && first && run.branch.keeps_point() && first->point.type == PointType::chatter)
+        return run_chatter_curve(run, system, first->point, writer, options);
+    const std::vector<BranchPart> parts = parts_of(study, run, system, file, first, options);
     if (parts.empty())
         return false;
     bool any = false;

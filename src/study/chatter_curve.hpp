@@ -6,8 +6,7 @@
 
 namespace graze {
 
-/// Follows an onset of chatter in two parameters, by steps in the first of them: at each the second one is solved for.
-/// It so ends where it would turn in the first. A run of kind curve.
+/// Follows an onset of chatter in two parameters, past turns in either. A run of kind curve.
 /// @return whether it was finished rather than interrupted
 /// @throws InputError when none is found at the first point
 bool run_chatter_curve(const StudyRun& run, const System& system, const SpecialPoint& first, PointWriter& writer,

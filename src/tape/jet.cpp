@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -54,6 +56,16 @@ bool same_operands(const KernelStep& one, const KernelStep& other) {
     const KernelOperands& a = one.operands;
     const KernelOperands& b = other.operands;
     return a.result == b.result && a.left == b.left && a.right == b.right && a.third == b.third && a.terms == b.terms;
+}
+
+/// Which constants depend on parameters, and so may have derivatives.
+std::vector<char> movable_constants(const Tape& tape) {
+    std::vector<char> movable(tape.constants, 0);
+    std::fill_n(movable.begin(), tape.parameters, 1);
+    for (const ConstantInstruction& instruction : tape.constant_code)
+        if (movable[instruction.left] != 0 || movable[instruction.right] != 0)
+            movable[instruction.result] = 1;
+    return movable;
 }
 
 class TapeJet final : public Jet {
@@ -145,6 +157,12 @@ private:
         const double* from;
         double* to;
     };
+    /// A linear combination, of which one kernel or the other is right for what its coefficients are now.
+    struct Choice {
+        std::size_t link;
+        const KernelOperands* operands;
+        Kernel moving, fixed;
+    };
 
     void require_lanes(std::span<const double> values) const {
         require_room(values.size(), layout_.number, "numbers, one for each lane,");
@@ -159,9 +177,12 @@ private:
             throw std::invalid_argument(std::string("a tangent jet has no ") + what + ": its lanes are derivatives");
     }
     void find_operands(std::vector<Segment>& segments);
-    void find_chains(const std::vector<Segment>& segments);
+    void find_chains(const std::vector<Segment>& segments, const Tape& tape);
     void find_constants(const Tape& tape, const KernelTable& table);
     void compute_constants();
+    bool moves(const double* constant) const;
+    bool has_any(const KernelOperands& combination, const std::vector<char>& constants) const;
+    void choose_kernels();
     void set_states(std::span<const double> states);
     bool has_states(std::span<const double> states) const;
     void sort_series(const Tape& tape);
@@ -177,8 +198,11 @@ private:
     std::vector<TermOperands> terms_;
     std::vector<KernelLink> kernels_;
     std::vector<KernelOperands> operands_;
-    std::vector<Chain> chains_; ///< in their order
-    std::size_t beginning_ = 0; ///< chains of orders 0 and 1
+    std::vector<Choice> choices_;
+    std::vector<std::uint32_t> movable_; ///< constants that may have derivatives
+    std::vector<char> moving_;           ///< of each constant, whether it had derivatives when kernels were chosen
+    std::vector<Chain> chains_;          ///< in their order
+    std::size_t beginning_ = 0;          ///< chains of orders 0 and 1
     std::vector<KernelStep> constant_code_;
     std::vector<Copy> constant_copies_; ///< to rates and outputs that are constants
     std::vector<const double*> outputs_;
@@ -196,7 +220,8 @@ private:
 
 TapeJet::TapeJet(const Tape& tape, int order, LaneKind kind, const KernelTable& table)
     : table_(table), tangent_(kind == LaneKind::tangent), order_(order), states_(tape.states),
-      parameters_(tape.parameters), layout_(tape, order, table.width), memory_(layout_.size) {
+      parameters_(tape.parameters), layout_(tape, order, table.width), memory_(layout_.size),
+      moving_(tape.constants, 0) {
     const auto register_at = [&](std::uint32_t index) {
         return memory_.data() + layout_.registers + index * layout_.series;
     };
@@ -214,7 +239,7 @@ TapeJet::TapeJet(const Tape& tape, int order, LaneKind kind, const KernelTable& 
     if (order > 1)
         segments.push_back({finder.after_all(), order, true});
     find_operands(segments);
-    find_chains(segments);
+    find_chains(segments, tape);
 
     std::size_t constant_outputs = 0;
     for (const Tape::Location& location : tape.outputs) {
@@ -291,7 +316,11 @@ void TapeJet::find_operands(std::vector<Segment>& segments) {
     }
 }
 
-void TapeJet::find_chains(const std::vector<Segment>& segments) {
+void TapeJet::find_chains(const std::vector<Segment>& segments, const Tape& tape) {
+    const std::vector<char> movable = movable_constants(tape);
+    for (std::uint32_t i = 0; i < tape.constants; ++i)
+        if (movable[i] != 0)
+            movable_.push_back(i);
     std::size_t most = 0;
     for (const Segment& segment : segments)
         most += 2 * segment.steps.size() + 3;
@@ -312,7 +341,11 @@ void TapeJet::find_chains(const std::vector<Segment>& segments) {
                 length = 0;
             }
             if (step.kernel) {
-                kernels_.push_back({.kernel = step.kernel});
+                const bool may_move = step.fixed && has_any(*operands, movable);
+                if (may_move)
+                    choices_.push_back({kernels_.size(), operands, step.kernel, step.fixed});
+                // At first parameters are zero, without derivatives.
+                kernels_.push_back({.kernel = step.fixed ? step.fixed : step.kernel});
                 ++length;
             }
             ++operands;
@@ -320,6 +353,10 @@ void TapeJet::find_chains(const std::vector<Segment>& segments) {
         if (segment.order <= 1)
             beginning_ = chains_.size();
     }
+    // Those of one combination, at all orders, side by side.
+    std::stable_sort(choices_.begin(), choices_.end(), [](const Choice& a, const Choice& b) {
+        return std::pair(a.operands->third, a.operands->terms) < std::pair(b.operands->third, b.operands->terms);
+    });
     kernels_.push_back({.kernel = end_of_chain});
 }
 
@@ -347,10 +384,50 @@ void TapeJet::compute_constants() {
         step.kernel(&step.operands, &end, 0);
     for (const Copy& copy : constant_copies_)
         std::copy_n(copy.from, layout_.number, copy.to);
+    if (tangent_)
+        choose_kernels();
+}
+
+/// Whether a constant has derivatives.
+bool TapeJet::moves(const double* constant) const {
+    return std::any_of(constant + 1, constant + layout_.number, [](double derivative) { return derivative != 0; });
+}
+
+/// Most coefficients are the same whatever parameters do: half of the products of their combinations are zero.
+void TapeJet::choose_kernels() {
+    bool changed = false;
+    for (const std::uint32_t i : movable_) {
+        const char now = moves(memory_.data() + i * layout_.number) ? 1 : 0;
+        changed = changed || now != moving_[i];
+        moving_[i] = now;
+    }
+    if (!changed)
+        return;
+    const KernelOperands* last = nullptr;
+    bool moving = false;
+    for (const Choice& choice : choices_) {
+        const KernelOperands& o = *choice.operands;
+        if (!last || last->third != o.third || last->terms != o.terms)
+            moving = has_any(o, moving_);
+        last = &o;
+        kernels_[choice.link].kernel = moving ? choice.moving : choice.fixed;
+    }
+}
+
+/// Whether one of some constants is a coefficient of a linear combination.
+bool TapeJet::has_any(const KernelOperands& combination, const std::vector<char>& constants) const {
+    const auto is_one = [&](const double* coefficient) {
+        return constants[static_cast<std::size_t>(coefficient - memory_.data()) / layout_.number] != 0;
+    };
+    return combination.third ? is_one(combination.third)
+                             : std::any_of(combination.terms, combination.terms_end,
+                                           [&](const TermOperands& term) { return is_one(term.coefficient); });
 }
 
 void TapeJet::set_parameters(std::span<const double> parameters) {
     require_size(parameters.size(), parameters_ * layout_.number, "parameters of a jet");
+    if (std::memcmp(parameters.data(), memory_.data(), parameters.size_bytes()) == 0)
+        return;
     begun_ = false;
     std::ranges::copy(parameters, memory_.data());
     compute_constants();
@@ -366,8 +443,12 @@ void TapeJet::set_states(std::span<const double> states) {
         }
         return;
     }
+    constexpr std::size_t usual = 8; // known beforehand, it takes no call to copy them
     for (const double* from = states.data(); from != states.data() + states.size(); from += layout_.number) {
-        std::copy_n(from, layout_.number, to);
+        if (layout_.number == usual)
+            std::copy_n(from, usual, to);
+        else
+            std::copy_n(from, layout_.number, to);
         to += layout_.series;
     }
 }

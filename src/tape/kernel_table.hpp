@@ -103,7 +103,18 @@ struct TangentEnds {
 inline constexpr double smallest_derivative = 1e-200;
 
 /// Linear combinations of fewer terms than this have kernels of their own; row 0 is for all others.
-inline constexpr int combination_kernels = 5;
+inline constexpr int combination_kernels = 8;
+
+/// Kernels of linear combinations, by number of terms.
+struct CombinationKernels {
+    Kernel combination[combination_kernels];       ///< for orders above 0
+    Kernel combination_value[combination_kernels]; ///< at order 0, where the constant is added
+    /// All coefficients from 2 to the order that it is called with.
+    Kernel whole_combination[combination_kernels];
+    /// Coefficients of a state from a rate that is a linear combination which nothing else needs ...
+    Kernel state_combination[combination_kernels];
+    Kernel state_combination_value[combination_kernels]; ///< ... for coefficient 1 of the state
+};
 
 struct KernelTable {
     int width; ///< doubles for each number
@@ -111,19 +122,13 @@ struct KernelTable {
     Kernel series[series_operation_count][highest_order + 1];
     /// Instead of those, where not null, at the last order of a series: nothing is done there for the next.
     Kernel closing[series_operation_count][highest_order + 1];
-    /// By number of terms; for orders above 0.
-    Kernel combination[combination_kernels];
-    Kernel combination_value[combination_kernels]; ///< at order 0, where the constant is added
-    /// All coefficients from 2 to the order that it is called with.
-    Kernel whole_combination[combination_kernels];
-    /// Coefficients of a state from those of its rate, which is a series ...
-    Kernel state;
-    /// ... or a linear combination that nothing else needs.
-    Kernel state_combination[combination_kernels];
-    Kernel state_combination_value[combination_kernels]; ///< for coefficient 1 of the state
-    Kernel multiply_linear;                              ///< left operand of degree 1; orders above 0
-    Kernel function_of_linear;                           ///< y' = a' w, a of degree 1; orders above 0
-    Kernel minus_function_of_linear;                     ///< y' = -a' w
+    CombinationKernels combinations;
+    /// The same where no coefficient has derivatives; only for tangent jets.
+    CombinationKernels fixed_combinations;
+    Kernel state;                    ///< coefficients of a state from those of its rate, which is a series
+    Kernel multiply_linear;          ///< left operand of degree 1; orders above 0
+    Kernel function_of_linear;       ///< y' = a' w, a of degree 1; orders above 0
+    Kernel minus_function_of_linear; ///< y' = -a' w
     /// Both at order 0; the cosine goes to `third` (the argument is in `left`).
     Kernel sine_and_cosine;
     /// All coefficients from 2 to the order that they are called with, of an argument of degree 1, found likewise.

@@ -421,6 +421,11 @@ struct OneOrder {
     GRAZE_INLINE static V coefficient(const double* from) { return at<V>(from, 0); }
     GRAZE_INLINE static V term(const double* series, Order k) { return at<V>(series, k); }
 };
+/// ... the same with coefficients that have no derivatives ...
+template <class V>
+struct FixedCoefficients : OneOrder<V> {
+    GRAZE_INLINE static Factor coefficient(const double* from) { return {splat(*from)}; }
+};
 /// ... and those of one lane at as many orders as a register has room for.
 struct ManyOrders {
     GRAZE_INLINE static Pack zero() { return splat(0); }
@@ -460,15 +465,15 @@ GRAZE_INLINE auto combination(const KernelOperands& o, Order k) {
     }
 }
 
-template <class V>
+template <class V, class At>
 struct Combination {
     template <int count>
     GRAZE_INLINE static void run(const KernelOperands& o, Order k) {
-        put(o.result, k, combination<OneOrder<V>, count>(o, k));
+        put(o.result, k, combination<At, count>(o, k));
     }
     template <int count>
     GRAZE_INLINE static void run_value(const KernelOperands& o, Order) {
-        put(o.result, 0, combination<OneOrder<V>, count>(o, 0) + at<V>(o.right, 0));
+        put(o.result, 0, combination<At, count>(o, 0) + at<V>(o.right, 0));
     }
     template <int count>
     GRAZE_INLINE static void run_whole(const KernelOperands& o, Order highest) {
@@ -483,15 +488,15 @@ struct Combination {
     }
 };
 
-template <class V>
+template <class V, class At>
 struct StateCombination {
     template <int count>
     GRAZE_INLINE static void run(const KernelOperands& o, Order k) {
-        put(o.result, k, combination<OneOrder<V>, count>(o, k - 1) * inverse.of[k]);
+        put(o.result, k, combination<At, count>(o, k - 1) * inverse.of[k]);
     }
     template <int count>
     GRAZE_INLINE static void run_value(const KernelOperands& o, Order) {
-        put(o.result, 1, combination<OneOrder<V>, count>(o, 0) + at<V>(o.right, 0));
+        put(o.result, 1, combination<At, count>(o, 0) + at<V>(o.right, 0));
     }
 };
 

@@ -62,13 +62,15 @@ constexpr void fill_constants(KernelTable& table) {
     ((table.constant[static_cast<int>(operation)] = &chained<&constant<V, operation>>), ...);
 }
 
-template <class V, int... count>
-constexpr void fill_combinations(KernelTable& table, Indices<count...>) {
-    ((table.combination[count] = &chained<&Combination<V>::template run<count>>), ...);
-    ((table.combination_value[count] = &chained<&Combination<V>::template run_value<count>>), ...);
-    ((table.whole_combination[count] = &chained<&Combination<V>::template run_whole<count>>), ...);
-    ((table.state_combination[count] = &chained<&StateCombination<V>::template run<count>>), ...);
-    ((table.state_combination_value[count] = &chained<&StateCombination<V>::template run_value<count>>), ...);
+template <class V, class At, int... count>
+constexpr void fill_combinations(CombinationKernels& kernels, Indices<count...>) {
+    using Alone = Combination<V, At>;
+    using OfState = StateCombination<V, At>;
+    ((kernels.combination[count] = &chained<&Alone::template run<count>>), ...);
+    ((kernels.combination_value[count] = &chained<&Alone::template run_value<count>>), ...);
+    ((kernels.whole_combination[count] = &chained<&Alone::template run_whole<count>>), ...);
+    ((kernels.state_combination[count] = &chained<&OfState::template run<count>>), ...);
+    ((kernels.state_combination_value[count] = &chained<&OfState::template run_value<count>>), ...);
 }
 
 template <class Family, int... k>
@@ -116,7 +118,10 @@ constexpr KernelTable make_table() {
     fill_function<V, Operation::name, Recurrence::recurrence>(table, SeriesOperation::name);
     GRAZE_FUNCTIONS(GRAZE_ROW)
 #undef GRAZE_ROW
-    fill_combinations<V>(table, std::make_integer_sequence<int, combination_kernels>{});
+    constexpr auto counts = std::make_integer_sequence<int, combination_kernels>{};
+    fill_combinations<V, OneOrder<V>>(table.combinations, counts);
+    if constexpr (std::is_same_v<V, Tangent>)
+        fill_combinations<V, FixedCoefficients<V>>(table.fixed_combinations, counts);
     table.state = &chained<&state<V>>;
     table.multiply_linear = &chained<&multiply_linear<V>>;
     table.function_of_linear = &chained<&function_of_linear<V, false>>;

@@ -151,6 +151,17 @@ GRAZE_INLINE Tangent multiply_add(Tangent a, Tangent b, Tangent c) {
     const Tangent sum = GRAZE_FOR_PARTS(Tangent, multiply_add(value, b.part[i], c.part[i]));
     return add_directions(a, splat(b.part[0][0]), sum);
 }
+/// A number that has no derivatives, in all lanes.
+struct Factor {
+    Pack of;
+};
+GRAZE_INLINE Tangent operator*(Factor a, Tangent b) {
+    return GRAZE_FOR_PARTS(Tangent, a.of * b.part[i]);
+}
+GRAZE_INLINE Tangent multiply_add(Factor a, Tangent b, Tangent c) {
+    return GRAZE_FOR_PARTS(Tangent, multiply_add(a.of, b.part[i], c.part[i]));
+}
+
 template <class V>
 struct Numbers;
 

@@ -92,10 +92,10 @@ void StepFinder::add_states(int order, std::vector<KernelStep>& steps) const {
             steps.push_back({kernel, {register_at(i), register_at(rate.index), {}, {}, {}, {}}});
             continue;
         }
-        KernelOperands operands = combination_operands(tape_.code[combination]);
-        operands.result = register_at(i);
-        const auto& row = order == 1 ? table_.state_combination_value : table_.state_combination;
-        combinations.push_back({row[combination_row(tape_.code[combination])], operands});
+        combinations.push_back(
+            combination_step(tape_.code[combination], order == 1 ? &CombinationKernels::state_combination_value
+                                                                 : &CombinationKernels::state_combination));
+        combinations.back().operands.result = register_at(i);
     }
     steps.insert(steps.end(), combinations.begin(), combinations.end());
 }
@@ -119,6 +119,9 @@ void StepFinder::add_instructions(int order, std::vector<KernelStep>& steps) con
         const Kernel joint = order > 0 && i > 0 && !steps.empty() ? joint_kernel(i, order, steps.back()) : nullptr;
         if (joint)
             steps.back().kernel = joint;
+        else if (instruction.operation == SeriesOperation::linear_combination)
+            step = combination_step(instruction, order == 0 ? &CombinationKernels::combination_value
+                                                            : &CombinationKernels::combination);
         else
             step.kernel = kernel_of(instruction, order, step.operands);
         steps.push_back(step);
@@ -143,8 +146,7 @@ std::vector<KernelStep> StepFinder::after_all() const {
     std::vector<KernelStep> steps;
     for (std::size_t i = 0; i < tape_.code.size(); ++i)
         if (times_[i] == Time::after_all)
-            steps.push_back(
-                {table_.whole_combination[combination_row(tape_.code[i])], combination_operands(tape_.code[i])});
+            steps.push_back(combination_step(tape_.code[i], &CombinationKernels::whole_combination));
     return steps;
 }
 
@@ -175,7 +177,7 @@ Kernel StepFinder::joint_kernel(std::size_t i, int order, const KernelStep& befo
         return multiple && before.kernel == table_.series[row][order] ? table_.with_multiple[row][order] : nullptr;
     }
     const bool quotient = other.operation == SeriesOperation::divide && other.left == one.result;
-    return quotient && before.kernel == table_.combination[2] ? table_.divide_combination[order] : nullptr;
+    return quotient && before.kernel == table_.combinations.combination[2] ? table_.divide_combination[order] : nullptr;
 }
 
 bool StepFinder::starts_pair(std::size_t i) const {
@@ -223,10 +225,14 @@ std::size_t StepFinder::combination_row(const Instruction& instruction) {
     return count < combination_kernels ? count : 0;
 }
 
+KernelStep StepFinder::combination_step(const Instruction& instruction, CombinationRow row) const {
+    const std::size_t count = combination_row(instruction);
+    return {(table_.combinations.*row)[count], combination_operands(instruction),
+            (table_.fixed_combinations.*row)[count]};
+}
+
 Kernel StepFinder::kernel_of(const Instruction& instruction, int order, KernelOperands& operands) const {
     switch (instruction.operation) {
-    case SeriesOperation::linear_combination:
-        return (order == 0 ? table_.combination_value : table_.combination)[combination_row(instruction)];
     case SeriesOperation::multiply:
         if (order > 0 && std::min(tape_.degrees[instruction.left], tape_.degrees[instruction.right]) <= 1) {
             if (tape_.degrees[instruction.left] > 1)

@@ -21,6 +21,7 @@ struct Layout {
 struct KernelStep {
     Kernel kernel;
     KernelOperands operands;
+    Kernel fixed = nullptr; ///< instead, where no coefficient of a linear combination has derivatives; null: none
 };
 
 /// Finds the kernels and operands of the steps to be taken at each order, from orders 0 and 1 on; and of what can be
@@ -60,6 +61,8 @@ private:
     KernelOperands combination_operands(const Instruction& instruction) const;
     KernelOperands operands_of(const Instruction& instruction, std::uint32_t& reciprocals) const;
     static std::size_t combination_row(const Instruction& instruction);
+    using CombinationRow = Kernel (CombinationKernels::*)[combination_kernels];
+    KernelStep combination_step(const Instruction& instruction, CombinationRow row) const;
     /// May exchange operands where the kernel wants them in a certain order.
     Kernel kernel_of(const Instruction& instruction, int order, KernelOperands& operands) const;
 

@@ -140,8 +140,33 @@ TEST(ChatterLimit, of_an_oscillator_is_that_of_its_closed_form) {
     EXPECT_NEAR(limit.direct->first, known, limit.direct->second + 1e-12);
     EXPECT_LT(limit.extrapolated->second, 1e-4);
     EXPECT_NEAR(limit.extrapolated->first, known, limit.extrapolated->second);
-    EXPECT_LT(limit.gap, 1e-3);
-    EXPECT_NEAR(limit.orbit.round(), 2 * std::numbers::pi / omega, 1e-2);
+    // The last segment stands for all contacts to come: the orbit takes the whole period.
+    EXPECT_LT(limit.gap, 1e-8);
+    EXPECT_NEAR(limit.orbit.round(), 2 * std::numbers::pi / omega, 1e-10);
+}
+
+/// Near a restitution of 1 it takes hundreds of contacts until little is left.
+TEST(ChatterLimit, of_contacts_that_hardly_lose_speed) {
+    constexpr double restitution = 0.95, guessed = 0.3104;
+    const Model model = chattering_oscillator(restitution, 1, 1);
+    // The state in which the force stops holding the mass: x = s, v = 0, cos(theta) = s.
+    const Segment contact{0, SegmentEnd::event, 0};
+    const Orbit guess{
+        {contact}, {guessed}, {{guessed, 0, std::acos(guessed)}}, {2 * std::numbers::pi / omega}, std::nullopt};
+    const ChatterLimit limit = chatter_limit_near(model, guess, 0, model.independent_parameter("s"));
+    ASSERT_TRUE(limit.direct) << limit.problem;
+    EXPECT_GT(limit.orbit.segments(), 200U);
+    EXPECT_LT(limit.direct->second, 1e-8);
+    // By the closed form, halving an interval, as the secant method would need a better guess. (rho^6 / e^2)^n is 1e-10
+    // with n = 290, and more contacts are lost in round-off of extended precision.
+    const long double factor = self_similar_contacts(restitution).speed;
+    long double low = 0.310726L, high = 0.310728L;
+    constexpr int halvings = 60;
+    for (int i = 0; i < halvings; ++i) {
+        const long double middle = (low + high) / 2;
+        (Flights(middle, restitution).excess(290, factor) < 0 ? low : high) = middle;
+    }
+    EXPECT_NEAR(limit.direct->first, static_cast<double>(low), limit.direct->second + 1e-10);
 }
 
 TEST(ChatterLimit, does_not_depend_on_units) {
@@ -152,7 +177,7 @@ TEST(ChatterLimit, does_not_depend_on_units) {
         const ChatterLimit limit = limit_of_oscillator(chattering_oscillator(0.5, length, time), length, 6);
         ASSERT_TRUE(limit.direct) << limit.problem;
         EXPECT_NEAR(limit.direct->first / length, known.direct->first, known.direct->second);
-        EXPECT_LT(limit.direct->second / length, 1e-10);
+        EXPECT_LT(limit.direct->second / length, 3e-10); // round-off of the lowest flights that are used
     }
 }
 
@@ -175,7 +200,7 @@ TEST(ChatterLimit, of_the_microactuator) {
     // After each contact a frame slips for a time that falls with the speed: in the end nothing is left of that but
     // 0.5.
     EXPECT_NEAR(limit.contacts.restitution, 0.5, 1e-3);
-    EXPECT_LT(limit.direct->second, 5e-11);
+    EXPECT_LT(limit.direct->second, 1e-10);
     EXPECT_NEAR(limit.extrapolated.value().first, limit.direct->first, limit.extrapolated->second);
 }
 

@@ -534,7 +534,7 @@ TEST(Curves, need_a_point_that_can_be_kept_and_one_parameter_more) {
     BranchSettings settings;
     settings.parameter = model.independent_parameter("sigma");
     settings.kept = SpecialPoint{};
-    settings.kept->type = PointType::branch_point;
+    settings.kept->type = PointType::cusp;
     settings.free = {model.independent_parameter("omega")};
     EXPECT_THROW(settings.validate(model), InputError);
     settings.kept->type = PointType::fold;

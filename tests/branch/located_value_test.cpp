@@ -90,7 +90,8 @@ TEST(LocatedValue, of_the_mems_switch_is_the_published_one_and_its_derivatives_a
     const std::vector<std::string> names = model.independent_parameters();
     for (std::size_t i = 0; i < touch.others().size(); ++i) {
         // Central differences with Richardson's extrapolation: h is small against the width of the resonance, zeta.
-        // What is left is round-off of V by h / 4, some 1e-15 / 1e-4, a few times.
+        // What is left is round-off of V, 4.4e-16 of standard deviation from one zeta to the next: by h / 4 = 2.5e-6
+        // and magnified 1.4 times it is 1.8e-10, of which there may be four.
         const double step = 5e-4 * touch.values()[i];
         const auto difference = [&](double h) {
             double sides[2] = {0, 0};
@@ -105,7 +106,7 @@ TEST(LocatedValue, of_the_mems_switch_is_the_published_one_and_its_derivatives_a
         };
         const double once = difference(step), half = difference(step / 2), quarter = difference(step / 4);
         const double better = (4 * half - once) / 3, best = (4 * quarter - half) / 3;
-        EXPECT_NEAR((16 * best - better) / 15, touch.derivatives()[i], 3e-10) << names[touch.others()[i].place()];
+        EXPECT_NEAR((16 * best - better) / 15, touch.derivatives()[i], 7e-10) << names[touch.others()[i].place()];
     }
 }
 

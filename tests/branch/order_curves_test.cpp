@@ -247,13 +247,18 @@ TEST(OrderCurves, of_touches_go_on_where_other_events_change_their_order) {
     }
     EXPECT_NEAR(value_of(model, curve.points.back().solution, "omega"), 2.2, 1e-12);
     // The touch comes at the phase of the response, atan2(0.2 omega, 1 - omega^2): earlier the slower the force is, at
-    // last with the fixed event.
+    // 0.5 with the fixed event, and before that in the segment that this one ends.
     const Branch slower = curve_of(model, touches[0], settings, "omega", 0.1, 2.2, -1);
-    EXPECT_EQ(slower.outcome, BranchOutcome::undefined) << names(slower) << slower.detail;
-    EXPECT_TRUE(slower.detail.starts_with("the touch has come to the start of segment ")) << slower.detail;
-    const double last = value_of(model, slower.points.back().solution, "omega");
-    // A touch is found within its segment only, whose edge it reaches to within the smallest steps' share of it.
-    EXPECT_NEAR(std::atan2(0.2 * last, 1 - last * last), 0.5, 1e-4);
+    EXPECT_EQ(slower.outcome, BranchOutcome::bound) << names(slower) << slower.detail;
+    EXPECT_NEAR(value_of(model, slower.points.back().solution, "omega"), 0.1, 1e-12);
+    std::size_t before = 0, after = 0;
+    for (const BranchPoint& one : slower.points) {
+        const double omega = value_of(model, one.solution, "omega");
+        EXPECT_NEAR(one.parameter, force(omega), 1e-10);
+        ++(std::atan2(0.2 * omega, 1 - omega * omega) < 0.5 ? before : after);
+    }
+    EXPECT_GT(before, 5U);
+    EXPECT_GT(after, 5U);
 }
 
 TEST(OrderCurves, of_touches_pass_the_section_at_which_the_orbit_is_closed) {

@@ -153,6 +153,27 @@ TEST(PublishedBranches, testbed_grazes) {
     }
 }
 
+/// Below 7.69 Hz the touch comes at another end of the half that is followed.
+TEST(PublishedBranches, testbed_grazes_along_one_curve) {
+    Model model = load_model("electromagnetic-testbed");
+    model.set_parameter("f", 8);
+    model.set_parameter("V0", 3);
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("V0");
+    const Branch branch = follow_branch(model, settled(model, "phase0", 600).orbit, settings);
+    ASSERT_EQ(names(branch), "GR");
+    settings.kept = branch.special[0];
+    settings.free = {settings.parameter};
+    settings.parameter = model.independent_parameter("f");
+    settings.direction = -1;
+    for (const auto& [frequency, voltage] : {std::pair{7.0, 3.675357252066}, {6.25, 4.833263260865}}) {
+        settings.least = frequency;
+        const Branch curve = follow_branch(model, branch.special[0].solution.orbit, settings);
+        ASSERT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
+        EXPECT_NEAR(curve.points.back().solution.orbit.parameters[settings.free[0].place()], voltage, 1e-11);
+    }
+}
+
 TEST(PublishedBranches, testbed_orbit_of_three_periods) {
     Model model = load_model("electromagnetic-testbed");
     model.set_initial("I", 0.1);

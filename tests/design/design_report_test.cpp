@@ -39,9 +39,9 @@ TEST(DesignReport, OfTheMemsSwitchHasThePublishedValues) {
     EXPECT_EQ(report.planes.size(), 1U);
     ASSERT_TRUE(report.tuning && report.yield);
     EXPECT_EQ(report.yield->made, 50U);
-    // The device goes to other commands.
+    // The device goes to other commands; the value was solved for once more, to round-off.
     const Model device = parse_model(write_model(model_of_device(trip)), "device.toml");
-    EXPECT_NEAR(device.parameter_values()[device.independent_parameter("V").place()], report.value, 1e-15);
+    EXPECT_NEAR(device.parameter_values()[device.independent_parameter("V").place()], report.value, 1e-13);
 }
 
 TEST(DesignReport, OfAnOscillatorHasExactDerivatives) {

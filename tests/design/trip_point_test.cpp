@@ -6,6 +6,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace graze::testing {
 
 using ::testing::HasSubstr;
@@ -24,6 +27,15 @@ TEST(TripPoint, OfTheMemsSwitchIsThePublishedVoltage) {
     const TripClass found = class_at(trip);
     EXPECT_EQ(found.outcome, GrazingOutcome::lost);
     EXPECT_EQ(class_name(found.outcome), "trips");
+}
+
+TEST(TripPoint, OfTheDeviceIsTheSameInVolts) {
+    const TripPoint trip = trip_of(load_design("mems-switch-device"));
+    // Eq. (6.3), by hand: m w0^2 d^3 / (epsilon A / 2), with m in 1e-9 kg, w0 in 1e3/s, d in 1e-6 m, A in 1e-12 m^2.
+    const double w0 = 2e4 * std::numbers::pi;
+    const double unit = std::sqrt(2 * 14.6e-9 * w0 * w0 * 8e-18 / (8.8541878128e-12 * 250000e-12));
+    EXPECT_NEAR(trip.value(), 0.2013662121541341 * unit, 1e-12 * unit);
+    EXPECT_EQ(class_at(trip).outcome, GrazingOutcome::lost);
 }
 
 TEST(TripPoint, OfAStudyMayBeAFoldWithTheTouchBeforeIt) {

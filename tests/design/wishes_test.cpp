@@ -42,6 +42,32 @@ TEST(Wishes, ForASensitivityAreMetByTheDerivative) {
     EXPECT_NEAR(zeta * zeta / (root * root), 0.01, 1e-8);
 }
 
+TEST(Wishes, ForAClassAreMetBeyondItsBoundary) {
+    // Twice the natural frequency and more damping than critical has real positive multipliers: all persist. Below
+    // critical damping some later contact is always hit, and the class is the other one.
+    const std::string text = R"(name = "calm"
+model = "impact-oscillator"
+control = "amplitude"
+set = { zeta = 0.5, sigma = 0.2, omega = 2 }
+[approach]
+range = [0.05, 10]
+event = "stop"
+[trip]
+overshoots = [1e-3]
+[dimensions.zeta]
+range = [0.3, 1.6]
+[wanted]
+class = "persists"
+)";
+    const Design design = parse_design(text, "d.toml");
+    const TripPoint first = trip_of(design);
+    EXPECT_EQ(class_at(first).outcome, GrazingOutcome::lost);
+    const MetWishes met = meet_wishes(design, first);
+    ASSERT_EQ(met.found.outcome, WishOutcome::met) << met.found.reason;
+    EXPECT_EQ(class_at(trip_of(with_values(design, met.values()))).outcome, GrazingOutcome::persists)
+        << met.values().front();
+}
+
 TEST(Wishes, ForAWayBackThatIsNotThereAreRefused) {
     Design design = load_design("mems-switch");
     design.wanted.least_reset = 0.1;

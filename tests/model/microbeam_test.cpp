@@ -116,6 +116,25 @@ TEST(ClampedBeamModes, RefusesModesThatItDoesNotHave) {
     EXPECT_THROW(ClampedBeamModes(2).shape(0, 0.5), std::out_of_range);
 }
 
+TEST(ClampedBeamPolynomial, HasTheIntegralsOfTheChapter) {
+    // Eq. (3.20) with its integrals, Eq. (3.21), of which this is phi/Lambda_11^(1/2).
+    const double gap = 0.04, mass = 128 * gap * gap / 315, slopes = 512 * gap * gap / 105,
+                 curvatures = 1024 * gap * gap / 5;
+    const ClampedBeamPolynomial beam;
+    const auto curvature = [](double x) { return 32 * (1 - 6 * x + 6 * x * x); }; // of 16 x^2 (x - 1)^2
+    for (const double x : {0.0, 0.1, 0.37, 0.5, 0.9, 1.0}) {
+        EXPECT_NEAR(beam.shape(x) * std::sqrt(mass), 16 * gap * x * x * (x - 1) * (x - 1), 4 * epsilon);
+        EXPECT_NEAR(beam.shape(x), beam.shape(1 - x), 8 * epsilon);
+        EXPECT_NEAR(beam.slope(x), -beam.slope(1 - x), 32 * epsilon);
+    }
+    EXPECT_NEAR(integral([&](double x) { return beam.shape(x) * beam.shape(x); }), 1, 1e-12);
+    EXPECT_NEAR(integral([&](double x) { return beam.slope(x) * beam.slope(x); }), beam.slope_product(), 1e-11);
+    EXPECT_NEAR(beam.slope_product(), slopes / mass, 1e-13);
+    EXPECT_NEAR(beam.frequency() * beam.frequency(), curvatures / mass, 1e-12);
+    EXPECT_NEAR(integral([&](double x) { return gap * gap * curvature(x) * curvature(x); }), curvatures, 1e-12);
+    EXPECT_THROW(beam.shape(1.1), InputError);
+}
+
 /// Right-hand sides of Eq. (3.17), written out in numbers.
 class DirectBeam {
 public:
@@ -254,6 +273,62 @@ TEST(Microbeam, GaussAndSimpsonConvergeToTheSameForce) {
     }
 }
 
+/// Of the amplitude of Eq. (3.20) itself, whose trial function has the size of the gap, by Eqs. (3.19) and (3.21).
+TEST(Microbeam, OfThePolynomialIsThatOfTheChapter) {
+    MicrobeamOptions options;
+    options.trial = TrialFunctions::polynomial;
+    const Model model = microbeam(options);
+    EXPECT_EQ(model.name, "microbeam-polynomial");
+    EXPECT_EQ(model_warnings(model), std::vector<std::string>{});
+    const double gap = options.gap, mass = 128 * gap * gap / 315, slopes = 512 * gap * gap / 105,
+                 curvatures = 1024 * gap * gap / 5, unit = std::sqrt(mass);
+    const auto phi = [&](double x) { return 16 * gap * x * x * (x - 1) * (x - 1); };
+    for (const double q : {-0.15, 0.05, 0.4}) { // w = q phi; the middle of the beam is at q gap
+        const auto force = [&](double x) {
+            const double distance = gap - q * phi(x);
+            const double fringe = 0.204 + 0.6 * std::pow(options.thickness / options.width, 0.24);
+            return options.voltage * options.voltage / (distance * distance) *
+                   (1 + fringe * std::pow(distance / options.width, 0.76)) * phi(x);
+        };
+        double simpson = 0; // Eq. (3.23)
+        for (int k = 1; k < options.points; ++k)
+            simpson += (k % 2 == 1 ? 4.0 : 2.0) * force(k / 20.0) / (3.0 * options.points);
+        ASSERT_EQ(options.points, 20);
+        const double elastic = q * curvatures + options.gamma / 2 * q * q * q * slopes * slopes,
+                     stop = options.stop_stiffness * (q * phi(0.5) - options.stop_distance) * phi(0.5);
+        for (const bool on : {false, true})
+            for (const bool contact : {false, true}) {
+                const double expected = (-elastic + (on ? simpson : 0) - (contact ? stop : 0)) / mass;
+                const std::size_t mode = (on ? 0U : 1U) + (contact ? 2U : 0U);
+                const std::vector<double> rates =
+                    evaluate(model, model.modes[mode].rates, std::vector<double>{q * unit, 0, 1});
+                EXPECT_NEAR(rates[1] / unit, expected, 1e-12 * (1 + std::abs(expected))) << model.modes[mode].name;
+            }
+    }
+}
+
+TEST(Microbeam, UnderASteadyVoltageHasTheForcesOfThePulses) {
+    MicrobeamOptions options;
+    options.modes = 3;
+    const Model pulsed = microbeam(options);
+    options.steady = true;
+    const Model steady = microbeam(options);
+    EXPECT_EQ(model_warnings(steady), std::vector<std::string>{});
+    std::mt19937_64 random(6);
+    const std::vector<double> state = random_state(pulsed, 0.003, random);
+    EXPECT_EQ(evaluate(steady, steady.modes[0].rates, state), evaluate(pulsed, pulsed.modes[0].rates, state));
+    EXPECT_EQ(evaluate(steady, steady.modes[1].rates, state), evaluate(pulsed, pulsed.modes[2].rates, state));
+}
+
+TEST(Microbeam, MembersHaveNames) {
+    EXPECT_EQ(microbeam_member("microbeam-9").value().modes, 9);
+    EXPECT_EQ(microbeam_member("microbeam-polynomial").value().trial, TrialFunctions::polynomial);
+    EXPECT_TRUE(microbeam_member("microbeam-steady").value().steady);
+    for (const char* name : {"microbeam", "microbeam-", "microbeam-1", "microbeam-0", "microbeam-09", "microbeam-9x",
+                             "microbeam-x", "beam-9", "microbeam-99999999999999999999"})
+        EXPECT_FALSE(microbeam_member(name).has_value()) << name;
+}
+
 TEST(Microbeam, SymmetricMotionsStaySymmetric) {
     MicrobeamOptions options;
     options.modes = 5;
@@ -293,6 +368,11 @@ TEST(Microbeam, RefusesOptionsThatMakeNoSense) {
         return options;
     };
     EXPECT_THROW(microbeam(with([](auto& o) { o.modes = 0; })), InputError);
+    EXPECT_THROW(microbeam(with([](auto& o) {
+                     o.modes = 2;
+                     o.trial = TrialFunctions::polynomial;
+                 })),
+                 InputError);
     EXPECT_THROW(microbeam(with([](auto& o) { o.points = 7; })), InputError);
     EXPECT_THROW(microbeam(with([](auto& o) { o.points = 0; })), InputError);
     EXPECT_THROW(microbeam(with([](auto& o) { o.width = 0; })), InputError);

@@ -187,4 +187,66 @@ TEST_F(TripCommand, TellsThePassageThroughAFoldBesideATouch) {
     expect_refusal({results, "folding:GR1"}, "POINT: the verdict is undecided");
 }
 
+TEST_F(TripCommand, TellsWhereARampTrips) {
+    const std::string study = folder / "two-ends.toml";
+    std::ofstream(study) << two_ends;
+    const std::string results = run_only(study, {});
+    const Csv touch = table({results, "touching:GR1", "--ramp", "1e-5:1e-10"});
+    ASSERT_EQ(touch.rows.size(), 6U);
+    for (std::size_t row = 0; row < touch.rows.size(); ++row) {
+        const double rate = number(touch, row, "rate"), delay = number(touch, row, "delay");
+        EXPECT_NEAR(number(touch, row, "value") - 0.2013662121541341, delay, 1e-11);
+        EXPECT_NEAR(number(touch, row, "from") + rate * number(touch, row, "time"), number(touch, row, "value"), 1e-13);
+        EXPECT_NEAR(delay, number(touch, row, "delay_cycles") * rate * 2 * std::numbers::pi, 1e-9 * delay);
+        EXPECT_GT(number(touch, row, "delay_cycles"), 3);
+        EXPECT_LT(number(touch, row, "delay_cycles"), 10);
+    }
+    const Csv fold = table({results, "folding:SN1", "--ramp", "1e-6,1e-8", "--until", "q+delta=0"});
+    for (std::size_t row = 0; row < 2; ++row) // the stop is before infinity by some 20 cycles of the ramp
+        EXPECT_NEAR(number(fold, row, "delay"), number(fold, row, "predicted_delay"),
+                    30 * number(fold, row, "rate") * 2 * std::numbers::pi / 0.95);
+    const Csv late = table({results, "folding:SN1", "--ramp", "1e-8", "--until", "q+delta=0", "--cycles", "10"}, 3);
+    EXPECT_EQ(late.text(0, "ending"), "end-time");
+    EXPECT_EQ(late.text(0, "value"), "");
+    expect_refusal({results, "touching:GR1", "--ramp", "-1e-5"}, "give a positive rate");
+    expect_refusal({results, "touching:GR1", "--ramp", "0"}, "give a positive rate");
+    expect_refusal({results, "touching:GR1", "--ramp", "1e-5", "--at", "0.21"}, "is not before the point");
+    expect_refusal({results, "touching:GR1", "--at", "0.19"}, "nothing changes in time");
+    expect_refusal({results, "folding:SN1", "--ramp", "1e-6"}, "give --until EXPR=LEVEL or --until end");
+    expect_refusal({results, "folding:SN1", "--ramp", "1e-6", "--greatest-speed", "1"}, "a fold has no contact");
+}
+
+TEST_F(TripCommand, TellsHowSurelyAWaveOrNoiseTrips) {
+    const std::string results = run_only("mems-switch", {"free", "no_impact"});
+    const Csv wave = table({results, "GR1", "--wave", "1e-3,3e-3", "--at", "0.199"});
+    EXPECT_EQ(wave.text(0, "trips"), "no");
+    EXPECT_EQ(wave.text(1, "trips"), "yes");
+    const std::vector<std::string> words{results, "GR1",       "--noise", "0.002,0.004", "--at",
+                                         "0.199", "--motions", "100",     "--cycles",    "50"};
+    const auto with = [&](std::vector<std::string> further) {
+        further.insert(further.begin(), words.begin(), words.end());
+        return further;
+    };
+    const Csv noise = table(with({"--jobs", "1"}));
+    ASSERT_EQ(noise.rows.size(), 2U);
+    for (std::size_t row = 0; row < 2; ++row) {
+        EXPECT_EQ(number(noise, row, "probability"), number(noise, row, "trips") / 100);
+        EXPECT_LE(number(noise, row, "low"), number(noise, row, "probability"));
+        EXPECT_GE(number(noise, row, "high"), number(noise, row, "probability"));
+        EXPECT_EQ(noise.text(row, "failed"), "0");
+    }
+    EXPECT_LT(number(noise, 0, "trips"), number(noise, 1, "trips"));
+    EXPECT_EQ(table(with({"--jobs", "3"})).rows, noise.rows);
+    EXPECT_NE(table(with({"--memory", "3"})).rows, noise.rows);
+    std::vector<std::string> drawn = with({"--plot", folder / "noise.svg", "--data", folder / "noise.gp"});
+    drawn.insert(drawn.begin(), "trip");
+    EXPECT_EQ(run_graze(drawn).code, 0);
+    EXPECT_THAT(contents(folder / "noise.gp"), HasSubstr("probability of a trip"));
+    expect_refusal({results, "GR1", "--noise", "0.002"}, "give the value of V that is disturbed: --at VALUE");
+    expect_refusal({results, "GR1", "--noise", "-1", "--at", "0.199"}, "--noise: the level of noise -1");
+    expect_refusal({results, "GR1", "--wave", "1", "--noise", "1", "--at", "0.199"}, "only one of them");
+    expect_refusal({results, "GR1", "--wave", "1", "--at", "0.199", "--memory", "2"}, "nothing is random");
+    expect_refusal({results, "GR1", "--noise", "1", "--at", "0.199", "--overshoot", "1"}, "changes in time here");
+}
+
 } // namespace graze::testing

@@ -18,8 +18,8 @@ TEST(Derivative, OfPolynomialsOfFourthDegreeIsExact) {
     const auto p = [](double t) { return 1e3 + t * (2 + t * (-3 + t * (0.5 - 0.25 * t))); };
     StoredSamples source(named({"q"}), sampled(100, 500, {p}), 123);
     WithDerivative derived(source, {0, 6, ""});
-    EXPECT_EQ(derived.header().channels[1].name, "dq/dt");
-    EXPECT_EQ(derived.header().channels[2].name, "dq/dt_error");
+    EXPECT_EQ(derived.header().channels[1].name, "q_rate");
+    EXPECT_EQ(derived.header().channels[2].name, "q_rate_error");
     const Samples rows = read_all(derived, 1000);
     EXPECT_EQ(rows.rows(), 488U);
     for (std::size_t i = 0; i < rows.rows(); ++i) {

@@ -130,6 +130,12 @@ TEST(Impacts, AreNotSeenInSmoothMotionsAndNoise) {
     }
 }
 
+TEST(Impacts, AreNotSeenInStepsOfFewDigits) {
+    StoredSamples source(named({"v"}),
+                         sampled(1000, 20'000, {[](double t) { return std::round(50 * std::sin(t)) / 50; }}));
+    EXPECT_EQ(find_impacts(source, {}).size(), 0U);
+}
+
 TEST(Impacts, RefuseWhatHasNoMeaning) {
     StoredSamples source(named({"v"}), sampled(200, 500, {[](double t) { return t; }}));
     const auto with = [](auto change) {

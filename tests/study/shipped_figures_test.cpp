@@ -1,6 +1,8 @@
 // What the shipped studies show of figures and tables of the dissertation, against values that were computed
 // independently, and against what is printed.
 
+#include "graze/grazing/verdict.hpp"
+#include "graze/model/catalogue.hpp"
 #include "graze/results/stored_run.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/study/study_catalogue.hpp"
@@ -338,6 +340,129 @@ TEST(ShippedFigures, nine_modes_against_a_stiff_stop) {
         EXPECT_NEAR(table.number(0, 4 + i), percent[i], digit[i] / 2);
     const double one = std::max(results.monitor("one_mode", "highest_q1"), -results.monitor("one_mode", "lowest_q1"));
     EXPECT_NEAR(one / table.number(0, 3), 1, 0.05);
+}
+
+/// Figs 3.4 and 3.5 with the unstable branches between the folds, for three stops.
+TEST(ShippedFigures, stops_of_three_stiffnesses) {
+    ShippedResults results("microbeam-stops");
+    results.run({"contact_100", "contact_500", "contact_5000", "polynomial_contact"});
+    EXPECT_NEAR(results.point("contact_100", "SN1").parameter, 0.032825650930776, 1e-13);
+    EXPECT_NEAR(results.point("contact_100", "SN2").parameter, 0.022532683475758, 1e-13);
+    const double touch = results.point("no_contact", "GR1").parameter;
+    EXPECT_NEAR(touch, 0.030040810557599, 1e-13);
+    double low_before = 1, high_before = 1, deep_before = 1;
+    for (const char* run : {"contact_100", "contact_500", "contact_5000"}) {
+        const SpecialPoint low = results.point(run, "SN1"), high = results.point(run, "SN2");
+        // The stiffer the stop, the nearer to the touch low penetration ends, and the further down high penetration
+        // goes.
+        EXPECT_GT(low.parameter, touch);
+        EXPECT_LT(low.parameter, low_before);
+        EXPECT_LT(high.parameter, high_before);
+        EXPECT_LT(high.monitors.at(0), deep_before);
+        low_before = low.parameter;
+        high_before = high.parameter;
+        deep_before = high.monitors.at(0);
+        for (const OrbitRecord& record : results.file().orbits(run, false)) {
+            const double depth = record.point.monitors.at(0);
+            const bool between = depth > low.monitors.at(0) && depth < high.monitors.at(0);
+            if (depth < 0.95 * low.monitors.at(0) ||
+                (between && depth < 0.95 * high.monitors.at(0) && depth > 1.05 * low.monitors.at(0))) {
+                EXPECT_EQ(record.stable, !between) << run << ' ' << record.point.parameter;
+            }
+            EXPECT_GT(record.point.monitors.at(1), 0); // the speed at contact
+        }
+    }
+    // The polynomial is another first mode: its frequency is 0.34 % higher.
+    EXPECT_NEAR(results.point("polynomial_contact", "SN1").parameter, 0.0328, 2e-4);
+    EXPECT_NEAR(results.point("polynomial_contact", "SN2").parameter, 0.0225, 3e-4);
+}
+
+/// The static pull-in curve: w and V at its fold by the balance of forces alone, V^2 = elastic(q)/attraction(q).
+TEST(ShippedFigures, pull_in_under_a_steady_voltage) {
+    ShippedResults results("microbeam-stops");
+    results.run({"equilibria", "oscillations"});
+    const Model model = load_model("microbeam-steady");
+    const auto voltage_at = [&](double q) {
+        Model at = model;
+        at.set_parameter("V", 1);
+        std::vector<double> inputs{q, 0, 0};
+        const std::vector<double> parameters = at.parameter_values();
+        inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+        const auto rate = [&](double voltage) {
+            inputs[3 + at.independent_parameter("V").place()] = voltage;
+            return at.function_of(std::vector<Expression>{at.modes[0].rates[1]})(inputs)[0];
+        };
+        return std::sqrt(-rate(0) / (rate(1) - rate(0)));
+    };
+    double low = 0.005, high = 0.024; // the greatest voltage, by thirds
+    for (int i = 0; i < 60; ++i) {
+        const double one = low + (high - low) / 3, other = high - (high - low) / 3;
+        (voltage_at(one) < voltage_at(other) ? low : high) = voltage_at(one) < voltage_at(other) ? one : other;
+    }
+    const SpecialPoint fold = results.point("equilibria", "SN1");
+    EXPECT_NEAR(fold.parameter, voltage_at(low), 1e-12);
+    EXPECT_NEAR(fold.monitors.at(0) / 1.5881462620646052, low, 1e-7); // flat at its top
+    // Newton's last correction is 1e-10 of each unknown, which unstable equilibria magnify.
+    for (const OrbitRecord& record : results.file().orbits("equilibria", false))
+        EXPECT_NEAR(record.point.parameter, voltage_at(record.point.monitors.at(0) / 1.5881462620646052), 1e-9);
+    // In pulses at this frequency, near the first mode's, less is enough.
+    EXPECT_NEAR(results.point("oscillations", "SN1").parameter, 0.036662363851355, 1e-13);
+}
+
+/// Eq. (3.29): the fold is where its root manifold turns, the better the stiffer the stop.
+TEST(ShippedFigures, distance_of_the_fold_from_the_touch) {
+    ShippedResults results("microbeam-stops");
+    double before = 0, alpha_before = 0, stiffness_before = 0;
+    for (const int stiffness : {500, 1000, 2000, 5000, 10000}) {
+        const std::string touch = "touch_" + std::to_string(stiffness), fold = "fold_" + std::to_string(stiffness);
+        results.run({touch, fold});
+        const StoredRun run(results.file(), touch, {});
+        const System system(run.model);
+        const Orbit orbit = results.point(touch, "EP1").solution.orbit;
+        CycleMapOptions options;
+        options.parameter = run.model.independent_parameter("V");
+        const CycleMap map = cycle_map(system, orbit, touches_of(system, orbit).at(0), options);
+        const Verdict verdict = verdict_of(map);
+        ASSERT_EQ(verdict.outcome, GrazingOutcome::folds);
+        const double voltage = orbit.parameters[options.parameter->place()];
+        const SpecialPoint measured = results.point(fold, "SN1");
+        const double error = std::abs((measured.parameter - voltage) / *verdict.fold_distance - 1);
+        // Depth and clearance of the fold of the cubic.
+        EXPECT_NEAR(*verdict.fold_depth, std::pow(2 / (3 * *verdict.alpha), 2), 1e-12);
+        EXPECT_NEAR(*verdict.fold_clearance, -4 / (27 * *verdict.alpha * *verdict.alpha), 1e-12);
+        EXPECT_NEAR(measured.monitors.at(0) / *verdict.fold_depth, 1, 3 * 100.0 / stiffness);
+        // Fig. 3.2: orbits between touch and fold are roots of the cubic, tau = -depth^(1/2), as well as the fold is.
+        std::size_t roots = 0;
+        for (const OrbitRecord& record : results.file().orbits(fold, false)) {
+            const double depth = record.point.monitors.at(0), tau = -std::sqrt(std::max(0.0, depth));
+            const double beta = *map.clearance_rate * (record.point.parameter - voltage);
+            const double cubic = *verdict.alpha * tau * tau * tau + tau * tau + beta;
+            EXPECT_NEAR(cubic, 0, 150.0 / stiffness * std::abs(*verdict.fold_clearance)) << stiffness << ' ' << depth;
+            ++roots;
+        }
+        EXPECT_GE(roots, 2U);
+        if (before > 0) {
+            const double times = stiffness / stiffness_before;
+            EXPECT_NEAR(*verdict.alpha / alpha_before, times, 1e-6 * times); // its force is in proportion
+            // The next order of the map is by one root of the depth more, which is by one over the stiffness.
+            EXPECT_NEAR(std::log(before / error) / std::log(times), 1, 0.2) << stiffness;
+        }
+        before = error;
+        alpha_before = *verdict.alpha;
+        stiffness_before = stiffness;
+    }
+    EXPECT_LT(before, 0.01);
+}
+
+TEST(ShippedFiguresSlow, stops_of_three_stiffnesses_and_nine_modes) {
+    ShippedResults results("microbeam-stops");
+    results.run({"nine_contact_500", "nine_contact_5000"});
+    const double touch = results.point("nine_no_contact", "GR1").parameter;
+    const double middle = results.point("nine_contact_500", "SN1").parameter,
+                 stiff = results.point("nine_contact_5000", "SN1").parameter;
+    EXPECT_GT(middle, stiff);
+    EXPECT_GT(stiff, touch);
+    EXPECT_LT(stiff, 1.001 * touch);
 }
 
 TEST(ShippedFiguresSlow, nine_modes_up_to_their_fold) {

@@ -266,7 +266,7 @@ TEST(Study, of_two_keys_that_contradict_none_is_ignored) {
 
 TEST(Study, shipped_ones_can_be_read) {
     EXPECT_THAT(shipped_studies(), ElementsAre("ball-and-shaker", "electromagnetic-testbed", "mems-switch",
-                                               "microactuator", "microbeam", "microbeam-modes"));
+                                               "microactuator", "microbeam", "microbeam-modes", "microbeam-stops"));
     for (const std::string& name : shipped_studies())
         EXPECT_FALSE(load_study(name).runs.empty()) << name;
 }

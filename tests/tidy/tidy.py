@@ -9,44 +9,14 @@ together; where that was not seen, a batch is looked at in halves. Options go to
 import concurrent.futures
 import json
 import pathlib
-import re
 import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-MOST = 16  # sources in a batch
-# What begins in the first column and declares something: a function, a constant, a type or another name for one.
-DECLARED = re.compile(r"^(?:(?:struct|class|enum class|using) (\w+)|[A-Za-z][^=;(){]*?\b(\w+)(?=[({=;]| =|\[))")
+sys.path.insert(0, str(ROOT / "cmake"))
+from batches import batches_of  # noqa: E402
 
-
-def own_names(source):
-    """Names that no other source may have beside this one: those of its unnamed namespaces."""
-    names = set()
-    inside = False
-    for line in source.read_text(encoding="utf-8").splitlines():
-        if line == "namespace {":
-            inside = True
-        elif line == "}  // namespace":
-            inside = False
-        elif inside and (found := DECLARED.match(line)):
-            names.add(found[1] or found[2])
-    return names
-
-
-def batches_of(commands):
-    """The sources, each in the first batch that has room and none of its names. Folders stay together as far as that
-    goes: they include the same."""
-    batches = []
-    for command in commands:
-        names = own_names(pathlib.Path(command["file"]))
-        for members, taken in batches:
-            if len(members) < MOST and not names & taken:
-                members.append(command)
-                taken |= names
-                break
-        else:
-            batches.append(([command], names))
-    return [members for members, _ in batches]
+MOST = 32  # sources in a batch
 
 
 def batch_text(sources):
@@ -96,14 +66,19 @@ def look_at(batch, build, output, options):
 
 def main(build, output, jobs, options):
     commands = json.loads((build / "compile_commands.json").read_text())
-    own = []
+    own = {}
     alone = []
     for command in sorted(commands, key=lambda c: c["file"]):
         source = pathlib.Path(command["file"])
         # Kernels are one text, compiled for several processors.
-        if source.is_relative_to(ROOT / "src") and source.name not in ("jet_avx2.cpp", "jet_avx512.cpp"):
-            (alone if source.name == "jet_baseline.cpp" else own).append(command)
-    batches = [[command] for command in alone] + batches_of(own)
+        if not source.is_relative_to(ROOT / "src") or source.name in ("jet_avx2.cpp", "jet_avx512.cpp"):
+            continue
+        if source.name == "jet_baseline.cpp":
+            alone.append(command)
+        else:
+            own[command["file"]] = command
+    batches = [[command] for command in alone]
+    batches += [[own[file] for file in batch] for batch in batches_of(own, MOST)]
     clean = True
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         for text, good in pool.map(lambda batch: look_at(batch, build, output, options), batches):

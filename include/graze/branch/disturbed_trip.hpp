@@ -71,7 +71,7 @@ struct NoisyTrips {
     std::size_t motions = 0, trips = 0;
     std::size_t failed = 0;     ///< that ended by neither: they count as no trips
     std::size_t beyond = 0;     ///< whose parameter was beyond the point at any time
-    Estimate probability;       ///< of a trip within the cycles, with limits by E. B. Wilson (see yield.hpp)
+    ConfidenceInterval probability;       ///< of a trip within the cycles, with limits by E. B. Wilson (see yield.hpp)
     std::optional<double> half; ///< cycles after which half of the motions had tripped
     bool interrupted = false;
 };

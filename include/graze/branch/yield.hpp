@@ -42,7 +42,7 @@ struct YieldSettings {
 };
 
 /// With limits of confidence.
-struct Estimate {
+struct ConfidenceInterval {
     double value = 0, low = 0, high = 0;
 };
 
@@ -79,10 +79,10 @@ struct Yield {
     std::vector<std::pair<std::string, std::size_t>> problems; ///< of those not found, and how many have each
     bool interrupted = false;
 
-    std::optional<Estimate> mean, deviation; ///< of those found; none of fewer than two
+    std::optional<ConfidenceInterval> mean, deviation; ///< of those found; none of fewer than two
     std::vector<QuantileEstimate> quantiles; ///< of those found
     /// Share of all devices that have the value within what is wanted. One that is not found is not within.
-    std::optional<Estimate> within;
+    std::optional<ConfidenceInterval> within;
 
     double linear_deviation = 0;             ///< by the derivatives alone, exactly
     std::optional<double> linear_within;     ///< share of the same devices, by the derivatives alone
@@ -101,6 +101,6 @@ struct Yield {
 Yield yield_of(const System& system, const SpecialPoint& point, ParameterId control, const YieldSettings& settings);
 
 /// Limits of a share, of which `hits` of `trials` are seen. @throws InputError without trials, or for more hits
-Estimate wilson_interval(std::size_t hits, std::size_t trials, double confidence);
+ConfidenceInterval wilson_interval(std::size_t hits, std::size_t trials, double confidence);
 
 } // namespace graze

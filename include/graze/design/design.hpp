@@ -33,6 +33,10 @@ struct DesignDimension {
     ParameterId parameter;
     double least = 0, greatest = 0;
     std::optional<DesignTolerance> tolerance;
+    Place place;
+
+    /// @throws InputError unless the first device, which has this value, is within the range, and has its tolerance
+    void require_first(double value) const;
 };
 
 /// Where the point lies at which the device trips: on a branch that begins with what a simulated motion settles on at

@@ -33,6 +33,7 @@ struct TripPoint {
     ParameterId control;
     std::string run, label;
     std::vector<EarlierPoint> earlier; ///< in the order of the branches
+    int fold_side = 1; ///< of the control parameter on which there is no orbit, at a fold: 1 above, -1 below
 
     double value() const { return point.solution.orbit.parameters[control.place()]; }
     bool is_touch() const { return point.type == PointType::grazing; }

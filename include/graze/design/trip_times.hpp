@@ -12,7 +12,9 @@ namespace graze {
 /// How long it takes from a trip point until the device has tripped, with the control parameter moved beyond.
 struct TripTimeRow {
     double overshoot = 0;                   ///< with its sign
-    std::optional<PredictedTrip> predicted; ///< by the map alone, until contacts are hard
+    /// By the map alone, until contacts are hard; of a fold by its normal form, from the fold's orbit to the passage's
+    /// gate (FoldPassage).
+    std::optional<PredictedTrip> predicted;
     std::optional<TripTime> continued;      ///< by the map, then by simulation until the end that was asked for
     std::optional<TripTime> simulated;      ///< by simulation alone, where numbers tell the overshoot from none
 

@@ -24,7 +24,7 @@ struct MapSettings {
     int jobs = 1;            ///< threads, on which nothing depends
     LocatedValueOptions solver;
     std::function<bool()> interrupted;              ///< asked from any thread
-    std::function<void(std::size_t done)> progress; ///< called from the calling thread
+    std::function<void(std::size_t done)> progress; ///< pieces of work; called from the calling thread
     /// @throws InputError naming what is out of range
     void validate() const;
 };

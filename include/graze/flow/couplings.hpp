@@ -56,6 +56,7 @@ private:
     void find_constants(const Tape& tape);
     void find_colours();
     void find_cycles();
+    void sort_cycles();
     void balance();
     double largest_row() const;
 
@@ -66,6 +67,13 @@ private:
     std::vector<std::vector<std::size_t>> columns_; ///< entries of each
     std::vector<std::size_t> colours_;              ///< of columns
     std::size_t colour_count_ = 0;
+    /// Entries between states that act on each other, sorted by one of the two: `starts` has where those of each begin.
+    struct Sorted {
+        std::vector<std::size_t> starts, entries, others;
+        std::vector<double> strengths;
+        void note_strengths(const std::vector<Entry>& all);
+    };
+    Sorted in_rows_, in_columns_;
     std::vector<bool> steady_;    ///< states
     std::vector<bool> vanishing_; ///< entries that were zero when cycles were found
     std::vector<double> units_;   ///< in which rows and columns are about as large

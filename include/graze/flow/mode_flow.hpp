@@ -52,7 +52,11 @@ public:
     std::size_t steps() const { return steps_; } ///< since it was made
 
 private:
-    double step_of(std::size_t mode, const Jet& jet, double remaining, bool watched);
+    /// Whether polynomials and model agree at the end of a step.
+    using EndLook = bool (ModeFlow::*)(std::size_t mode, double length);
+    double step_of(std::size_t mode, const Jet& jet, double remaining, bool watched, EndLook look);
+    bool agrees(std::size_t mode, double length);
+    bool agrees_with_tangents(std::size_t mode, double length);
     void require_fitting(std::size_t mode, std::span<const double> state) const;
 
     System system_;
@@ -64,7 +68,9 @@ private:
     LateStates late_states_;
     ModeJets single_;
     TangentSteps tangents_;
-    std::vector<double> parameters_, parameter_seeds_, sums_, guarded_;
+    EndAllowance allowance_;
+    std::vector<double> parameters_, parameter_seeds_, sums_, slopes_, guarded_;
+    double seen_ = 0;                   ///< length of a step whose end is in `sums_`; 0: none
     std::vector<double> matrix_, next_; ///< states x directions, row by row
     double previous_ = 0;
     std::size_t steps_ = 0;

@@ -3,6 +3,7 @@
 #include "graze/tape/series.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -101,6 +102,7 @@ public:
 
 private:
     class Isolation;
+    void find_reciprocals();
     bool has_room(std::span<const double> c) const { return c.size() <= power_.size(); }
     double lowest_place(std::span<const double> c, double length, double slope);
     std::optional<bool> falls_once_or_never(std::span<const double> c, double length, int way, double touch,
@@ -114,9 +116,10 @@ private:
     };
 
     int highest_degree_;
-    std::vector<double> reciprocals_;                ///< of the binomial coefficients n over k, triangular
-    std::vector<double> power_, slope_;              ///< coefficients of the polynomial in work and of its derivative
-    std::vector<BernsteinCoefficient> coefficients_; ///< one row for each node of the stack, and one to spare
+    std::vector<double> reciprocals_;   ///< of the binomial coefficients n over k, triangular, once they are needed
+    std::vector<double> power_, slope_; ///< coefficients of the polynomial in work and of its derivative
+    /// One row for each node of the stack, and one to spare; what is in them before they are used does not matter.
+    std::unique_ptr<BernsteinCoefficient[]> coefficients_;
     std::vector<Node> stack_;
 };
 

@@ -53,6 +53,7 @@ private:
     /// own size keeps sizes meaningful (they are what round-off is measured by).
     double polynomial_step(const Series& c, double size) const;
     double step_for(std::span<const Series> states, double reference) const;
+    double logarithm_of_change(const Series& c, double known) const;
 
     std::size_t order_;
     double log_tolerance_;

@@ -37,9 +37,11 @@ double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, doub
 /// @param next jet of the same tape, lanes and parameters, which is begun at the end; @param times, sums, slopes room
 /// to work in, as `Jet::evaluate_states` needs it; sums are those at the end
 /// @param tolerance that derivatives are allowed; @param noise by how much round-off may change rates, asked for only
-/// where they differ from slopes, as floors are; @return the step, or the part
+/// where they differ from slopes, as floors are; @param seen whether sums, slopes and `next` are those at the end
+/// already
+/// @return the step, or the part
 double follow_tangents(const Jet& jet, Jet& next, std::size_t states, std::size_t count, double tolerance, double step,
                        std::span<double> times, std::span<double> sums, std::span<double> slopes,
-                       const TangentFloors& floors = {}, const TangentFloors& noise = {});
+                       const TangentFloors& floors = {}, const TangentFloors& noise = {}, bool seen = false);
 
 } // namespace graze

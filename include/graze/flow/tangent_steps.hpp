@@ -39,6 +39,9 @@ public:
     /// Directions that a jet has, from the first on.
     std::size_t count_from(std::size_t first) const { return std::min(lanes_, directions_ - first); }
 
+    /// Whether polynomials and model agree at the end of a step forwards, after `begin` for the first directions: as
+    /// Jet::find_disagreement asks, of states and outputs. `carry` over the same step then goes on from there.
+    bool agrees(std::size_t mode, double length, const EndAllowance& allowed);
     /// Carries all directions along a step, after `begin` for the first ones: as far as these may be carried at once,
     /// and others as far, in parts if need be.
     /// @param after the matrix at the end; @param output row of that output's derivatives there, `row`, unless it is
@@ -52,7 +55,7 @@ public:
 
 private:
     void load_parameters(std::size_t mode, std::size_t first);
-    double follow(const Jet& jet, std::size_t mode, std::size_t first, double length);
+    double follow(const Jet& jet, std::size_t mode, std::size_t first, double length, bool seen = false);
     std::span<const double> floors_of(const Jet& jet, std::size_t mode, std::size_t count, double length);
     std::span<const double> noise_of(const Jet& jet, std::size_t mode, std::size_t count);
     const Couplings& couplings_here(std::size_t mode);
@@ -65,7 +68,8 @@ private:
     std::size_t lanes_;
     bool parameters_move_ = false; ///< along some direction
     std::vector<double> parameters_, parameter_seeds_, parameter_lanes_;
-    std::vector<double> seeds_, sums_, slopes_, times_, state_;
+    std::vector<double> seeds_, sums_, slopes_, times_, state_, disagreement_;
+    double seen_ = 0; ///< length of a step whose end is in `sums_` and `slopes_`; 0: none
     ModeCouplings couplings_;
     std::span<const double> place_;       ///< state at which couplings are wanted
     const Couplings* measured_ = nullptr; ///< what they are there, once it has been asked for

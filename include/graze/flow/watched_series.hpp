@@ -28,9 +28,11 @@ public:
         terms_ = static_cast<std::size_t>(jet.order()) + 1;
         std::size_t to = events_ * terms_ * steps_.size();
         coefficients_.resize(to + events_ * terms_);
-        for (std::size_t w = 0; w < events_; ++w)
+        for (std::size_t w = 0; w < events_; ++w) {
+            const double* from = jet.output(w);
             for (std::size_t k = 0; k < terms_; ++k)
-                coefficients_[to++] = jet.output(w)[k * width];
+                coefficients_[to++] = from[k * width];
+        }
     }
     /// And how long it is.
     void end_step(double time, double length) { steps_.push_back({time, length}); }

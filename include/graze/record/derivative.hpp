@@ -11,7 +11,7 @@ namespace graze {
 struct DerivativeSettings {
     std::size_t channel = 0;    ///< of the displacement
     std::size_t half_width = 0; ///< samples on each side, 4 or more; 0: chosen where the errors are least
-    std::string name;           ///< of the new channel; that of its error ends in `_error`
+    std::string name; ///< of the new channel, such as `q_rate` if it is empty; that of its error ends in `_error`
 };
 
 /// A source with two channels more: the derivative of one of its channels, and how far that is wrong. The derivative is

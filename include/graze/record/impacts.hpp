@@ -27,10 +27,11 @@ struct ImpactSettings {
 
 /// Finds jumps of a noisy velocity. To the samples on both sides of each place parabolas are fitted by least squares; a
 /// jump is where their values differ by more than noise and their own misfit explain, and more than beside it. The
-/// noise is what third differences of the velocity have in the median, or the step in which numbers of few digits go. Then the parabolas are fitted anew to samples
+/// noise is what third differences of the velocity have in the median, or the step in which numbers of few digits go.
+/// Then parabolas, or polynomials of higher degree where the next terms stand out of the noise, are fitted to samples
 /// that have no other impact between them and this one, and continued to the time of the impact: the middle between two
-/// samples, with their distance over the square root of 12 as its error, or where parabolas through the displacement
-/// meet. Impacts that follow one another by fewer than four samples, as in chatter, are not told apart.
+/// samples, with their distance over the square root of 12 as its error, or where such polynomials through the
+/// displacement meet. Impacts that follow one another by fewer samples than the window may be missed.
 class ImpactFinder {
 public:
     /// @param source must outlive this

@@ -13,7 +13,7 @@
 namespace graze {
 
 /// A point of a branch beyond which the motion is lost: a touch whose contacts grow, or a fold.
-struct TripPoint {
+struct LossPoint {
     StoredOrbit stored;
     System system;
     ParameterId parameter; ///< that moves the orbit
@@ -34,7 +34,7 @@ struct TripPoint {
 /// @param option where it was asked for, for messages
 /// @throws InputError where there is no such point, nothing is touched and it is no fold, and where the motion is not
 ///         lost there
-TripPoint trip_point(const ResultFile& file, const std::string& point, const std::string& parameter,
+LossPoint loss_point(const ResultFile& file, const std::string& point, const std::string& parameter,
                      const std::string& option);
 
 /// What ends a trip, for people too.
@@ -44,7 +44,7 @@ struct AskedEnd {
     bool given = false; ///< rather than what is usual at such a point
 };
 /// @throws InputError for what names no level
-AskedEnd end_of(const TripPoint& point, const TripArguments& arguments);
+AskedEnd end_of(const LossPoint& point, const TripArguments& arguments);
 
 /// Numbers of a list, or of FIRST:LAST one for each decade. @param option in which they are written
 /// @throws InputError for what are none, or too many
@@ -52,6 +52,6 @@ std::vector<double> numbers_by_decades(const Model& model, const std::vector<std
                                        const std::string& option);
 
 /// What a JSON table says of the point first.
-JsonObject heading_of(const ResultFile& file, const TripPoint& point, const AskedEnd& end);
+JsonObject heading_of(const ResultFile& file, const LossPoint& point, const AskedEnd& end);
 
 } // namespace graze

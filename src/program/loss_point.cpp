@@ -1,4 +1,4 @@
-#include "program/trip_point.hpp"
+#include "program/loss_point.hpp"
 
 #include "graze/branch/curve_start.hpp"
 #include "graze/symbolic/input_error.hpp"
@@ -45,7 +45,7 @@ void add_decades(std::vector<double>& values, double first, double last, const s
         values.push_back(first * std::stod(fmt::format("1e{}", std::abs(first) > std::abs(last) ? -i : i)));
 }
 
-TripPoint of_fold(StoredOrbit stored, const std::string& asked) {
+LossPoint of_fold(StoredOrbit stored, const std::string& asked) {
     System system(stored.run.model);
     const std::vector<ParameterId> candidates = moving_parameters(stored.run, asked);
     if (candidates.empty())
@@ -62,7 +62,7 @@ TripPoint of_fold(StoredOrbit stored, const std::string& asked) {
     if (!fold->attracting)
         throw InputError("neither of the two orbits that meet there is stable: no motion is lost",
                          "choose a fold at which a stable branch ends");
-    TripPoint point{
+    LossPoint point{
         .stored = std::move(stored), .system = system, .parameter = fold->parameter, .name = {}, .unit = {}};
     point.value = fold->value;
     point.side = fold->side;
@@ -71,7 +71,7 @@ TripPoint of_fold(StoredOrbit stored, const std::string& asked) {
     return point;
 }
 
-TripPoint of_touch(StoredOrbit stored, const std::string& asked) {
+LossPoint of_touch(StoredOrbit stored, const std::string& asked) {
     TouchingOrbit found = touching_orbit(std::move(stored), asked);
     Verdict verdict = verdict_of(found.map);
     const double level = level_of_map(found.map, verdict);
@@ -79,7 +79,7 @@ TripPoint of_touch(StoredOrbit stored, const std::string& asked) {
         throw InputError(Place{}, "nothing is said to move the orbit from its touch",
                          "name a parameter by --parameter NAME");
     System system(found.stored.run.model);
-    TripPoint point{.stored = std::move(found.stored),
+    LossPoint point{.stored = std::move(found.stored),
                     .system = std::move(system),
                     .parameter = *found.parameter,
                     .name = {},
@@ -95,11 +95,11 @@ TripPoint of_touch(StoredOrbit stored, const std::string& asked) {
 
 } // namespace
 
-TripPoint trip_point(const ResultFile& file, const std::string& point, const std::string& parameter,
+LossPoint loss_point(const ResultFile& file, const std::string& point, const std::string& parameter,
                      const std::string& option) {
     StoredOrbit stored = find_stored_orbit(file, point, {option, 0, 0});
     try {
-        TripPoint found = is_fold(stored.record.point) ? of_fold(std::move(stored), parameter)
+        LossPoint found = is_fold(stored.record.point) ? of_fold(std::move(stored), parameter)
                                                        : of_touch(std::move(stored), parameter);
         found.name = found.model().independent_parameters()[found.parameter.place()];
         found.unit = found.model().parameters[*found.model().find_parameter(found.name)].unit;
@@ -111,7 +111,7 @@ TripPoint trip_point(const ResultFile& file, const std::string& point, const std
     }
 }
 
-AskedEnd end_of(const TripPoint& point, const TripArguments& arguments) {
+AskedEnd end_of(const LossPoint& point, const TripArguments& arguments) {
     if (arguments.greatest_speed && point.fold)
         throw InputError(Place{"--greatest-speed", 0, 0}, "a fold has no contact of its own",
                          "name a level, --until EXPR=LEVEL, or --until end");
@@ -149,7 +149,7 @@ std::vector<double> numbers_by_decades(const Model& model, const std::vector<std
     return values;
 }
 
-JsonObject heading_of(const ResultFile& file, const TripPoint& point, const AskedEnd& end) {
+JsonObject heading_of(const ResultFile& file, const LossPoint& point, const AskedEnd& end) {
     const OrbitRecord& record = point.stored.record;
     JsonObject heading;
     heading.add("graze", GRAZE_VERSION);

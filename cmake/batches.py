@@ -1,0 +1,49 @@
+#!/usr/bin/env python3
+"""Which sources can be compiled or looked at as one, since their own names do not collide.
+
+usage: batches.py MOST SOURCE...
+
+Prints one line a source, `BATCH;SOURCE`, with at most MOST in a batch.
+"""
+import pathlib
+import re
+import sys
+
+# What begins in the first column and declares something: a function, a constant, a type or another name for one.
+DECLARED = re.compile(r"^(?:(?:struct|class|enum class|using) (\w+)|[A-Za-z][^=;(){]*?\b(\w+)(?=[({=;]| =|\[))")
+
+
+def own_names(source):
+    """Names that no other source may have beside this one: those of its unnamed namespaces."""
+    names = set()
+    inside = False
+    for line in pathlib.Path(source).read_text(encoding="utf-8").splitlines():
+        if line == "namespace {":
+            inside = True
+        elif line == "}  // namespace":
+            inside = False
+        elif inside and (found := DECLARED.match(line)):
+            names.add(found[1] or found[2])
+    return names
+
+
+def batches_of(sources, most):
+    """The sources, each in the first batch that has room and none of its names. Folders stay together as far as that
+    goes: they include the same."""
+    batches = []
+    for source in sources:
+        names = own_names(source)
+        for members, taken in batches:
+            if len(members) < most and not names & taken:
+                members.append(source)
+                taken |= names
+                break
+        else:
+            batches.append(([source], names))
+    return [members for members, _ in batches]
+
+
+if __name__ == "__main__":
+    for number, batch in enumerate(batches_of(sys.argv[2:], int(sys.argv[1]))):
+        for member in batch:
+            print(f"{number};{member}")

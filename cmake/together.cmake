@@ -1,0 +1,26 @@
+# Where much is compiled once and run once, sources of a folder are compiled several at once: parsing what they include,
+# and what they make of templates, is most of the work. Those whose own names collide stay apart.
+option(GRAZE_TOGETHER "Compile several sources at once; needs Python" OFF)
+if(GRAZE_TOGETHER)
+    find_package(Python3 COMPONENTS Interpreter)
+    # A name of one source may well be a local one of the next.
+    target_compile_options(graze_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-shadow>)
+endif()
+
+function(compile_together target) # TARGET SOURCE...
+    if(NOT GRAZE_TOGETHER OR NOT Python3_FOUND)
+        return()
+    endif()
+    execute_process(
+        COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/batches.py 8 ${ARGN}
+        OUTPUT_VARIABLE lines OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY
+    )
+    string(REPLACE "\n" " " lines "${lines}")
+    separate_arguments(lines UNIX_COMMAND "${lines}")
+    foreach(line IN LISTS lines)
+        list(GET line 0 batch)
+        list(GET line 1 source)
+        set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${batch})
+    endforeach()
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()

@@ -1,0 +1,142 @@
+#include "branch/branch_point_problem.hpp"
+
+#include "orbit/eigen_index.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+} // namespace
+
+/// In units of the scales, but for rows: those of events have the units of the present point.
+MatrixXd BranchPointProblem::derivatives(const OrbitEvaluation& at) const {
+    const OrbitLayout& layout = equations().layout();
+    const auto n = index(layout.states());
+    const std::size_t pieces = layout.pieces();
+    MatrixXd result = MatrixXd::Zero(index(pieces) * (n + 1), index(layout.unknowns()));
+    for (std::size_t k = 0; k < pieces; ++k) {
+        const CyclicSystem::Block& block = at.system.block(k);
+        const Eigen::Index row = index(k) * (n + 1);
+        const std::size_t following = k + 1 < pieces ? k + 1 : 0;
+        result.block(row, index(layout.start_of(k)), n + 1, n) += block.own.leftCols(n);
+        result.block(row, index(layout.duration_of(k)), n + 1, 1) += block.own.rightCols(1);
+        result.block(row, index(layout.start_of(following)), n + 1, n) += block.next;
+        result.block(row, index(layout.parameter(0)), n + 1, block.parameters.cols()) += block.parameters;
+        result.row(row) *= at.pieces[k].condition_unit / evaluation().pieces[k].condition_unit;
+    }
+    return result;
+}
+
+bool BranchPointProblem::evaluate(std::span<const double> u) {
+    if (!OrbitProblem::evaluate(u)) {
+        at_.clear();
+        return false;
+    }
+    if (std::equal(u.begin(), u.end(), at_.begin(), at_.end()))
+        return true;
+    at_.clear();
+    matrix_ = derivatives(evaluation());
+    if (!matrix_.allFinite() || (border_.size() == 0 && !choose_borders()) || !complete() || !differentiate(u))
+        return false;
+    at_.assign(u.begin(), u.end());
+    return true;
+}
+
+/// The singular vectors of what is singular.
+bool BranchPointProblem::choose_borders() {
+    const Eigen::BDCSVD<MatrixXd> svd(matrix_.leftCols(matrix_.cols() - 1), Eigen::ComputeFullU | Eigen::ComputeFullV);
+    right_ = svd.matrixV().rightCols(2);
+    border_ = svd.matrixU().rightCols(1);
+    return right_.allFinite() && border_.allFinite();
+}
+
+/// Null vectors, and the numbers that would be zero if they were some.
+bool BranchPointProblem::complete() {
+    const Eigen::Index rows = matrix_.rows(), columns = rows + 1;
+    MatrixXd bordered = MatrixXd::Zero(rows + 2, rows + 2);
+    bordered.topLeftCorner(rows, columns) = matrix_.leftCols(columns);
+    bordered.topRightCorner(rows, 1) = border_;
+    bordered.bottomLeftCorner(2, columns) = right_.transpose();
+    const Eigen::PartialPivLU<MatrixXd> lu(bordered);
+    MatrixXd sides = MatrixXd::Zero(rows + 2, 2);
+    sides.bottomRows(2).setIdentity();
+    null_ = lu.solve(sides).topRows(columns);
+    VectorXd side = VectorXd::Zero(rows + 2);
+    side[rows + 1] = 1;
+    const VectorXd whole = lu.transpose().solve(side);
+    left_ = whole.head(rows);
+    values_ = {whole[rows], whole[rows + 1]};
+    return null_.allFinite() && whole.allFinite();
+}
+
+bool BranchPointProblem::differentiate(std::span<const double> u) {
+    constexpr double length = 1e-5; // in units of the scales: errors of 1e-10, and as much round-off
+    OrbitEvaluation there = equations().evaluation();
+    const auto at = vector_of(u);
+    const VectorXd units = evaluation().scales;
+    gradients_.resize(2, matrix_.cols());
+    for (Eigen::Index i = 0; i < 2; ++i) {
+        const double step = length / null_.col(i).norm();
+        VectorXd move = VectorXd::Zero(at.size());
+        move.head(null_.rows()) = step * null_.col(i).cwiseProduct(units.head(null_.rows()));
+        MatrixXd change = MatrixXd::Zero(matrix_.rows(), matrix_.cols());
+        for (const double side : {1.0, -1.0}) {
+            if (!equations().evaluate(at + side * move, there))
+                return false;
+            change += side * derivatives(there);
+        }
+        gradients_.row(i) = -left_.transpose() * change / (2 * step);
+    }
+    return gradients_.allFinite();
+}
+
+bool BranchPointProblem::solve(std::span<const double> row, double right, bool homogeneous, std::span<double> step,
+                               double* determinant) {
+    constexpr double converged = 1e-8, zero = 1e-8; // in units of the scales
+    const Eigen::Index rows = matrix_.rows(), columns = matrix_.cols();
+    const VectorXd units = evaluation().scales;
+    MatrixXd whole = MatrixXd::Zero(rows + 3, rows + 3);
+    whole.topLeftCorner(rows, columns) = matrix_;
+    whole.topRightCorner(rows, 1) = border_;
+    whole.block(rows, 0, 2, columns) = gradients_;
+    whole.block(rows + 2, 0, 1, columns) = vector_of(row).cwiseProduct(units).transpose();
+    VectorXd sides = VectorXd::Zero(rows + 3);
+    if (!homogeneous) {
+        sides.head(rows) = evaluation().system.right_hand_sides();
+        sides[rows] = -values_[0];
+        sides[rows + 1] = -values_[1];
+    }
+    sides[rows + 2] = right;
+    const Eigen::FullPivLU<MatrixXd> lu(whole);
+    if (!lu.isInvertible())
+        return false;
+    const VectorXd solution = lu.solve(sides);
+    if (!solution.allFinite())
+        return false;
+    if (determinant)
+        *determinant = 1; // nothing is told by it here
+    const double beta = std::abs(solution[rows + 2]);
+    broken_.clear();
+    if (!homogeneous && beta > zero && solution.head(columns).cwiseAbs().maxCoeff() < converged) {
+        broken_ = "the two branches part there: nothing of the model keeps them together";
+        return false;
+    }
+    Eigen::Map<VectorXd>(step.data(), columns) = solution.head(columns).cwiseProduct(units);
+    return true;
+}
+
+void BranchPointProblem::accept(std::span<const double> u) {
+    OrbitProblem::accept(u);
+    border_.resize(0);
+    at_.clear();
+}
+
+} // namespace graze

@@ -1,0 +1,163 @@
+#include "graze/identify/coupling.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+/// The sums of Eqs. (5.14) to (5.16): linear in the root of beta1 and in beta2.
+Eigen::Vector2d regression_of(std::span<const StaticLoad> loads, const CouplingSettings& settings) {
+    std::vector<Eigen::Vector3d> rows;
+    for (const StaticLoad& load : loads)
+        if (load.displacement > 0) {
+            const double root = std::sqrt(2 * settings.stiffness * load.displacement);
+            rows.emplace_back(std::abs(load.current), -root, (settings.gap - load.displacement) * root);
+        }
+    if (rows.size() < 2)
+        throw InputError("there are too few equilibria with a positive displacement", "give three or more");
+    Eigen::MatrixXd matrix(static_cast<Eigen::Index>(rows.size()), 2);
+    Eigen::VectorXd right(matrix.rows());
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+        matrix.row(i) = rows[static_cast<std::size_t>(i)].head<2>();
+        right[i] = rows[static_cast<std::size_t>(i)][2];
+    }
+    const Eigen::Vector2d scale = matrix.colwise().norm();
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(matrix * scale.cwiseInverse().asDiagonal());
+    constexpr double too_small = 1e-10;
+    if (!(std::abs(factors.matrixR()(1, 1)) > too_small))
+        throw InputError("the equilibria do not tell both constants", "load it with several currents");
+    const Eigen::Vector2d found = factors.solve(right).cwiseQuotient(scale);
+    return {found[0] * found[0], found[1]};
+}
+
+/// Both sides of the equilibrium times (beta2 + d - q)^2, less one another, and derivatives.
+struct Balance {
+    double rest = 0;
+    double by_displacement = 0, by_current = 0, by_beta1 = 0, by_beta2 = 0, by_stiffness = 0;
+
+    Balance(const StaticLoad& load, const CouplingSettings& settings, const Eigen::Vector2d& betas) {
+        const double q = load.displacement, space = betas[1] + settings.gap - q, k = 2 * settings.stiffness;
+        rest = k * q * space * space - betas[0] * load.current * load.current;
+        by_displacement = k * (space * space - 2 * q * space);
+        by_current = -2 * betas[0] * load.current;
+        by_beta1 = -load.current * load.current;
+        by_beta2 = 2 * k * q * space; // and by the gap
+        by_stiffness = 2 * q * space * space;
+    }
+};
+
+void require_loads(std::span<const StaticLoad> loads, const CouplingSettings& settings) {
+    for (const StaticLoad& load : loads) {
+        require_finite(load.displacement, "the displacement of an equilibrium");
+        require_finite(load.current, "the current of an equilibrium");
+    }
+    for (const double value : {settings.gap, settings.stiffness, settings.gap_error, settings.stiffness_error,
+                               settings.displacement_noise, settings.current_noise}) {
+        require_finite(value, "what is known beforehand");
+        if (value < 0)
+            throw InputError("what is known beforehand is negative", "give positive numbers");
+    }
+    constexpr std::size_t fewest = 3;
+    if (loads.size() < fewest || !(settings.stiffness > 0))
+        throw InputError("there are too few equilibria, or no stiffness", "give three or more, and m w0^2");
+}
+
+} // namespace
+
+Coupling coupling(std::span<const StaticLoad> loads, const CouplingSettings& settings) {
+    require_loads(loads, settings);
+    Coupling result;
+    Eigen::Vector2d betas = regression_of(loads, settings);
+    result.regression_beta1 = betas[0];
+    result.regression_beta2 = betas[1];
+    double noise_q = settings.displacement_noise, noise_i = settings.current_noise;
+    if (noise_q == 0 && noise_i == 0)
+        for (const StaticLoad& load : loads) {
+            noise_q = std::max(noise_q, std::abs(load.displacement));
+            noise_i = std::max(noise_i, std::abs(load.current));
+        }
+    const auto rows = static_cast<Eigen::Index>(loads.size());
+    Eigen::MatrixXd matrix(rows, 2);
+    Eigen::VectorXd rest(rows), by_gap(rows), by_stiffness(rows);
+    // Points of the curve, of which the measured ones are noisy images, are found along with the constants (H. I. Britt
+    // and R. H. Luecke, Technometrics 15 (1973) 233): regressors that share their noise with the residuals would bias
+    // them.
+    std::vector<StaticLoad> points(loads.begin(), loads.end());
+    std::vector<double> deviations(loads.size());
+    const auto weigh = [&] {
+        for (std::size_t i = 0; i < loads.size(); ++i) {
+            const Balance balance(points[i], settings, betas);
+            const double deviation = std::hypot(balance.by_displacement * noise_q, balance.by_current * noise_i);
+            if (!(deviation > 0))
+                throw InputError("an equilibrium is where neither noise would show", "give noise of the currents, too");
+            const auto row = static_cast<Eigen::Index>(i);
+            deviations[i] = deviation;
+            matrix.row(row) << balance.by_beta1 / deviation, balance.by_beta2 / deviation;
+            rest[row] = (balance.rest + balance.by_displacement * (loads[i].displacement - points[i].displacement) +
+                         balance.by_current * (loads[i].current - points[i].current)) /
+                        deviation;
+            by_gap[row] = balance.by_beta2 / deviation;
+            by_stiffness[row] = balance.by_stiffness / deviation;
+        }
+    };
+    const auto move_points = [&](const Eigen::VectorXd& left) {
+        for (std::size_t i = 0; i < loads.size(); ++i) {
+            const Balance balance(points[i], settings, betas);
+            const double share = left[static_cast<Eigen::Index>(i)] / deviations[i];
+            points[i].displacement = loads[i].displacement - noise_q * noise_q * balance.by_displacement * share;
+            points[i].current = loads[i].current - noise_i * noise_i * balance.by_current * share;
+        }
+    };
+    constexpr int most_steps = 100;
+    for (int step = 0; step < most_steps; ++step) {
+        weigh();
+        const Eigen::Vector2d scale = matrix.colwise().norm();
+        const Eigen::Vector2d change =
+            (matrix * scale.cwiseInverse().asDiagonal()).colPivHouseholderQr().solve(-rest).cwiseQuotient(scale);
+        move_points(rest + matrix * change);
+        betas += change;
+        if (!betas.allFinite())
+            throw InputError("no constants of coupling fit these equilibria",
+                             "look at displacements, currents and units");
+        constexpr double enough = 1e-14;
+        if ((change.cwiseAbs() - enough * betas.cwiseAbs()).maxCoeff() <= 0)
+            break;
+    }
+    weigh();
+    const Eigen::Vector2d scale = matrix.colwise().norm();
+    const Eigen::MatrixXd scaled = matrix * scale.cwiseInverse().asDiagonal();
+    const Eigen::Matrix2d inverse = (scaled.transpose() * scaled).inverse();
+    const double freedom = static_cast<double>(rows - 2);
+    const Eigen::Matrix2d by_noise = scale.cwiseInverse().asDiagonal() * (rest.squaredNorm() / freedom * inverse) *
+                                     scale.cwiseInverse().asDiagonal();
+    // What is known beforehand moves the constants as the equations say.
+    const auto moved = [&](const Eigen::VectorXd& by, double error) -> Eigen::Vector2d {
+        return -(inverse * (scaled.transpose() * by)).cwiseQuotient(scale) * error;
+    };
+    const Eigen::Vector2d by_known_gap = moved(by_gap, settings.gap_error),
+                          by_known_stiffness = moved(by_stiffness, settings.stiffness_error);
+    const auto estimate = [&](Eigen::Index k) {
+        return Estimate{betas[k],
+                        std::sqrt(by_noise(k, k) + by_known_gap[k] * by_known_gap[k] +
+                                  by_known_stiffness[k] * by_known_stiffness[k]),
+                        freedom};
+    };
+    result.beta1 = estimate(0);
+    result.beta2 = estimate(1);
+    const double both = std::sqrt(by_noise(0, 0) * by_noise(1, 1));
+    result.correlation = both > 0 ? by_noise(0, 1) / both : 0;
+    for (const StaticLoad& load : loads) {
+        const Balance balance(load, settings, betas);
+        result.residuals.push_back(balance.by_displacement != 0 ? balance.rest / balance.by_displacement : 0);
+    }
+    return result;
+}
+
+} // namespace graze

@@ -1,0 +1,106 @@
+#include "graze/identify/estimate.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+/// Continued fraction of the incomplete beta function (W. Lentz's method).
+double beta_fraction(double a, double b, double x) {
+    constexpr double tiny = 1e-300, enough = 1e-16;
+    constexpr int most = 10'000;
+    double c = 1, d = 1 / std::max(tiny, std::abs(1 - (a + b) * x / (a + 1)));
+    double result = d;
+    for (int m = 1; m < most; ++m) {
+        const double k = m;
+        for (const double factor : {k * (b - k) * x / ((a + 2 * k - 1) * (a + 2 * k)),
+                                    -(a + k) * (a + b + k) * x / ((a + 2 * k) * (a + 2 * k + 1))}) {
+            d = 1 + factor * d;
+            c = 1 + factor / c;
+            d = 1 / (std::abs(d) < tiny ? tiny : d);
+            c = std::abs(c) < tiny ? tiny : c;
+            result *= d * c;
+        }
+        if (std::abs(d * c - 1) < enough)
+            break;
+    }
+    return result;
+}
+
+/// Regularised incomplete beta function.
+double incomplete_beta(double a, double b, double x) {
+    if (x <= 0 || x >= 1)
+        return x <= 0 ? 0 : 1;
+    const double front =
+        std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log1p(-x));
+    return x < (a + 1) / (a + b + 2) ? front * beta_fraction(a, b, x) / a : 1 - front * beta_fraction(b, a, 1 - x) / b;
+}
+
+} // namespace
+
+double student_quantile(double probability, double freedom) {
+    if (!(probability > 0 && probability < 1) || !(freedom > 0))
+        throw InputError("there is no such quantile", "give a probability between 0 and 1, and positive freedom");
+    const auto beyond = [&](double t) { return incomplete_beta(0.5 * freedom, 0.5, freedom / (freedom + t * t)); };
+    double low = 0, high = 1;
+    while (beyond(high) > 1 - probability && high < 1e150)
+        high *= 2;
+    constexpr int steps = 200;
+    for (int i = 0; i < steps && high - low > 1e-15 * high; ++i) {
+        const double t = 0.5 * (low + high);
+        (beyond(t) > 1 - probability ? low : high) = t;
+    }
+    return 0.5 * (low + high);
+}
+
+double Estimate::half_width(double probability) const {
+    return freedom > 0 ? student_quantile(probability, freedom) * error : 0;
+}
+
+Combined combine(std::span<const Estimate> sets) {
+    if (sets.empty())
+        throw InputError("there are no estimates to be combined", "give one or more");
+    Combined result;
+    result.mean = sets.front();
+    const auto count = static_cast<double>(sets.size());
+    if (sets.size() == 1)
+        return result;
+    double least = 0;
+    for (const Estimate& set : sets)
+        least = set.error > 0 && (least == 0 || set.error < least) ? set.error : least;
+    const auto variance_of = [&](const Estimate& set) { return std::pow(std::max(set.error, 1e-3 * least), 2); };
+    const auto mean_of = [&](double spread, double& weights, double& departures) {
+        double sum = 0;
+        weights = departures = 0;
+        for (const Estimate& set : sets) {
+            const double weight = least > 0 ? 1 / (variance_of(set) + spread) : 1;
+            weights += weight;
+            sum += weight * set.value;
+        }
+        for (const Estimate& set : sets)
+            departures += (least > 0 ? 1 / (variance_of(set) + spread) : 1) * std::pow(set.value - sum / weights, 2);
+        return sum / weights;
+    };
+    double weights = 0, departures = 0, squares = 0;
+    mean_of(0, weights, departures);
+    for (const Estimate& set : sets)
+        squares += least > 0 ? std::pow(variance_of(set), -2) : 1;
+    const double spread = least > 0 ? std::max(0.0, (departures - (count - 1)) / (weights - squares / weights)) : 0;
+    result.mean.value = mean_of(spread, weights, departures);
+    const double scale = departures / (count - 1);
+    result.mean.error = std::sqrt((least > 0 ? std::max(scale, spread > 0 ? 0.0 : 1.0) : scale) / weights);
+    result.mean.freedom = count - 1;
+    if (least > 0 && spread == 0) { // nothing but their own errors, which are known by all of their freedom
+        result.mean.freedom = 0;
+        for (const Estimate& set : sets)
+            result.mean.freedom += set.freedom;
+    }
+    result.spread = std::sqrt(spread);
+    return result;
+}
+
+} // namespace graze

@@ -1,0 +1,85 @@
+#include "graze/identify/impedance.hpp"
+
+#include "graze/record/period.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+double guessed_frequency(std::span<const double> times, std::span<const double> voltage) {
+    Samples samples;
+    samples.times.assign(times.begin(), times.end());
+    samples.values.emplace_back(voltage.begin(), voltage.end());
+    StoredSamples source({{"t", ""}, {{"voltage", ""}}}, std::move(samples));
+    PeriodSettings settings;
+    settings.level = std::accumulate(voltage.begin(), voltage.end(), 0.0) /
+                     static_cast<double>(std::max<std::size_t>(1, voltage.size()));
+    PeriodSplitter splitter(source, settings);
+    std::vector<double> crossings;
+    for (Period period; splitter.next(period); crossings.push_back(period.end))
+        if (crossings.empty())
+            crossings.push_back(period.begin);
+    if (crossings.size() < 2)
+        throw InputError("the voltage has less than two periods", "record more of them");
+    return 2 * std::numbers::pi / fit_period(crossings).period;
+}
+
+} // namespace
+
+Impedance impedance(std::span<const double> times, std::span<const double> voltage, std::span<const double> current,
+                    double guess) {
+    require_size(voltage.size(), times.size(), "values of the voltage");
+    require_size(current.size(), times.size(), "values of the current");
+    require_finite(guess, "the frequency");
+    const std::array<std::span<const double>, 2> channels{voltage, current};
+    Impedance result;
+    result.frequency = fit_frequency(times, channels, guess > 0 ? guess : guessed_frequency(times, voltage));
+    std::vector<double> centred(times.begin(), times.end());
+    const double middle = 0.5 * (times.front() + times.back());
+    for (double& t : centred)
+        t -= middle;
+    result.voltage = fit_harmonic(centred, voltage, result.frequency);
+    result.current = fit_harmonic(centred, current, result.frequency);
+    const double size = result.voltage.amplitude(), flow = result.current.amplitude();
+    if (!(flow > 0) || !(size > 0))
+        throw InputError("there is no voltage or no current", "give both, of a coil that carries a current");
+    constexpr double unknowns = 3;
+    const double freedom = static_cast<double>(times.size()) - unknowns;
+    const double magnitude = size / flow;
+    result.magnitude = {
+        magnitude,
+        magnitude * std::hypot(result.voltage.amplitude_error() / size, result.current.amplitude_error() / flow),
+        freedom};
+    result.lag = {std::remainder(result.voltage.phase() - result.current.phase(), 2 * std::numbers::pi),
+                  std::hypot(result.voltage.phase_error(), result.current.phase_error()), freedom};
+    const double c = std::cos(result.lag.value), s = std::sin(result.lag.value);
+    result.resistance = {magnitude * c, std::hypot(c * result.magnitude.error, magnitude * s * result.lag.error),
+                         freedom};
+    result.inductance = {magnitude * s / result.frequency,
+                         std::hypot(s * result.magnitude.error, magnitude * c * result.lag.error) / result.frequency,
+                         freedom};
+    return result;
+}
+
+Estimate leakage_inductance(const Estimate& inductance, const Estimate& beta1, const Estimate& beta2, double gap,
+                            double displacement) {
+    const double space = beta2.value + gap - displacement;
+    if (!(space > 0))
+        throw InputError("the air gap is closed", "give gap and displacement in the unit of beta2");
+    const double coupled = beta1.value / space;
+    Estimate result = inductance;
+    result.value -= coupled;
+    result.error = std::hypot(inductance.error, beta1.error / space, beta2.error * coupled / space);
+    return result;
+}
+
+} // namespace graze

@@ -1,0 +1,71 @@
+#include "graze/identify/restitution.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+double variance_at(const ImpactSpeeds& impact, double e) {
+    return impact.after_error * impact.after_error + e * e * impact.before_error * impact.before_error;
+}
+
+/// Half of the derivative, by the angle of the line, of the sum of squared distances: nought where the line is nearest.
+double slope_at(std::span<const ImpactSpeeds> impacts, double e) {
+    double sum = 0;
+    for (const ImpactSpeeds& one : impacts) {
+        const double rest = one.after + e * one.before, variance = variance_at(one, e);
+        sum += rest * (one.before * variance - rest * e * one.before_error * one.before_error) / (variance * variance);
+    }
+    return sum;
+}
+
+} // namespace
+
+Restitution restitution(std::span<const ImpactSpeeds> impacts) {
+    if (impacts.size() < 2)
+        throw InputError("there are too few impacts to tell the restitution's error", "give two or more");
+    Restitution result;
+    const auto count = static_cast<double>(impacts.size());
+    double squares = 0, products = 0;
+    for (const ImpactSpeeds& one : impacts) {
+        for (const double value : {one.before, one.after, one.before_error, one.after_error})
+            require_finite(value, "a velocity of an impact");
+        if (one.before == 0 || !(one.before_error >= 0) || !(one.after_error > 0))
+            throw InputError("an impact has no velocity, or its errors are not positive",
+                             "leave it out, or give errors of one for all");
+        result.mean_ratio -= one.after / one.before / count;
+        squares += one.before * one.before / variance_at(one, 1);
+        products -= one.before * one.after / variance_at(one, 1);
+    }
+    if (!(products > 0))
+        throw InputError("velocities after impacts have the signs of those before",
+                         "give velocities relative to the stop");
+    // A regression is below the nearest line by as much as noise makes it; one the other way round above.
+    double low = 0, high = std::max(1.0, 2 * products / squares);
+    while (slope_at(impacts, high) < 0 && high < 1e6)
+        high *= 2;
+    constexpr int steps = 200;
+    for (int i = 0; i < steps && high - low > 1e-16 * high; ++i) {
+        const double e = 0.5 * (low + high);
+        (slope_at(impacts, e) < 0 ? low : high) = e;
+    }
+    const double e = 0.5 * (low + high);
+    double misfit = 0, information = 0;
+    for (const ImpactSpeeds& one : impacts) {
+        const double rest = one.after + e * one.before, variance = variance_at(one, e);
+        result.residuals.push_back(rest);
+        misfit += rest * rest / variance;
+        // The point of the line that is nearest to the impact.
+        const double before = one.before - rest * e * one.before_error * one.before_error / variance;
+        information += before * before / variance;
+    }
+    result.coefficient = {e, std::sqrt(misfit / (count - 1) / information), count - 1};
+    return result;
+}
+
+} // namespace graze

@@ -1,0 +1,333 @@
+#include "program/disturbed_trips.hpp"
+
+#include "graze/branch/disturbed_trip.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "program/commands.hpp"
+#include "program/figure.hpp"
+#include "program/interrupt.hpp"
+#include "program/loss_point.hpp"
+#include "program/status_line.hpp"
+#include "program/values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
+
+/// What a disturbance is asked about, and what has been found.
+struct Asked {
+    const TripArguments& arguments;
+    const Console& console;
+    LossPoint point;
+    AskedEnd end;
+    Table table{};
+    Figure figure{};
+    bool irregular = false, interrupted = false;
+    std::size_t done = 0, wanted = 0;
+
+    std::string option(const char* name) const { return std::string("--") + name; }
+    double cycles(long usual) const { return static_cast<double>(arguments.cycles.value_or(usual)); }
+    double number(const std::string& text, const char* name) const {
+        return value_of(point.model(), text, option(name));
+    }
+};
+
+TripOrigin origin_at(const Asked& asked, double value) {
+    const LossPoint& point = asked.point;
+    try {
+        if (point.fold)
+            return trip_origin(point.system, *point.fold, value);
+        return trip_origin(point.system, point.stored.record.point.solution.orbit, point.map, point.parameter, value);
+    } catch (const InputError& error) {
+        throw InputError(Place{"--at", 0, 0}, error.problem(), error.remedy());
+    }
+}
+
+/// The value that is disturbed.
+TripOrigin resting_origin(const Asked& asked, const char* option) {
+    if (asked.arguments.at.empty())
+        throw InputError(Place{asked.option(option), 0, 0}, "nothing says where the motion rests",
+                         fmt::format("give the value of {} that is disturbed: --at VALUE", asked.point.name));
+    return origin_at(asked, asked.number(asked.arguments.at, "at"));
+}
+
+TripOptions options_of(const Asked& asked) {
+    TripOptions options;
+    constexpr long usual = 2000;
+    options.cycles = asked.cycles(usual);
+    options.interrupted = [] { return InterruptGuard::requested(); };
+    return options;
+}
+
+FigurePanel panel_of(const std::string& x, const std::string& x_unit, const std::string& y, const std::string& y_unit) {
+    FigurePanel panel;
+    panel.x_label = x;
+    panel.x_unit = x_unit;
+    panel.y_label = y;
+    panel.y_unit = y_unit;
+    panel.logarithmic_x = true;
+    panel.roomy_x = panel.roomy_y = true;
+    return panel;
+}
+
+FigureSeries series_of(const std::string& title, FigureSeries::Style style, std::size_t colour) {
+    FigureSeries series;
+    series.title = title;
+    series.style = style;
+    series.colour = colour;
+    return series;
+}
+
+/// One row after another, until Ctrl-C. @param row is not added when interrupted: it then says false
+void for_each_of(Asked& asked, const std::vector<double>& values, const char* option,
+                 const std::function<bool(double)>& row) {
+    asked.wanted = values.size();
+    for (const double value : values) {
+        try {
+            asked.interrupted = !row(value);
+        } catch (const InputError& error) {
+            if (!error.place().file.empty())
+                throw;
+            throw InputError(Place{asked.option(option), 0, 0}, error.problem(), error.remedy());
+        }
+        if (asked.interrupted)
+            return;
+        ++asked.done;
+    }
+}
+
+/// Where a ramp begins that is not told where: so far before the point that the beginning is forgotten.
+double beginning_of_ramp(const LossPoint& point, double rate) {
+    constexpr double cycles = 100, delays = 5, tellable = 10;
+    double way = cycles * std::abs(rate) * point.cycle;
+    if (point.fold)
+        way = std::max(way, delays * std::abs(delay_of_ramp(*point.fold, rate)));
+    const double least = point.fold ? least_overshoot(*point.fold) : least_overshoot(point.map, point.parameter);
+    return point.value - point.side * std::max(way, tellable * least);
+}
+
+void ramp(Asked& asked) {
+    const LossPoint& point = asked.point;
+    const std::string& time = point.model().time_unit;
+    const std::string rate_unit =
+        point.unit.empty() && time.empty()
+            ? ""
+            : fmt::format("{}/{}", point.unit.empty() ? "1" : point.unit, time.empty() ? "1" : time);
+    std::vector<Table::Column> columns{{"rate", rate_unit},   {"from", point.unit}, {"value", point.unit},
+                                       {"delay", point.unit}, {"delay_cycles", ""}, {"time", time},
+                                       {"ending", ""}};
+    if (point.fold)
+        columns.push_back({"predicted_delay", point.unit});
+    asked.table = Table(std::move(columns));
+    FigurePanel panel = panel_of("rate of " + point.name, rate_unit, "delay of " + point.name, point.unit);
+    panel.logarithmic_y = true;
+    FigureSeries simulated = series_of("simulation, until " + asked.end.words, FigureSeries::Style::circles, 1),
+                 predicted = series_of("normal form", FigureSeries::Style::dashed, 0);
+    for_each_of(asked, numbers_by_decades(point.model(), asked.arguments.ramps, "--ramp"), "ramp", [&](double rate) {
+        if (!(rate * point.side > 0))
+            throw InputError(fmt::format("with the rate {} the parameter does not come to the point from where the "
+                                         "motion is at rest",
+                                         rate),
+                             point.side > 0 ? "give a positive rate" : "give a negative rate");
+        const double from =
+            asked.arguments.at.empty() ? beginning_of_ramp(point, rate) : asked.number(asked.arguments.at, "at");
+        const RampedTrip ramped =
+            ramped_trip(point.system, origin_at(asked, from), rate, asked.end.end, options_of(asked));
+        if (InterruptGuard::requested())
+            return false;
+        const double delay = ramped.trip.ended ? ramped.value - point.value : nothing;
+        asked.irregular = asked.irregular || !ramped.trip.ended;
+        asked.table.add(rate);
+        asked.table.add(from);
+        asked.table.add(ramped.trip.ended ? ramped.value : nothing);
+        asked.table.add(delay);
+        asked.table.add(delay / (rate * point.cycle));
+        asked.table.add(ramped.trip.ended ? ramped.trip.time : nothing);
+        asked.table.add(ramped.trip.ending);
+        if (delay / rate > 0)
+            simulated.points.push_back({std::abs(rate), std::abs(delay)});
+        if (point.fold) {
+            asked.table.add(delay_of_ramp(*point.fold, rate));
+            predicted.points.push_back({std::abs(rate), std::abs(delay_of_ramp(*point.fold, rate))});
+        }
+        return true;
+    });
+    panel.series.push_back(simulated);
+    if (point.fold)
+        panel.series.push_back(predicted);
+    asked.figure.panels.push_back(std::move(panel));
+}
+
+void wave(Asked& asked) {
+    const LossPoint& point = asked.point;
+    const TripOrigin origin = resting_origin(asked, "wave");
+    constexpr double usual = 100; // cycles
+    const double period = asked.arguments.wave_period.value_or(usual) * origin.cycle;
+    asked.table = Table(
+        {{"amplitude", point.unit}, {"trips", ""}, {"cycles", ""}, {"time", point.model().time_unit}, {"ending", ""}});
+    FigurePanel panel = panel_of("amplitude of " + point.name, point.unit, "time", point.model().time_unit);
+    FigureSeries times = series_of("until " + asked.end.words, FigureSeries::Style::circles, 1);
+    for_each_of(
+        asked, numbers_by_decades(point.model(), asked.arguments.waves, "--wave"), "wave", [&](double amplitude) {
+            const TripTime trip = swung_trip(point.system, origin, amplitude, period, asked.end.end, options_of(asked));
+            if (InterruptGuard::requested())
+                return false;
+            asked.irregular = asked.irregular || !(trip.ended || trip.ending == "end-time");
+            asked.table.add(amplitude);
+            asked.table.add(trip.ended ? "yes" : "no");
+            asked.table.add(trip.ended ? trip.cycles : nothing);
+            asked.table.add(trip.ended ? trip.time : nothing);
+            asked.table.add(trip.ending);
+            if (trip.ended && amplitude != 0)
+                times.points.push_back({std::abs(amplitude), trip.time});
+            return true;
+        });
+    panel.marks.push_back(std::abs(origin.point - origin.value));
+    panel.series.push_back(times);
+    asked.figure.panels.push_back(std::move(panel));
+}
+
+NoiseSettings settings_of(const Asked& asked) {
+    NoiseSettings settings;
+    constexpr long usual = 100;
+    settings.cycles = static_cast<std::size_t>(asked.arguments.cycles.value_or(usual));
+    settings.memory = asked.arguments.memory.value_or(0);
+    settings.motions = asked.arguments.motions;
+    settings.seed = asked.arguments.seed;
+    settings.jobs = asked.arguments.jobs > 0 ? asked.arguments.jobs
+                                             : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    settings.interrupted = [] { return InterruptGuard::requested(); };
+    return settings;
+}
+
+void noise(Asked& asked) {
+    const LossPoint& point = asked.point;
+    const TripOrigin origin = resting_origin(asked, "noise");
+    NoiseSettings settings = settings_of(asked);
+    asked.table = Table({{"level", point.unit},
+                         {"motions", ""},
+                         {"trips", ""},
+                         {"probability", ""},
+                         {"low", ""},
+                         {"high", ""},
+                         {"beyond", ""},
+                         {"half_cycles", ""},
+                         {"failed", ""}});
+    FigurePanel panel = panel_of("level of noise in " + point.name, point.unit, "probability of a trip", "");
+    FigureSeries shares = series_of(fmt::format("within {} cycles", settings.cycles), FigureSeries::Style::circles, 1),
+                 low = series_of(fmt::format("limits of confidence, {:g} %", 100 * settings.confidence),
+                                 FigureSeries::Style::line, 0),
+                 high = series_of("", FigureSeries::Style::line, 0),
+                 beyond = series_of("beyond the " + std::string(point.kind()) + " at any time",
+                                    FigureSeries::Style::dotted, 2);
+    const std::vector<double> levels = numbers_by_decades(point.model(), asked.arguments.noises, "--noise");
+    StatusLine line(asked.console, asked.console.terminal);
+    settings.progress = [&](std::size_t motions) {
+        if (line.is_due())
+            line.show(fmt::format("level {} of {}, motion {} of {}", asked.done + 1, levels.size(), motions,
+                                  settings.motions));
+    };
+    for_each_of(asked, levels, "noise", [&](double level) {
+        const NoisyTrips trips = noisy_trips(point.system, origin, level, asked.end.end, settings);
+        if (trips.interrupted)
+            return false;
+        const double share = static_cast<double>(trips.beyond) / static_cast<double>(trips.motions);
+        asked.irregular = asked.irregular || trips.failed > 0;
+        asked.table.add(level);
+        asked.table.add(static_cast<double>(trips.motions));
+        asked.table.add(static_cast<double>(trips.trips));
+        for (const double one : {trips.probability.value, trips.probability.low, trips.probability.high, share,
+                                 trips.half.value_or(nothing), static_cast<double>(trips.failed)})
+            asked.table.add(one);
+        if (level == 0) // has no place on the axis
+            return true;
+        shares.points.push_back({level, trips.probability.value});
+        low.points.push_back({level, trips.probability.low});
+        high.points.push_back({level, trips.probability.high});
+        beyond.points.push_back({level, share});
+        return true;
+    });
+    panel.series = {shares, low, high, beyond};
+    asked.figure.panels.push_back(std::move(panel));
+}
+
+JsonObject heading_of(const ResultFile& file, const Asked& asked) {
+    JsonObject heading = heading_of(file, asked.point, asked.end);
+    const TripArguments& arguments = asked.arguments;
+    if (!arguments.at.empty())
+        heading.add("at", asked.number(arguments.at, "at"));
+    if (!arguments.noises.empty()) {
+        const NoiseSettings settings = settings_of(asked);
+        heading.add("memory", settings.memory);
+        heading.add("cycles", static_cast<double>(settings.cycles));
+        heading.add("seed", static_cast<double>(settings.seed));
+        heading.add("confidence", settings.confidence);
+    }
+    return heading;
+}
+
+/// Options that say nothing, or something else, of a parameter that changes in time.
+void require_together(const TripArguments& arguments) {
+    const auto refuse = [](bool given, const char* option, const char* problem, const char* remedy) {
+        if (given)
+            throw InputError(Place{option, 0, 0}, problem, remedy);
+    };
+    const int kinds =
+        (arguments.ramps.empty() ? 0 : 1) + (arguments.waves.empty() ? 0 : 1) + (arguments.noises.empty() ? 0 : 1);
+    refuse(kinds > 1, "--ramp, --wave, --noise", "only one of them is done at a time", "choose one of them");
+    const char* steady = "the parameter changes in time here, and begins before the point";
+    refuse(!arguments.overshoots.empty(), "--overshoot", steady, "leave it out");
+    refuse(!arguments.disturbances.empty(), "--disturbance", steady, "leave it out");
+    refuse(!arguments.beside.empty(), "--beside", "only overshoots of two points are put side by side", "leave it out");
+    refuse(arguments.memory && arguments.noises.empty(), "--memory", "nothing is random", "give --noise LEVELS");
+    refuse(arguments.wave_period && arguments.waves.empty(), "--wave-period", "nothing swings",
+           "give --wave AMPLITUDES");
+}
+
+} // namespace
+
+bool is_disturbed(const TripArguments& arguments) {
+    return !(arguments.ramps.empty() && arguments.waves.empty() && arguments.noises.empty());
+}
+
+int disturbed_trips(const ResultFile& file, const TripArguments& arguments, const Console& console) {
+    require_together(arguments);
+    LossPoint point = loss_point(file, arguments.point, arguments.parameter, "POINT");
+    AskedEnd end = end_of(point, arguments);
+    if (point.fold && !end.given)
+        throw InputError(Place{"POINT", 0, 0}, "nothing says where a motion ends that has left a fold",
+                         "give --until EXPR=LEVEL or --until end");
+    Asked asked{.arguments = arguments, .console = console, .point = std::move(point), .end = std::move(end)};
+    const InterruptGuard guard;
+    if (!arguments.ramps.empty())
+        ramp(asked);
+    else if (!arguments.waves.empty())
+        wave(asked);
+    else
+        noise(asked);
+    if (arguments.plot.empty() || asked.interrupted) {
+        deliver(asked.table, arguments.output, heading_of(file, asked), console);
+    } else {
+        draw_figure(asked.figure, arguments.plot, arguments.data);
+        console.out << arguments.plot << '\n';
+    }
+    if (asked.interrupted) {
+        console.err << fmt::format("graze: interrupted; {} of {} rows are done\n", asked.done, asked.wanted);
+        return InterruptGuard::exit_code();
+    }
+    return asked.irregular ? exit_irregular : exit_success;
+}
+
+} // namespace graze

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "program/arguments.hpp"
+
+namespace graze {
+
+/// What `graze identify` finds.
+std::vector<std::string> identify_kinds();
+
+/// The command that finds parameters from measured records: `identify`.
+void declare_identify_command(CLI::App& app, Arguments& arguments);
+
+} // namespace graze

@@ -1,0 +1,42 @@
+#include "graze/symbolic/input_error.hpp"
+#include "program/commands.hpp"
+#include "program/figure.hpp"
+#include "program/identify_kinds.hpp"
+#include "program/picture.hpp"
+
+#include <limits>
+
+namespace graze {
+
+int identify_command(const IdentifyArguments& arguments, const Console& console) {
+    const std::string& plot = arguments.reading.plot;
+    if (!plot.empty())
+        picture_ending(plot, "--plot", {"svg", "png", "pdf"});
+    const Identified found = arguments.what == "decrement"     ? identify_decrement(arguments)
+                             : arguments.what == "restitution" ? identify_restitution(arguments)
+                             : arguments.what == "coupling"    ? identify_coupling(arguments)
+                                                               : identify_impedance(arguments);
+    Table table({{"name", ""}, {"unit", ""}, {"value", ""}, {"error", ""}, {"low", ""}, {"high", ""}, {"freedom", ""}});
+    for (const Identified::Value& value : found.values) {
+        const Estimate& estimate = value.estimate;
+        const bool known = estimate.freedom > 0;
+        constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
+        table.add(value.name);
+        table.add(value.unit);
+        table.add(estimate.value);
+        table.add(known ? estimate.error : nothing);
+        table.add(known ? estimate.value - estimate.half_width() : nothing);
+        table.add(known ? estimate.value + estimate.half_width() : nothing);
+        table.add(known ? estimate.freedom : nothing);
+    }
+    JsonObject heading;
+    heading.add("graze", GRAZE_VERSION);
+    heading.add("what", arguments.what);
+    heading.add("probability", 0.95);
+    if (!plot.empty())
+        draw_figure(found.figure, plot, arguments.reading.data);
+    deliver(table, arguments.reading.output, heading, console);
+    return exit_success;
+}
+
+} // namespace graze

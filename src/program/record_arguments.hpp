@@ -1,0 +1,13 @@
+#pragma once
+
+#include "program/arguments.hpp"
+
+namespace graze {
+
+/// What `graze record --what` makes.
+std::vector<std::string> record_table_names();
+
+/// The command that looks at measured records: `record`.
+void declare_record_commands(CLI::App& app, Arguments& arguments);
+
+} // namespace graze

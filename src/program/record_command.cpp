@@ -1,0 +1,85 @@
+#include "graze/record/record_writer.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "program/commands.hpp"
+#include "program/figure.hpp"
+#include "program/output_file.hpp"
+#include "program/picture.hpp"
+#include "program/record_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+/// What has gone wrong with one of the files names it, wherever it was noticed.
+template <class Work>
+void with_file(const std::string& file, const Work& work) {
+    try {
+        work();
+    } catch (const InputError& error) {
+        if (!error.place().file.empty())
+            throw;
+        throw InputError(Place{file, 0, 0}, error.problem(), error.remedy());
+    }
+}
+
+void write_record(const RecordArguments& arguments, const Console& console) {
+    if (arguments.files.size() > 1)
+        throw InputError("several records cannot be written to one file", "give one record");
+    require_distinct({{"the record", arguments.files.front()}, {"--write", arguments.write}});
+    FileReplacement replacement(arguments.write);
+    with_file(arguments.files.front(), [&] {
+        RecordStages stages(arguments.files.front(), arguments);
+        const std::vector<std::size_t> channels = stages.channels(arguments.channels);
+        RecordHeader header{stages.header().time, {}};
+        for (const std::size_t c : channels)
+            header.channels.push_back(stages.header().channels[c]);
+        RecordWriter writer(replacement.temporary_path(), header);
+        Samples samples, chosen;
+        while (stages.source().read(samples)) {
+            chosen.times = samples.times;
+            chosen.values.clear();
+            for (const std::size_t c : channels)
+                chosen.values.push_back(samples.values[c]);
+            writer.write(chosen);
+        }
+        writer.close();
+    });
+    replacement.commit();
+    console.out << arguments.write << '\n';
+}
+
+} // namespace
+
+int record_command(const RecordArguments& arguments, const Console& console) {
+    if (!arguments.plot.empty())
+        picture_ending(arguments.plot, "--plot", {"svg", "png", "pdf"});
+    if (!arguments.write.empty()) {
+        write_record(arguments, console);
+        return exit_success;
+    }
+    const std::unique_ptr<RecordTable> table = record_table(arguments);
+    for (const std::string& file : arguments.files)
+        with_file(file, [&] {
+            RecordStages stages(file, arguments);
+            table->add(file, stages);
+        });
+    if (!arguments.plot.empty()) {
+        draw_figure(table->figure(), arguments.plot, arguments.data);
+        console.out << arguments.plot << '\n';
+        return exit_success;
+    }
+    JsonObject heading;
+    heading.add("graze", GRAZE_VERSION);
+    heading.add("what", arguments.what);
+    if (arguments.files.size() == 1)
+        heading.add("file", arguments.files.front());
+    deliver(table->table(), arguments.output, heading, console);
+    return exit_success;
+}
+
+} // namespace graze

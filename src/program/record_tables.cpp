@@ -1,0 +1,366 @@
+#include "program/record_tables.hpp"
+
+#include "graze/record/impacts.hpp"
+#include "graze/record/spectrum.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t most_rows = 2'000'000;
+constexpr std::size_t most_drawn = 4000;                             ///< pairs of least and greatest values of a curve
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
+
+/// A curve with so many samples that they would not be told apart: of each part its least and greatest.
+class CurveThinner {
+public:
+    void add(double time, double value) {
+        if (points_.empty() || in_part_ == part_) {
+            if (points_.size() >= 2 * most_drawn)
+                halve();
+            points_.push_back({{time, value}, {time, value}});
+            in_part_ = 0;
+        }
+        ++in_part_;
+        Pair& last = points_.back();
+        if (value < last.least.y)
+            last.least = {time, value};
+        if (value > last.greatest.y)
+            last.greatest = {time, value};
+    }
+    std::vector<PlanePoint> points() const {
+        std::vector<PlanePoint> result;
+        for (const Pair& pair : points_) {
+            const bool rises = pair.least.x < pair.greatest.x;
+            result.push_back(rises ? pair.least : pair.greatest);
+            if (pair.least.x != pair.greatest.x)
+                result.push_back(rises ? pair.greatest : pair.least);
+        }
+        return result;
+    }
+
+private:
+    struct Pair {
+        PlanePoint least, greatest;
+    };
+    void halve() {
+        for (std::size_t i = 0; 2 * i + 1 < points_.size(); ++i) {
+            const Pair &one = points_[2 * i], &other = points_[2 * i + 1];
+            points_[i] = {one.least.y <= other.least.y ? one.least : other.least,
+                          one.greatest.y >= other.greatest.y ? one.greatest : other.greatest};
+        }
+        points_.resize(points_.size() / 2);
+        part_ *= 2;
+    }
+    std::vector<Pair> points_;
+    std::size_t part_ = 1, in_part_ = 0;
+};
+
+/// Channels over time, one panel each.
+class Histories {
+public:
+    void add(const std::string& file, const RecordHeader& header, const std::vector<std::size_t>& channels,
+             const Samples& samples) {
+        time_ = header.time;
+        for (const std::size_t c : channels) {
+            const Channel& channel = header.channels[c];
+            if (!curves_.contains(channel.name))
+                order_.push_back(channel);
+            CurveThinner& curve = curves_[channel.name][file];
+            for (std::size_t i = 0; i < samples.rows(); ++i)
+                curve.add(samples.times[i], samples.values[c][i]);
+        }
+    }
+    Figure figure(bool titled) const {
+        Figure figure;
+        for (const Channel& channel : order_) {
+            FigurePanel panel;
+            label_x(panel, time_);
+            label_y(panel, channel);
+            panel.roomy_y = true;
+            for (const auto& [file, curve] : curves_.at(channel.name)) {
+                FigureSeries series;
+                series.style = FigureSeries::Style::line;
+                series.colour = panel.series.size();
+                series.points = curve.points();
+                if (titled)
+                    series.title = file;
+                panel.series.push_back(std::move(series));
+            }
+            figure.panels.push_back(std::move(panel));
+        }
+        return figure;
+    }
+
+private:
+    Channel time_;
+    std::vector<Channel> order_;
+    std::map<std::string, std::map<std::string, CurveThinner>> curves_;
+};
+
+/// Numbers of each channel as a whole.
+class ChannelTable : public RecordTable {
+public:
+    using RecordTable::RecordTable;
+    void add(const std::string& file, RecordStages& stages) override {
+        const RecordHeader& header = stages.header();
+        const std::vector<std::size_t> channels = stages.channels(arguments().channels);
+        begin({{"channel", ""},
+               {"unit", ""},
+               {"least", ""},
+               {"greatest", ""},
+               {"mean", ""},
+               {"deviation", ""},
+               {"samples", ""},
+               {"begin", header.time.unit},
+               {"end", header.time.unit},
+               {"shortest_step", header.time.unit},
+               {"longest_step", header.time.unit}});
+        std::vector<Numbers> numbers(channels.size());
+        Numbers steps;
+        double first = 0, last = 0, count = 0;
+        Samples samples;
+        while (stages.source().read(samples)) {
+            if (count == 0)
+                first = last = samples.times.front();
+            for (std::size_t i = 0; i < samples.rows(); last = samples.times[i++], ++count)
+                if (count > 0)
+                    steps.add(samples.times[i] - last);
+            for (std::size_t c = 0; c < channels.size(); ++c)
+                for (const double value : samples.values[channels[c]])
+                    numbers[c].add(value);
+            if (!arguments().plot.empty())
+                histories_.add(file, header, channels, samples);
+        }
+        for (std::size_t c = 0; c < channels.size(); ++c) {
+            begin_row(file);
+            rows().add(header.channels[channels[c]].name);
+            rows().add(header.channels[channels[c]].unit);
+            numbers[c].put(rows());
+            rows().add(count);
+            rows().add(count > 0 ? first : nothing);
+            rows().add(count > 0 ? last : nothing);
+            rows().add(count > 1 ? steps.least : nothing);
+            rows().add(count > 1 ? steps.greatest : nothing);
+        }
+    }
+    Figure figure() const override { return histories_.figure(several()); }
+
+private:
+    struct Numbers {
+        double least = 0, greatest = 0, count = 0, mean = 0, squares = 0;
+        void add(double value) {
+            least = count == 0 ? value : std::min(least, value);
+            greatest = count == 0 ? value : std::max(greatest, value);
+            const double before = value - mean;
+            mean += before / ++count;
+            squares += before * (value - mean);
+        }
+        void put(Table& table) const {
+            for (const double value : {least, greatest, mean})
+                table.add(count > 0 ? value : nothing);
+            table.add(count > 1 ? std::sqrt(squares / (count - 1)) : nothing);
+        }
+    };
+    Histories histories_;
+};
+
+/// All rows.
+class SampleTable : public RecordTable {
+public:
+    using RecordTable::RecordTable;
+    void add(const std::string& file, RecordStages& stages) override {
+        const RecordHeader& header = stages.header();
+        const std::vector<std::size_t> channels = stages.channels(arguments().channels);
+        std::vector<Table::Column> columns{{header.time.name, header.time.unit}};
+        for (const std::size_t c : channels)
+            columns.push_back({header.channels[c].name, header.channels[c].unit});
+        begin(columns);
+        Samples samples;
+        while (stages.source().read(samples)) {
+            if (!arguments().plot.empty()) {
+                histories_.add(file, header, channels, samples);
+                continue;
+            }
+            require_few_rows(rows());
+            for (std::size_t i = 0; i < samples.rows(); ++i) {
+                begin_row(file);
+                rows().add(samples.times[i]);
+                for (const std::size_t c : channels)
+                    rows().add(samples.values[c][i]);
+            }
+        }
+    }
+    Figure figure() const override { return histories_.figure(several()); }
+
+private:
+    Histories histories_;
+};
+
+class SpectrumTable : public RecordTable {
+public:
+    using RecordTable::RecordTable;
+    void add(const std::string& file, RecordStages& stages) override {
+        const RecordHeader header = stages.header();
+        const std::vector<std::size_t> channels = stages.channels(arguments().channels);
+        if (channels.size() != 1)
+            throw InputError("a spectrum is that of one channel", "name it by --channel");
+        const Channel& channel = header.channels[channels.front()];
+        begin({{"frequency", inverse(header.time.unit)}, {"amplitude", channel.unit}});
+        Spectrum found;
+        if (arguments().part > 0) {
+            found = averaged_spectrum(stages.source(), channels.front(), arguments().part);
+        } else {
+            constexpr std::size_t most = 4'000'000;
+            const Samples all = read_all(stages.source(), most);
+            found = spectrum(all.values[channels.front()], sampling_frequency(all.times));
+        }
+        FigureSeries series;
+        series.title = several() ? file : "";
+        series.style = FigureSeries::Style::line;
+        series.colour = panel_.series.size();
+        for (std::size_t k = 0; k < found.frequencies.size(); ++k) {
+            begin_row(file);
+            rows().add(found.frequencies[k]);
+            rows().add(found.amplitudes[k]);
+            series.points.push_back({found.frequencies[k], found.amplitudes[k]});
+        }
+        panel_.x_label = "frequency";
+        panel_.x_unit = inverse(header.time.unit);
+        panel_.y_label = "amplitude of " + channel.name;
+        panel_.y_unit = channel.unit;
+        panel_.series.push_back(std::move(series));
+    }
+    Figure figure() const override {
+        Figure figure;
+        figure.panels.push_back(panel_);
+        return figure;
+    }
+
+private:
+    static std::string inverse(const std::string& unit) {
+        return unit.empty() ? "" : unit == "s" ? "Hz" : unit == "ms" ? "kHz" : "1/" + unit;
+    }
+    FigurePanel panel_;
+};
+
+class ImpactTable : public RecordTable {
+public:
+    using RecordTable::RecordTable;
+    void add(const std::string& file, RecordStages& stages) override {
+        const RecordHeader header = stages.header();
+        const std::vector<std::size_t> channels = stages.channels(arguments().channels);
+        if (channels.size() != 1)
+            throw InputError("impacts are jumps of one channel, a velocity", "name it by --channel");
+        velocity_ = header.channels[channels.front()];
+        begin({{"time", header.time.unit},
+               {"time_error", header.time.unit},
+               {"before", velocity_.unit},
+               {"before_error", velocity_.unit},
+               {"after", velocity_.unit},
+               {"after_error", velocity_.unit},
+               {"ratio", ""}});
+        ImpactSettings settings;
+        settings.velocity = channels.front();
+        if (!arguments().displacement.empty())
+            settings.displacement = header.channel(arguments().displacement, "--displacement");
+        settings.window = arguments().window;
+        settings.transition = arguments().transition;
+        settings.least_jump = arguments().least_jump;
+        ImpactFinder finder(stages.source(), settings);
+        std::vector<RecordedImpact> impacts;
+        while (finder.next(impacts))
+            for (const RecordedImpact& impact : impacts) {
+                begin_row(file);
+                for (const double value : {impact.time, impact.time_error, impact.before, impact.before_error,
+                                           impact.after, impact.after_error, -impact.after / impact.before})
+                    rows().add(value);
+            }
+    }
+    /// Velocities after impacts over those before.
+    Figure figure() const override {
+        FigurePanel panel;
+        panel.x_label = velocity_.name + " before an impact";
+        panel.y_label = velocity_.name + " after it";
+        panel.x_unit = panel.y_unit = velocity_.unit;
+        panel.roomy_x = panel.roomy_y = true;
+        FigureSeries& series = panel.series.emplace_back();
+        series.style = FigureSeries::Style::circles;
+        const std::size_t before = several() ? 3 : 2;
+        for (std::size_t row = 0; row < table().rows(); ++row)
+            series.points.push_back({table().number(row, before), table().number(row, before + 2)});
+        Figure figure;
+        figure.panels.push_back(std::move(panel));
+        return figure;
+    }
+
+private:
+    Channel velocity_;
+};
+
+} // namespace
+
+RecordTable::RecordTable(const RecordArguments& arguments, bool several) : arguments_(&arguments), several_(several) {}
+
+void RecordTable::begin(const std::vector<Table::Column>& columns) {
+    std::vector<Table::Column> all;
+    if (several_)
+        all.push_back({"file", ""});
+    all.insert(all.end(), columns.begin(), columns.end());
+    if (!begun_)
+        table_ = Table(all);
+    else if (!std::equal(all.begin(), all.end(), table_.columns().begin(), table_.columns().end(),
+                         [](const Table::Column& one, const Table::Column& other) {
+                             return one.name == other.name && one.unit == other.unit;
+                         }))
+        throw InputError("this record has other channels or units than those before",
+                         "look at records of one kind together, or choose --channel that all of them have");
+    begun_ = true;
+}
+
+void RecordTable::begin_row(const std::string& file) {
+    if (several_)
+        table_.add(file);
+}
+
+void label_x(FigurePanel& panel, const Channel& channel) {
+    panel.x_label = channel.name;
+    panel.x_unit = channel.unit;
+}
+
+void label_y(FigurePanel& panel, const Channel& channel) {
+    panel.y_label = channel.name;
+    panel.y_unit = channel.unit;
+}
+
+void require_few_rows(const Table& table) {
+    if (table.rows() > most_rows)
+        throw InputError(fmt::format("the table has more than {} rows", most_rows),
+                         "write the record to a file by --write, or take a part of it by --from and --to");
+}
+
+std::unique_ptr<RecordTable> record_table(const RecordArguments& arguments) {
+    const bool several = arguments.files.size() > 1;
+    if (arguments.what == "channels")
+        return std::make_unique<ChannelTable>(arguments, several);
+    if (arguments.what == "samples")
+        return std::make_unique<SampleTable>(arguments, several);
+    if (arguments.what == "spectrum")
+        return std::make_unique<SpectrumTable>(arguments, several);
+    if (arguments.what == "impacts")
+        return std::make_unique<ImpactTable>(arguments, several);
+    if (arguments.reference.empty())
+        throw InputError(fmt::format("nothing says what begins the periods of which {} are asked for", arguments.what),
+                         "name the channel of the input by --reference");
+    return period_table(arguments);
+}
+
+} // namespace graze

@@ -1,0 +1,133 @@
+// Curves of branch points where no symmetry is declared, against closed forms.
+
+#include "follow.hpp"
+
+#include "graze/branch/orbit_branch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+/// u' = f(u) in units of length and time, where x = u + cos(theta) and nothing shows that u = 0 always solves it.
+Model hidden(const std::string& rate, double length = 1, double time = 1) {
+    return model_from(fmt::format(R"toml(
+[parameters]
+a = 0.3
+b = 0.8
+[states]
+x = {:.17g}
+theta = {{ initial = 0, period = "2*pi" }}
+[definitions]
+u = "x/{:.17g} - cos(theta)"
+[modes.only]
+rates = {{ x = "{:.17g}*({} - sin(theta))", theta = "{:.17g}" }}
+[sections.start]
+state = "theta"
+value = 0
+)toml",
+                                  length, length, length / time, rate, 1 / time));
+}
+
+struct Followed {
+    Branch branch, curve;
+};
+
+/// The branch u = 0 in a, and the curve of its first branch point in a and b.
+Followed followed(const Model& model) {
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter("a");
+    settings.least = -2;
+    settings.greatest = 2;
+    OrbitSolution start = settled(model, "start", 4000);
+    Orbit orbit = start.orbit;
+    Followed result;
+    result.branch = follow_branch(model, orbit, settings);
+    const auto points = of_type(result.branch, PointType::branch_point);
+    if (points.empty())
+        return result;
+    settings.free = {model.independent_parameter("b")};
+    settings.free_bounds = {{settings.free.front(), 0.2, 1.5}};
+    settings.kept = points.front();
+    result.curve = follow_branch(model, points.front().solution.orbit, settings);
+    return result;
+}
+
+void expect_on(const Branch& curve, double (*first)(double)) {
+    ASSERT_GT(curve.points.size(), 5U) << name_of(curve.outcome) << curve.detail;
+    EXPECT_EQ(curve.outcome, BranchOutcome::bound);
+    for (const BranchPoint& point : curve.points) {
+        const auto& parameters = point.solution.orbit.parameters;
+        // By the accuracy of the integration, over a period in which nothing grows.
+        EXPECT_NEAR(parameters[0], first(parameters[1]), 1e-11);
+        EXPECT_LT(nearest_multiplier(point.solution, 1), 1e-10);
+    }
+}
+
+TEST(BranchPointCurve, of_a_pitchfork_is_that_of_its_closed_form) {
+    using Units = std::pair<double, double>;
+    for (const auto& [length, time] : {Units(1, 1), Units(1e-9, 1e-6), Units(1e6, 1e3)}) {
+        const Followed found = followed(hidden("(a - b^2)*u - u^3", length, time));
+        ASSERT_FALSE(of_type(found.branch, PointType::branch_point).empty()) << names(found.branch);
+        EXPECT_NEAR(of_type(found.branch, PointType::branch_point)[0].parameter, 0.64, 1e-9);
+        expect_on(found.curve, [](double b) { return b * b; });
+        EXPECT_NEAR(found.curve.points.back().solution.orbit.parameters[0], 2, 1e-12);
+    }
+}
+
+TEST(BranchPointCurve, of_a_transcritical_point_is_that_of_its_closed_form) {
+    const Followed found = followed(hidden("(a - b^3)*u - u^2"));
+    ASSERT_FALSE(of_type(found.branch, PointType::branch_point).empty()) << names(found.branch);
+    expect_on(found.curve, [](double b) { return b * b * b; });
+}
+
+TEST(BranchPointCurve, does_not_begin_where_branches_part) {
+    // At b = 0.8 only the two branches cross.
+    const Followed found = followed(hidden("(a - b^2)*u - u^3 + (b - 0.8)*(1 + sin(theta))/10"));
+    ASSERT_FALSE(of_type(found.branch, PointType::branch_point).empty()) << names(found.branch);
+    EXPECT_NE(found.curve.outcome, BranchOutcome::bound);
+    for (const BranchPoint& point : found.curve.points) // the first one, and what cannot be told from it
+        EXPECT_NEAR(point.solution.orbit.parameters[1], 0.8, 1e-5);
+    EXPECT_NE(found.curve.detail.find("part there"), std::string::npos) << found.curve.detail;
+}
+
+/// Orbits with impacts that lose their symmetry, with and without its being declared: by other equations, of half or of
+/// whole orbits.
+TEST(BranchPointCurve, of_symmetric_orbits_is_the_loss_of_the_symmetry_that_is_not_declared) {
+    Model model = load_model("electromagnetic-testbed");
+    model.set_initial("I", 0.1);
+    std::vector<double> ends;
+    for (const bool declared : {true, false}) {
+        const PointType type = declared ? PointType::asymmetry : PointType::branch_point;
+        if (!declared)
+            model.symmetries.clear();
+        BranchSettings settings;
+        settings.parameter = model.independent_parameter("V0");
+        settings.stop_at = {type};
+        const OrbitSolution start = settled(model, "phase0", 600);
+        ASSERT_EQ(start.orbit.symmetry.has_value(), declared);
+        const Branch branch = follow_branch(model, start.orbit, settings);
+        ASSERT_EQ(branch.special.back().type, type) << names(branch);
+        EXPECT_NEAR(branch.special.back().parameter, 4.846244144797, 1e-9);
+        settings.stop_at.clear();
+        settings.kept = branch.special.back();
+        settings.free = {settings.parameter};
+        settings.parameter = model.independent_parameter("f");
+        settings.greatest = 6.252;
+        const Branch curve = follow_branch(model, branch.special.back().solution.orbit, settings);
+        ASSERT_EQ(curve.outcome, BranchOutcome::bound) << declared << curve.detail << curve.points.back().parameter;
+        ends.push_back(curve.points.back().solution.orbit.parameters[settings.free[0].place()]);
+        EXPECT_GT(std::abs(ends.back() - branch.special.back().parameter), 1e-4);
+    }
+    EXPECT_NEAR(ends[0], ends[1], 1e-9);
+}
+
+} // namespace
+} // namespace graze

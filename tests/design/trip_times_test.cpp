@@ -1,0 +1,61 @@
+// How long a trip takes: of the MEMS switch as published, of the beam's fold by its exponent.
+
+#include "graze/design/trip_times.hpp"
+
+#include "switches.hpp"
+
+namespace graze::testing {
+
+TEST(TripTimes, OfTheMemsSwitchAreThePublishedOnes) {
+    Design design = load_design("mems-switch");
+    design.trip.overshoots = {1e-4, 1e-20};
+    const TripPoint trip = trip_of(design);
+    const TripTimes times = trip_times(trip, trip.point.solution.orbit, class_at(trip), design.trip);
+    ASSERT_EQ(times.rows.size(), 2U);
+    ASSERT_TRUE(times.rows[0].simulated && times.rows[0].best());
+    EXPECT_NEAR(times.rows[0].best()->time, 27.31773570163, 1e-8 * 27);
+    EXPECT_FALSE(times.rows[1].simulated); // below the digits of the voltage
+    ASSERT_TRUE(times.rows[1].best());
+    EXPECT_GT(times.rows[1].best()->time, times.rows[0].best()->time);
+}
+
+TEST(TripTimes, BeyondAFoldGoWithTheRootOfTheOvershoot) {
+    Design design = parse_design(R"(name = "beam"
+control = "V"
+[approach]
+study = "microbeam"
+run = "contact"
+point = "SN1"
+[trip]
+until = "penetration=0.009"
+overshoots = [1e-6, 1e-8]
+[dimensions.k]
+range = [50, 200]
+)",
+                                 "d.toml");
+    const TripPoint trip = trip_of(design);
+    const TripTimes times = trip_times(trip, trip.point.solution.orbit, class_at(trip), design.trip);
+    ASSERT_EQ(times.rows.size(), 2U);
+    ASSERT_TRUE(times.rows[0].best() && times.rows[1].best());
+    // From the fold itself half of the passage, pi / 2 root(a overshoot), is left, and some cycles beyond it: the ratio
+    // is ten but for those.
+    EXPECT_NEAR(times.rows[1].best()->time / times.rows[0].best()->time, 10, 1);
+}
+
+TEST(TripTimes, AreNotThereWhereTheMotionPersists) {
+    const Design design = parse_design(oscillator_text(), "d.toml");
+    const TripPoint trip = trip_of(design);
+    TripClass found = class_at(trip);
+    found.outcome = GrazingOutcome::persists;
+    const TripTimes times = trip_times(trip, trip.point.solution.orbit, found, design.trip);
+    EXPECT_TRUE(times.rows.empty());
+    EXPECT_FALSE(times.reason.empty());
+}
+
+TEST(TripTimes, HaveDecadesOfTheTripValueOfAnySize) {
+    EXPECT_EQ(overshoots_of({}, 4e6, 1).front(), 1e4);
+    EXPECT_EQ(overshoots_of({}, 4e-9, -1).front(), -1e-11);
+    EXPECT_EQ(overshoots_of({}, 4e6, 1).size(), 10U);
+}
+
+} // namespace graze::testing

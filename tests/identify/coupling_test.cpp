@@ -1,0 +1,101 @@
+#include "graze/identify/coupling.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "identify/noise.hpp"
+
+namespace graze::testing {
+
+namespace {
+
+// Of the testbed: Appendix C of B. E. Wilcox's dissertation.
+constexpr double beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 0.00479102312304, stiffness = 0.6462 * 95.94 * 95.94;
+
+/// The current at which a displacement is an equilibrium, Eq. (5.13).
+double current_at(double q) {
+    return (gap + beta2 - q) * std::sqrt(2 * stiffness * q / beta1);
+}
+
+std::vector<StaticLoad> loads_of(Noise& noise, double noise_q, double noise_i) {
+    std::vector<StaticLoad> loads;
+    for (int run = 0; run < 10; ++run)
+        for (int i = 1; i <= 15; ++i) {
+            const double q = 1.2e-3 * i / 15; // the snap-through is at (d + beta2)/3 = 2.1e-3
+            loads.push_back({q + noise_q * noise.normal(), current_at(q) + noise_i * noise.normal()});
+        }
+    return loads;
+}
+
+CouplingSettings known() {
+    CouplingSettings settings;
+    settings.gap = gap;
+    settings.stiffness = stiffness;
+    return settings;
+}
+
+} // namespace
+
+TEST(Coupling, OfExactEquilibriaIsExact) {
+    Noise noise(1);
+    const Coupling found = coupling(loads_of(noise, 0, 0), known());
+    EXPECT_NEAR(found.beta1.value, beta1, 1e-9 * beta1);
+    EXPECT_NEAR(found.beta2.value, beta2, 1e-9 * beta2);
+    EXPECT_NEAR(found.regression_beta1, beta1, 1e-9 * beta1);
+    EXPECT_NEAR(found.regression_beta2, beta2, 1e-9 * beta2);
+    EXPECT_LT(found.beta1.error, 1e-9 * beta1);
+    EXPECT_EQ(found.beta1.freedom, 148);
+}
+
+TEST(Coupling, DoesNotDependOnUnits) {
+    Noise noise(1), same(1);
+    const Coupling metres = coupling(loads_of(noise, 1e-5, 0.01), known());
+    std::vector<StaticLoad> loads = loads_of(same, 1e-5, 0.01);
+    for (StaticLoad& load : loads)
+        load = {1e9 * load.displacement, 1e3 * load.current}; // nm and mA
+    CouplingSettings settings = known();
+    settings.gap *= 1e9;
+    const Coupling small = coupling(loads, settings); // force over displacement stays as it is
+    EXPECT_NEAR(small.beta2.value, 1e9 * metres.beta2.value, 1e-9 * 1e9 * metres.beta2.value);
+    EXPECT_NEAR(small.beta1.value, 1e27 / 1e6 * metres.beta1.value, 1e-9 * 1e21 * metres.beta1.value);
+    EXPECT_NEAR(small.beta1.error, 1e21 * metres.beta1.error, 1e-6 * 1e21 * metres.beta1.error);
+}
+
+TEST(Coupling, IntervalsCoverTheTruth) {
+    std::size_t first = 0, second = 0, regression = 0;
+    for (std::size_t seed = 0; seed < experiments; ++seed) {
+        Noise noise(seed);
+        CouplingSettings settings = known();
+        settings.displacement_noise = 1e-5;
+        settings.current_noise = 0.01;
+        const Coupling found = coupling(loads_of(noise, 1e-5, 0.01), settings);
+        first += std::abs(found.beta1.value - beta1) < found.beta1.half_width() ? 1 : 0;
+        second += std::abs(found.beta2.value - beta2) < found.beta2.half_width() ? 1 : 0;
+        regression += std::abs(found.regression_beta1 - beta1) < found.beta1.half_width() ? 1 : 0;
+    }
+    expect_coverage(first, "beta1");
+    expect_coverage(second, "beta2");
+    EXPECT_LE(regression, first) << "which takes displacements as exact";
+}
+
+TEST(Coupling, ErrorsOfWhatIsKnownMoveTheConstants) {
+    Noise noise(1), wider(1), stiffer(1);
+    CouplingSettings settings = known();
+    const std::vector<StaticLoad> loads = loads_of(noise, 0, 0);
+    settings.gap_error = 1e-6;
+    settings.stiffness_error = 1e-3 * stiffness;
+    const Coupling found = coupling(loads, settings);
+    // A wider gap is a smaller beta2; a stiffer spring a larger beta1: both exactly so, from the equations.
+    EXPECT_NEAR(found.beta2.error, 1e-6, 1e-12);
+    EXPECT_NEAR(found.beta1.error, 1e-3 * beta1, 1e-9 * beta1);
+}
+
+TEST(Coupling, RefusesWhatTellsNothing) {
+    Noise noise(1);
+    const std::vector<StaticLoad> loads = loads_of(noise, 0, 0);
+    EXPECT_THROW(coupling({}, known()), InputError);
+    EXPECT_THROW(coupling(loads, {}), InputError);
+    EXPECT_THROW(coupling(std::vector<StaticLoad>(5, loads[3]), known()), InputError);
+    EXPECT_THROW(coupling(std::vector<StaticLoad>(5, {-1e-4, 1}), known()), InputError);
+    EXPECT_THROW(coupling(std::vector<StaticLoad>(5, {1e-4, std::nan("")}), known()), InputError);
+}
+
+} // namespace graze::testing

@@ -1,0 +1,129 @@
+#include "run_graze.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace graze::testing {
+
+using ::testing::HasSubstr;
+
+namespace {
+
+constexpr double natural = 95.94, damping = 0.01626, beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 4.79e-3;
+constexpr double stiffness = 5948, resistance = 1.39, leakage = 10.55e-3;
+
+/// Records without noise: parameters are found to nine digits.
+class IdentifyCommand : public ::testing::Test {
+protected:
+    std::string release(const std::string& name, double displacement) const {
+        const double damped = natural * std::sqrt(1 - damping * damping);
+        std::string text = "t [s], v [m/s]\n";
+        for (int i = 0; i < 1500; ++i) {
+            const double t = i * 1e-3;
+            text += fmt::format("{},{}\n", t, -displacement * std::exp(-damping * natural * t) * std::sin(damped * t));
+        }
+        return written(name, text);
+    }
+    std::string equilibria() const {
+        std::string text = "n, q [m], I [A]\n";
+        for (int i = 1; i <= 20; ++i) {
+            const double q = i * 6e-5;
+            text += fmt::format("{},{},{}\n", i, q, (gap + beta2 - q) * std::sqrt(2 * stiffness * q / beta1));
+        }
+        return written("static.csv", text);
+    }
+    std::string clamped(double omega) const {
+        const double inductance = leakage + beta1 / (beta2 + gap - 1e-3),
+                     lag = std::atan2(omega * inductance, resistance);
+        std::string text = "t [s], V [V], I [A]\n";
+        for (int i = 0; i < 2000; ++i) {
+            const double t = i * 1e-3;
+            text += fmt::format("{},{},{}\n", t, std::sin(omega * t),
+                                std::sin(omega * t - lag) / std::hypot(resistance, omega * inductance));
+        }
+        return written(fmt::format("clamped{}.csv", omega), text);
+    }
+    std::string written(const std::string& name, const std::string& text) const {
+        std::ofstream(folder / name) << text;
+        return folder / name;
+    }
+    const Folder folder;
+};
+
+Csv identified(const std::string& line) {
+    const Printed printed = run_graze("identify " + line + " --format csv");
+    EXPECT_EQ(printed.code, 0) << printed.err;
+    return Csv(printed.out);
+}
+
+} // namespace
+
+TEST_F(IdentifyCommand, FindsFrequencyAndDamping) {
+    const Csv table = identified("decrement " + release("a.csv", 1) + " " + release("b.csv", 0.5));
+    EXPECT_EQ(table.text(0, "name"), "natural_frequency");
+    EXPECT_EQ(table.text(0, "unit"), "rad/s");
+    EXPECT_NEAR(table.number(0, "value"), natural, 1e-9 * natural);
+    EXPECT_NEAR(table.number(1, "value"), damping, 1e-9);
+    EXPECT_LE(table.number(0, "low"), table.number(0, "value"));
+    EXPECT_EQ(table.number(0, "freedom"), 17);
+}
+
+TEST_F(IdentifyCommand, FindsTheCoupling) {
+    const Csv table = identified("coupling " + equilibria() + fmt::format(" --gap {} --stiffness {}", gap, stiffness));
+    EXPECT_EQ(table.text(0, "unit"), "H m");
+    EXPECT_NEAR(table.number(0, "value"), beta1, 1e-9 * beta1);
+    EXPECT_NEAR(table.number(1, "value"), beta2, 1e-9 * beta2);
+}
+
+TEST_F(IdentifyCommand, FindsResistanceAndInductance) {
+    const Csv table = identified("impedance " + clamped(20) + " " + clamped(50) +
+                                 fmt::format(" --gap {} --beta1 {} --beta2 {} --clamped 1e-3", gap, beta1, beta2));
+    EXPECT_EQ(table.text(0, "unit"), "ohm");
+    EXPECT_NEAR(table.number(0, "value"), resistance, 1e-9 * resistance);
+    EXPECT_EQ(table.text(4, "name"), "leakage_inductance");
+    EXPECT_NEAR(table.number(4, "value"), leakage, 1e-9 * leakage);
+}
+
+TEST_F(IdentifyCommand, FindsTheRestitution) {
+    std::string text = "t [s], v [m/s]\n";
+    for (int i = 0; i < 6000; ++i) {
+        const double t = i * 1e-3 + 0.0005, part = t - std::floor(t); // impacts between two samples
+        text += fmt::format("{},{}\n", t, -0.8 + 1.8 * part);
+    }
+    const Csv table = identified("restitution " + written("run.csv", text));
+    EXPECT_NEAR(table.number(0, "value"), 0.8, 1e-9);
+    const std::string picture = folder / "e.svg";
+    if (std::system("command -v gnuplot > /dev/null") == 0) {
+        EXPECT_EQ(run_graze("identify restitution " + (folder / "run.csv") + " --plot " + picture).code, 0);
+        EXPECT_THAT(contents(picture), HasSubstr("</svg>"));
+    }
+}
+
+TEST_F(IdentifyCommand, MistakesAreOneLineWithARemedy) {
+    const std::string a = release("a.csv", 1);
+    const std::vector<std::pair<std::string, std::string>> mistakes{
+        {"", "what to find is missing"},
+        {"decrement", "write graze identify WHAT FILE"},
+        {"decrememt " + a, "did you mean 'decrement'?"},
+        {"decrement " + a + " --channel w", "--channel: the record has no channel 'w'"},
+        {"decrement " + (folder / "none.csv"), "none.csv: the record cannot be read"},
+        {"decrement " + a + " --gap 1", "--gap has no effect beside WHAT decrement"},
+        {"coupling " + equilibria(), "give --gap and --stiffness"},
+        {"impedance " + clamped(20) + " --beta1 1", "give --beta1, --beta2 and --gap, or none"},
+        {"impedance " + clamped(20) + " --beta1 x --beta2 1 --gap 1", "'x' is no number"},
+        {"restitution " + a, "too few impacts"},
+        {"decrement " + a + " --data d", "--data has no effect without --plot"},
+    };
+    for (const auto& [line, message] : mistakes) {
+        const Printed printed = run_graze("identify " + line);
+        EXPECT_EQ(printed.code, 2) << line;
+        EXPECT_THAT(printed.err, HasSubstr(message)) << line;
+        EXPECT_THAT(printed.err, HasSubstr(";")) << line;
+        EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
+    }
+}
+
+} // namespace graze::testing

@@ -1,0 +1,144 @@
+#include "run_graze.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+namespace graze::testing {
+
+using ::testing::HasSubstr;
+
+namespace {
+
+const double turn = 2 * std::acos(-1.0);
+
+/// Sine of amplitude `size`, and a velocity that jumps from 1 to -0.8 once in each of its periods of a second.
+std::string record_text(double size) {
+    std::string text = "t [s], V [V], v [mm/s]\n";
+    for (int i = 0; i < 6000; ++i) {
+        const double t = i / 1000.0, part = t - std::floor(t);
+        text += std::to_string(t) + "," + std::to_string(size * std::sin(turn * t - 1)) + "," +
+                std::to_string(-0.8 + 1.8 * part) + "\n";
+    }
+    return text;
+}
+
+class RecordCommand : public ::testing::Test {
+protected:
+    std::string file(const std::string& name, double size = 2) const {
+        std::ofstream(folder / name) << record_text(size);
+        return folder / name;
+    }
+    const Folder folder;
+};
+
+} // namespace
+
+TEST_F(RecordCommand, TellsChannels) {
+    const Printed printed = run_graze("record " + file("run.csv") + " --format csv");
+    ASSERT_EQ(printed.code, 0) << printed.err;
+    const Csv table(printed.out);
+    ASSERT_EQ(table.rows.size(), 2U);
+    EXPECT_EQ(table.text(1, "channel"), "v");
+    EXPECT_EQ(table.text(1, "unit"), "mm/s");
+    EXPECT_EQ(table.number(0, "samples"), 6000);
+    EXPECT_NEAR(table.number(0, "greatest"), 2, 1e-5);
+    EXPECT_NEAR(table.number(0, "deviation"), std::sqrt(2.0), 1e-3);
+    EXPECT_NEAR(table.number(0, "longest_step"), 0.001, 1e-9);
+}
+
+TEST_F(RecordCommand, SectionsOfSeveralRecordsLieOverTheirAmplitudes) {
+    const Printed printed = run_graze("record " + file("one.csv", 2) + " " + file("two.csv", 3) +
+                                      " --what sections --reference V --phase 0.25 --negate V --format csv");
+    ASSERT_EQ(printed.code, 0) << printed.err;
+    const Csv table(printed.out);
+    ASSERT_EQ(table.rows.size(), 20U); // five periods, two records, with images
+    EXPECT_NEAR(table.number(0, "V_amplitude"), 2, 1e-5);
+    EXPECT_NEAR(table.number(19, "V_amplitude"), 3, 1e-5);
+    EXPECT_EQ(table.text(19, "file"), folder / "two.csv");
+    EXPECT_EQ(table.text(1, "image"), "yes");
+    EXPECT_NEAR(table.number(0, "V"), 2, 1e-5);
+    EXPECT_NEAR(table.number(1, "V"), 2, 1e-5) << "of -2 half a period later";
+    EXPECT_NEAR(table.number(1, "time") - table.number(0, "time"), 0.5, 1e-5);
+}
+
+TEST_F(RecordCommand, OtherTables) {
+    const std::string run = file("run.csv");
+    const Csv periods(run_graze("record " + run + " --what periods --reference V --format csv").out);
+    ASSERT_EQ(periods.rows.size(), 5U);
+    EXPECT_NEAR(periods.number(3, "begin"), 3 + 1 / turn, 1e-5);
+    EXPECT_NEAR(periods.number(3, "duration"), 1, 1e-5);
+    EXPECT_NEAR(periods.number(3, "V_amplitude"), 2, 1e-5);
+    const Csv extremes(run_graze("record " + run + " --what extremes --reference V --channel v --format csv").out);
+    EXPECT_NEAR(extremes.number(0, "v_greatest"), 0.9982, 1e-4);
+    EXPECT_NEAR(extremes.number(0, "v_peak_to_peak"), 1.7982, 1e-4);
+    const Csv impacts(run_graze("record " + run + " --what impacts --channel v --format csv").out);
+    ASSERT_EQ(impacts.rows.size(), 5U);
+    EXPECT_NEAR(impacts.number(1, "time"), 2, 1e-3);
+    EXPECT_NEAR(impacts.number(1, "ratio"), 0.8, 3e-3) << "at the middle of two samples";
+    const Csv spectrum(run_graze("record " + run + " --what spectrum --channel V --format csv").out);
+    ASSERT_EQ(spectrum.rows.size(), 3000U);
+    EXPECT_NEAR(spectrum.number(5, "frequency"), 1, 1e-6);
+    EXPECT_NEAR(spectrum.number(5, "amplitude"), 2, 1e-5);
+    const Printed json = run_graze("record " + run + " --what samples --from 1 --to 1.01 --format json");
+    EXPECT_TRUE(JsonCheck(json.out).valid());
+    EXPECT_EQ(json.code, 0);
+}
+
+TEST_F(RecordCommand, WhatIsWrittenIsARecord) {
+    const std::string run = file("run.csv"), to = folder / "slow.h5";
+    const Printed printed = run_graze("record " + run + " --scale V=1e3-5:mV --every 5 --derivative V --write " + to);
+    ASSERT_EQ(printed.code, 0) << printed.err;
+    const Csv table(run_graze("record " + to + " --format csv").out);
+    ASSERT_EQ(table.rows.size(), 4U);
+    EXPECT_EQ(table.text(0, "unit"), "mV");
+    EXPECT_NEAR(table.number(0, "greatest"), 1995, 0.1);
+    EXPECT_EQ(table.text(1, "channel"), "V_rate");
+    EXPECT_NEAR(table.number(1, "greatest"), 2000 * turn, 1);
+    EXPECT_EQ(run_graze("record " + run + " --write " + run).code, 2) << "onto itself";
+}
+
+TEST_F(RecordCommand, DrawsWhatItTells) {
+    if (std::system("command -v gnuplot > /dev/null") != 0)
+        GTEST_SKIP() << "no gnuplot";
+    const std::string run = file("run.csv"), picture = folder / "picture.svg";
+    for (const std::string what : {"channels", "sections --reference V", "impacts --channel v"}) {
+        const Printed printed = run_graze("record " + run + " --what " + what + " --plot " + picture);
+        EXPECT_EQ(printed.code, 0) << printed.err;
+        EXPECT_THAT(contents(picture), HasSubstr("</svg>"));
+        std::filesystem::remove(picture);
+    }
+}
+
+TEST_F(RecordCommand, MistakesAreOneLineWithARemedy) {
+    const std::string run = file("run.csv");
+    std::ofstream(folder / "wrong.csv") << "t [s], V [V], v [mm/s]\n0,1,2\n1,nan,2\n";
+    const std::vector<std::pair<std::string, std::string>> mistakes{
+        {folder / "none.csv", "none.csv: the record cannot be read"},
+        {folder / "wrong.csv", "wrong.csv:3:3: 'nan' is no finite number"},
+        {run + " " + (folder / "wrong.csv"), "wrong.csv:3:3: 'nan'"},
+        {run + " --what sections", "name the channel of the input by --reference"},
+        {run + " --what sections --reference W", "--reference: the record has no channel 'W'"},
+        {run + " --what sections --reference V --level 7", "does not rise through 7 twice"},
+        {run + " --what sections --reference V --phase 1", "--phase 1: it is no part of a period"},
+        {run + " --phase 0.5", "--phase has no effect without --what"},
+        {run + " --what impacts", "name it by --channel"},
+        {run + " --what impact", "did you mean 'impacts'?"},
+        {run + " --what impacts --channel v --phase 0.5", "--phase has no effect beside --what impacts"},
+        {run + " --scale v", "write NAME=FACTOR"},
+        {run + " --scale v=2x", "'2x' is no number"},
+        {run + " --pass 1e9", "cannot be seen in samples"},
+        {run + " --what samples --from 2 --to 1", "give the earlier one first"},
+        {run + " --write " + (folder / "no/such.csv"), "cannot be written"},
+        {run + " --columns t,v", "the file has a header of its own"},
+    };
+    for (const auto& [line, message] : mistakes) {
+        const Printed printed = run_graze("record " + line);
+        EXPECT_EQ(printed.code, 2) << line;
+        EXPECT_THAT(printed.err, HasSubstr(message)) << line;
+        EXPECT_THAT(printed.err, HasSubstr(";")) << line;
+        EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
+    }
+}
+
+} // namespace graze::testing
