@@ -338,7 +338,8 @@ TEST_F(BranchRun, curves_say_what_they_need) {
     EXPECT_THAT(with("start = { run = \"rest\" }\n" + along), HasSubstr("special point of a branch"));
     EXPECT_THAT(with(start + along + "signature = \"impact\"\n"), HasSubstr("have no `signature`"));
     EXPECT_THAT(with("start = { run = \"free\", point = \"BD1\" }\n" + along), HasSubstr("cannot be followed"));
-    EXPECT_THAT(with(start + along + "free = [\"sigma\"]\n"), HasSubstr("two further parameters are free, and points of type PD"));
+    EXPECT_THAT(with(start + along + "free = [\"sigma\"]\n"),
+                HasSubstr("two further parameters are free, and points of type PD"));
 }
 
 TEST_F(BranchRun, what_is_read_is_what_was_written) {
