@@ -145,6 +145,7 @@ public:
         with_detail_ = !for_people_ || any([](const ListedPoint& p) {
             return !p.record.point.detail.empty() || is_unphysical(p.record);
         });
+        with_verdict_ = any([](const ListedPoint& p) { return p.record.touch.has_value(); });
         for (const ListedPoint& p : list.points) {
             segments_ = std::max(segments_, p.record.point.solution.orbit.segments());
             multipliers_ = std::max(multipliers_, p.record.point.solution.multipliers.size());
@@ -191,6 +192,10 @@ private:
         add_columns({for_people_ ? "physical" : "admissible"}, with_reason_);
         add_columns({"reason"}, !for_people_);
         add_columns({"located", "low", "high"}, with_bracket_);
+        add_columns({"verdict", "next_contact"}, with_verdict_);
+        add_columns({"touch_map", "verdict_reason", "projection_1", "growth", "jump_growth", "reach", "clearance_rate",
+                     "first_speed", "fold_distance"},
+                    with_verdict_ && !for_people_);
         add_columns({"detail"}, with_detail_);
         add_monitors();
         add_columns({"residual"}, !for_people_);
@@ -269,6 +274,8 @@ private:
             table_.add(record.point.bracket.first);
             table_.add(record.point.bracket.second);
         }
+        if (with_verdict_)
+            add_verdict(record.touch.value_or(TouchFindings()));
         if (with_detail_)
             table_.add(cut(detail_of(record)));
         for (const ResultColumn& monitor : monitors_)
@@ -278,6 +285,17 @@ private:
         table_.add(solution.residual);
         for (const double value : point.stored)
             table_.add(value);
+    }
+    void add_verdict(const TouchFindings& touch) {
+        table_.add(touch.verdict);
+        table_.add(touch.next_contact > 0 ? static_cast<double>(touch.next_contact) : nothing);
+        if (for_people_)
+            return;
+        table_.add(touch.map);
+        table_.add(touch.reason);
+        for (const std::optional<double>& number : {touch.projection, touch.growth, touch.jump_growth, touch.reach,
+                                                    touch.clearance_rate, touch.first_speed, touch.fold_distance})
+            table_.add(number.value_or(nothing));
     }
     std::string cut(std::string text) const {
         constexpr std::size_t longest = 22;
@@ -330,8 +348,8 @@ private:
 
     static constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     const PointList& list_;
-    bool for_people_, brief_, with_run_, with_symmetry_, with_reason_, with_bracket_, with_detail_, with_type_,
-        with_parameter_;
+    bool for_people_, brief_, with_run_, with_symmetry_, with_reason_, with_bracket_, with_detail_, with_verdict_,
+        with_type_, with_parameter_;
     int digits_;
     std::size_t segments_ = 0, multipliers_ = 0; ///< most of any point
     std::vector<ResultColumn> monitors_;

@@ -65,6 +65,15 @@ void write_of_event(const OrbitRecord& record, CellWriter& cell, Write write) {
     kind_of(record.point.type).limits ? write() : cell.nothing();
 }
 
+/// What only orbits that touch have, and not all of them.
+void write_touch(const OrbitRecord& record, CellWriter& cell, std::optional<double> TouchFindings::*number) {
+    cell.real(record.touch ? ((*record.touch).*number).value_or(unknown) : unknown);
+}
+void read_touch(OrbitRecord& record, CellReader& cell, std::optional<double> TouchFindings::*number) {
+    if (record.touch && !cell.is_nothing())
+        (*record.touch).*number = cell.number();
+}
+
 /// The least speed with which an event is met; unknown where none is. It goes to zero where a contact is about to be
 /// lost.
 double slowest_approach(const OrbitSolution& solution) {
@@ -216,6 +225,55 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
              write_of_event(r, cell, [&] { cell.truth(r.point.at_end); });
          },
          [](const Context&, Record& r, CellReader& cell) { r.point.at_end = cell.truth(); }},
+        {{"touch_map", Type::text, Unit::none, true},
+         [](const Context&, const Record& r, CellWriter& cell) { cell.word(r.touch ? r.touch->map : ""); },
+         [](const Context&, Record& r, CellReader& cell) {
+             if (!cell.is_nothing())
+                 r.touch.emplace().map = cell.text();
+         }},
+        {{"verdict", Type::text, Unit::none, true},
+         [](const Context&, const Record& r, CellWriter& cell) { cell.word(r.touch ? r.touch->verdict : ""); },
+         [](const Context&, Record& r, CellReader& cell) {
+             if (r.touch)
+                 r.touch->verdict = cell.text();
+         }},
+        {{"verdict_reason", Type::text, Unit::none, true},
+         [](const Context&, const Record& r, CellWriter& cell) { cell.word(r.touch ? r.touch->reason : ""); },
+         [](const Context&, Record& r, CellReader& cell) {
+             if (r.touch)
+                 r.touch->reason = cell.text();
+         }},
+        {{"next_contact", Type::whole, Unit::none, true},
+         [](const Context&, const Record& r, CellWriter& cell) {
+             r.touch&& r.touch->next_contact > 0 ? cell.whole(r.touch->next_contact) : cell.nothing();
+         },
+         [](const Context&, Record& r, CellReader& cell) {
+             if (r.touch)
+                 r.touch->next_contact = cell.whole();
+         }},
+        {{"projection_1", Type::real, Unit::none, true},
+         [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::projection); },
+         [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::projection); }},
+        {{"growth", Type::real, Unit::none, true},
+         [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::growth); },
+         [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::growth); }},
+        {{"jump_growth", Type::real, Unit::none, true},
+         [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::jump_growth); },
+         [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::jump_growth); }},
+        {{"reach", Type::real, Unit::none, true},
+         [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::reach); },
+         [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::reach); }},
+        {{"clearance_rate", Type::real, Unit::none, true},
+         [](const Context&, const Record& r, CellWriter& cell) {
+             write_touch(r, cell, &TouchFindings::clearance_rate);
+         },
+         [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::clearance_rate); }},
+        {{"first_speed", Type::real, Unit::none, true},
+         [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::first_speed); },
+         [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::first_speed); }},
+        {{"fold_distance", Type::real, Unit::none, true},
+         [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::fold_distance); },
+         [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::fold_distance); }},
         {{"tangent", Type::text}, // as JSON
          [](const Context&, const Record& r, CellWriter& cell) {
              cell.text(fmt::format("[{}]", fmt::join(numbers_of(r.point.tangent), ",")));

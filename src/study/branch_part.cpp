@@ -1,6 +1,7 @@
 #include "study/branch_part.hpp"
 
 #include "study/point_limits.hpp"
+#include "study/touch_findings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,8 @@ void PointWriter::flush() {
         record.label = point_label(record.point.type, ++counts_[record.point.type]);
         note_twin(record);
     }
+    if (run_->branch.touches)
+        record.touch = findings_at(*run_, record.point);
     file_->with([&](ResultFile& results) {
         results.add_orbit(run_->name, record);
         ++report_->computed;

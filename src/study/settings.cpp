@@ -134,6 +134,8 @@ void describe_continuation(Fields& fields, Run& run, const std::vector<std::stri
     fields.field("step_iterations", step.iterations);
     if (run.kind == RunKind::ladder)
         fields.field("rungs", run.branch.rungs);
+    if (fields.has("grazing", run.branch.touches))
+        fields.field("grazing", run.branch.touches);
 }
 
 template <class Fields, class Run>

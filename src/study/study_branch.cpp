@@ -204,6 +204,7 @@ void read_branch(const StudyReader& reader, StudyRun& run, const RunKeys& keys) 
     });
     with("along", [&](const TomlEntry& e) { read_along(reader, run, e); });
     with("steps", [&](const TomlEntry& e) { settings.steps = reader.count(e, 1, most_branch_steps); });
+    with("grazing", [&](const TomlEntry& e) { branch.touches = reader.toml().boolean(e); });
     with("rungs", [&](const TomlEntry& e) { branch.rungs = reader.count(e, 2, most_rungs); });
     with("stop", [&](const TomlEntry& e) { read_stop(reader, run, e); });
     with("step", [&](const TomlEntry& e) { read_step(reader, run, e); });

@@ -75,6 +75,7 @@ constexpr std::array keys_of_runs{
     Key{"stop", followed},
     Key{"step", followed | ladder},
     Key{"rungs", ladder},
+    Key{"grazing", followed | ladder},
     Key{"free", followed},
     Key{"unphysical", orbit | followed},
 };

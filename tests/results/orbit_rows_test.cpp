@@ -156,6 +156,26 @@ TEST_F(OrbitRows, the_slowest_approach_is_that_of_an_event) {
     EXPECT_EQ(view.number(0), 0.25);
 }
 
+TEST_F(OrbitRows, findings_at_touches_are_those_that_were_written) {
+    const Model model = load_model("impact-oscillator");
+    OrbitRecord lost = Draw(model).record(0), persists = lost, none = lost;
+    lost.touch = TouchFindings{"square-root", "lost", "", 2, -0.3, 8.25, 10.5, 68, -1, 42.5, std::nullopt};
+    persists.number = 1;
+    persists.touch = TouchFindings{"none", "undecided", "it sticks", 0, {}, {}, {}, {}, {}, {}, {}};
+    none.number = 2;
+    ResultFile file(path_, ResultFile::Access::write);
+    file.begin_run(run_of(model));
+    for (const OrbitRecord& record : {lost, persists, none})
+        file.add_orbit("b", record);
+    EXPECT_EQ(file.orbit("b", std::size_t{0})->touch, lost.touch);
+    EXPECT_EQ(file.orbit("b", std::size_t{1})->touch, persists.touch);
+    EXPECT_EQ(file.orbit("b", std::size_t{2})->touch, std::nullopt);
+    auto view = file.query("SELECT number FROM branch_points WHERE verdict = 'lost' AND growth > 8");
+    ASSERT_TRUE(view.next());
+    EXPECT_EQ(view.integer(0), 0);
+    EXPECT_FALSE(view.next());
+}
+
 TEST_F(OrbitRows, what_earlier_files_have_as_missing_was_infinite) {
     const Model model = load_model("impact-oscillator");
     OrbitRecord record = Draw(model).record(0);

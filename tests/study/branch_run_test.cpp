@@ -89,6 +89,71 @@ protected:
     std::string path_;
 };
 
+TEST_F(BranchRun, tells_what_becomes_of_touches_and_follows_the_boundary_between_the_answers) {
+    const std::string text = R"(
+name = "classes"
+model = "impact-oscillator"
+set = { zeta = 0.05, sigma = 1 }
+[runs.free]
+kind = "continue"
+set = { omega = 2.4, amplitude = 0.5 }
+along = { amplitude = [0.1, 10] }
+grazing = true
+[runs.touches]
+kind = "curve"
+start = { run = "free", point = "GR1" }
+along = { omega = [1.6, 3], amplitude = [0, 10] }
+direction = "down"
+grazing = true
+[runs.boundary]
+kind = "curve"
+start = { run = "touches", point = "VS1" }
+along = { zeta = [0.01, 0.5], omega = [0.1, 3] }
+free = { amplitude = [0, 100] }
+)";
+    for (const RunReport& report : run(text))
+        EXPECT_EQ(report.problem, "");
+    const ResultFile file(path_, ResultFile::Access::read);
+    const double own = std::sqrt(1 - 0.05 * 0.05);
+    // The projection after one cycle of the free oscillator: an impact takes (1 + e) from the speed, e = 0.8.
+    const auto projection = [&](double omega) {
+        const double time = 2 * std::numbers::pi / omega;
+        return 1.8 * std::exp(-0.05 * time) * std::sin(own * time) / own;
+    };
+    const auto grazing = file.orbit("free", std::string("GR1"));
+    ASSERT_TRUE(grazing && grazing->touch);
+    EXPECT_FALSE(file.orbit("free", std::string("EP1"))->touch);
+    EXPECT_EQ(grazing->touch->map, "square-root");
+    EXPECT_NEAR(grazing->touch->projection.value(), projection(2.4), 1e-9);
+    EXPECT_EQ(grazing->touch->verdict == "lost" && grazing->touch->next_contact == 1, projection(2.4) < 0);
+    std::size_t points = 0;
+    for (const OrbitRecord& one : file.orbits("touches", false)) {
+        ASSERT_TRUE(one.touch) << one.number;
+        EXPECT_NEAR(one.touch->projection.value(), projection(one.point.parameter), 1e-9) << one.point.parameter;
+        ++points;
+    }
+    EXPECT_GT(points, 5U);
+    for (const OrbitRecord& one : file.orbits("boundary", false)) {
+        const double zeta = one.point.parameter;
+        EXPECT_NEAR(2 * std::numbers::pi / one.point.solution.orbit.period(), 2 * std::sqrt(1 - zeta * zeta), 1e-10);
+    }
+    // What cannot be asked for.
+    const std::string first = text.substr(0, text.find("[runs.boundary]"));
+    EXPECT_THAT(refusal(first + R"([runs.b]
+kind = "curve"
+start = { run = "touches", point = "VS1" }
+along = { zeta = [0.01, 0.5], omega = [0.1, 3] }
+)"),
+                HasSubstr("needs a third parameter"));
+    EXPECT_THAT(refusal(first + R"([runs.b]
+kind = "curve"
+start = { run = "free", point = "GR1" }
+along = { zeta = [0.01, 0.5], omega = [0.1, 3] }
+free = ["amplitude"]
+)"),
+                HasSubstr("two further parameters are free"));
+}
+
 TEST_F(BranchRun, goes_from_rest_across_grazing_to_a_flip) {
     const auto reports = run(study_text);
     ASSERT_EQ(reports.size(), 6u);

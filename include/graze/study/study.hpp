@@ -62,6 +62,7 @@ struct BranchRequest {
     std::vector<ParameterId> set; ///< parameters that the run itself sets, rather than the orbit that it starts from
     BranchSettings settings;
     std::size_t rungs = 8; ///< of ladders: grazings, at most
+    bool touches = false;  ///< whether orbits that touch are told what becomes of them: OrbitRecord::touch
 
     bool has_table() const { return !table.empty() || !table_text.empty(); }
     /// Whether a curve holds what its first point is, rather than a monitor that is fixed.
