@@ -4,6 +4,8 @@
 #include "branch/grazing_switch.hpp"
 #include "branch/orbit_quantity.hpp"
 #include "branch/reordering.hpp"
+#include "graze/grazing/cycle_map.hpp"
+#include "graze/symbolic/input_error.hpp"
 #include "grazing/return_map.hpp"
 #include "orbit/certify.hpp"
 
@@ -138,6 +140,30 @@ std::vector<BranchStart> leave_grazing(const System& system, const SpecialPoint&
                                        const BranchSettings& settings) {
     return {point.at_end ? with_one_contact_fewer(system, point, settings)
                          : with_one_more_contact(system, point, settings)};
+}
+
+/// Of each of its touches the orbits with one contact more or fewer, as far as there are some beside the other one.
+std::vector<BranchStart> leave_double_grazing(const System& system, const SpecialPoint& point,
+                                              const BranchSettings& settings) {
+    std::vector<BranchStart> starts;
+    std::string why = "the orbit touches nothing";
+    for (const OrbitTouch& touch : touches_of(system, point.solution.orbit)) {
+        SpecialPoint one = point;
+        one.type = PointType::grazing;
+        one.segment = touch.segment;
+        one.event = touch.event;
+        one.time = touch.time;
+        one.at_end = touch.at_end;
+        try {
+            for (BranchStart& start : leave_grazing(system, one, settings))
+                starts.push_back(std::move(start));
+        } catch (const InputError& error) {
+            why = error.problem();
+        }
+    }
+    if (starts.empty())
+        throw InputError(why, "vary another parameter, or start from a grazing beside it");
+    return starts;
 }
 
 // Events that change their order.

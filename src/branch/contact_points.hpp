@@ -12,6 +12,8 @@ bool confirm_double_grazing(BranchState& state, SpecialPoint& special, const Bra
 int rank_of_grazing(const SpecialPoint& point);
 std::unique_ptr<OrbitCondition> condition_of_grazing(const OrbitEquations& equations, const OrbitEvaluation&,
                                                      const SpecialPoint& point);
+std::vector<BranchStart> leave_double_grazing(const System& system, const SpecialPoint& point,
+                                              const BranchSettings& settings);
 std::vector<BranchStart> leave_grazing(const System& system, const SpecialPoint& point, const BranchSettings& settings);
 void test_vanishing(const TestedPoint& point, std::vector<BranchTest>& tests);
 bool confirm_vanishing(BranchState&, SpecialPoint& special, const BranchTest&);

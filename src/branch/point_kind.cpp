@@ -170,10 +170,12 @@ constexpr std::array table{
                        .short_name = "DG",
                        .name = "double grazing",
                        .limits = true,
+                       .leads_on = true,
                        .may_stop = true,
                        .mark = 12},
               .confirm = confirm_double_grazing,
-              .rank = rank_of_grazing},
+              .rank = rank_of_grazing,
+              .leave = leave_double_grazing},
     PointRule{
         .kind = {.type = PointType::fold_flip, .short_name = "FP", .name = "fold-flip", .may_stop = true, .mark = 15},
         .confirm = confirm_fold_flip},

@@ -226,6 +226,25 @@ mode = "free"
         EXPECT_NEAR(one.parameter, 1.5 / radius, 1e-11);
 }
 
+TEST(Joints, of_two_touches_lead_on_to_orbits_with_a_contact_more_at_one) {
+    Model model = load_model("mems-switch");
+    model.set_parameter("V", 0.05);
+    model.set_initial("q", 0);
+    model.set_initial("v", 0);
+    BranchSettings settings = in_parameter(model, "V", 0.01, 5);
+    const SpecialPoint touch =
+        only(follow_branch(model, settled(model, "phase0", 3000).orbit, settings), PointType::grazing);
+    BranchSettings along = in_parameter(model, "omega", 0.2, 3);
+    const SpecialPoint both = only(curve_of(model, touch, along, "V", 0.0001, 5, 1), PointType::double_grazing);
+    EXPECT_EQ(both.detail.substr(0, 7), "closure");
+    const std::vector<BranchStart> starts = branches_at(model, both, settings);
+    ASSERT_EQ(starts.size(), 1U); // closure ends the motion
+    EXPECT_NE(starts[0].how.find("one more contact at 'stop'"), std::string::npos) << starts[0].how;
+    const Branch branch = follow(model, starts[0], settings);
+    ASSERT_GT(branch.points.size(), 5U);
+    EXPECT_TRUE(branch.points[1].solution.certificate.admissible);
+}
+
 TEST(Joints, have_labels_that_can_be_told_from_their_types) {
     EXPECT_EQ(point_label(PointType::fold, 12), "SN12");
     EXPECT_EQ(point_label(PointType::resonance_1, 1), "R1-1");

@@ -39,8 +39,8 @@ struct ChatterLimit {
     /// From the grazings alone, by Richardson's extrapolation with the ratios above; and its error.
     std::optional<std::pair<double, double>> extrapolated;
     SelfSimilarContacts contacts;
-    /// The orbit up to contacts so close to the end that the rest is below the resolution of pictures; empty if not
-    /// found.
+    /// The orbit up to contacts so close to the end that the rest is below the resolution of pictures: its last segment
+    /// stands for all that are to come, so that its period is the whole one. Empty if not found.
     Orbit orbit;
     double gap = 0;      ///< between the end of that orbit and its start, relative to the sizes of the states
     std::string problem; ///< why there is no direct value
