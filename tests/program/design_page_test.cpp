@@ -71,7 +71,8 @@ TEST_F(PageOfASwitch, HasColouredPlanesWithContours) {
     EXPECT_EQ(plane.series.front().style, FigureSeries::Style::cells);
     EXPECT_EQ(plane.series.front().cells.size(), 4U);
     EXPECT_FALSE(plane.labels.empty());
-    EXPECT_EQ(plane.labels.front().at.x + plane.labels.front().at.y, std::stod(plane.labels.front().text));
+    const FigureLabel& label = plane.labels.front();
+    EXPECT_NEAR(label.at.x + label.at.y, std::stod(label.text), 1e-12); // bilinear, as the values are
 }
 
 TEST_F(PageOfASwitch, SaysInItsTitleWhereAndOfWhichClass) {

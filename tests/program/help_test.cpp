@@ -106,7 +106,7 @@ TEST(Completion, OfBashKnowsCommandsOptionsAndValues) {
     EXPECT_EQ(completed(script, "graze exp"), std::vector<std::string>{"export"});
     EXPECT_EQ(completed(script, "graze run --no-p"), std::vector<std::string>{"--no-pictures"});
     EXPECT_EQ(completed(script, "graze export x --format h"), std::vector<std::string>{"hdf5"});
-    EXPECT_EQ(completed(script, "graze simulate mems"), std::vector<std::string>{"mems-switch"});
+    EXPECT_EQ(completed(script, "graze simulate mems-switch-"), std::vector<std::string>{"mems-switch-device"});
     EXPECT_EQ(completed(script, "graze help compl"), std::vector<std::string>{"completion"});
     expect_among({"GR", "SN", "PD"}, completed(script, "graze points x --type "));
     std::ofstream(folder / "mine.toml") << "";
