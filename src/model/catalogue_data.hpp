@@ -5,7 +5,8 @@
 
 namespace graze {
 
-/// A file of models/, studies/ or designs/ in the program; the build writes the source that defines them (cmake/catalogue.cmake).
+/// A file of models/, studies/ or designs/ in the program; the build writes the source that defines them
+/// (cmake/catalogue.cmake).
 struct EmbeddedModel {
     std::string_view name; ///< of the file, without its ending
     std::string_view text;

@@ -3,8 +3,8 @@
 #include "program/disturbed_trips.hpp"
 #include "program/figure.hpp"
 #include "program/interrupt.hpp"
-#include "program/picture.hpp"
 #include "program/loss_point.hpp"
+#include "program/picture.hpp"
 #include "program/values.hpp"
 
 #include <fmt/format.h>

@@ -3,10 +3,10 @@
 #include "misuse/right_things.hpp"
 #include "misuse/wrong_use.hpp"
 
+#include "graze/record/spectrum.hpp"
 #include "graze/results/hdf5.hpp"
 #include "graze/results/regression.hpp"
 #include "graze/results/result_file.hpp"
-#include "graze/record/spectrum.hpp"
 #include "graze/study/runner.hpp"
 #include "graze/study/study_catalogue.hpp"
 

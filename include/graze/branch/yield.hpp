@@ -80,7 +80,7 @@ struct Yield {
     bool interrupted = false;
 
     std::optional<ConfidenceInterval> mean, deviation; ///< of those found; none of fewer than two
-    std::vector<QuantileEstimate> quantiles; ///< of those found
+    std::vector<QuantileEstimate> quantiles;           ///< of those found
     /// Share of all devices that have the value within what is wanted. One that is not found is not within.
     std::optional<ConfidenceInterval> within;
 

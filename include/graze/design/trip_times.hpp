@@ -11,12 +11,12 @@ namespace graze {
 
 /// How long it takes from a trip point until the device has tripped, with the control parameter moved beyond.
 struct TripTimeRow {
-    double overshoot = 0;                   ///< with its sign
+    double overshoot = 0; ///< with its sign
     /// By the map alone, until contacts are hard; of a fold by its normal form, from the fold's orbit to the passage's
     /// gate (FoldPassage).
     std::optional<PredictedTrip> predicted;
-    std::optional<TripTime> continued;      ///< by the map, then by simulation until the end that was asked for
-    std::optional<TripTime> simulated;      ///< by simulation alone, where numbers tell the overshoot from none
+    std::optional<TripTime> continued; ///< by the map, then by simulation until the end that was asked for
+    std::optional<TripTime> simulated; ///< by simulation alone, where numbers tell the overshoot from none
 
     /// The best that is known: until the end that was asked for, if it has come.
     const TripTime* best() const;

@@ -27,8 +27,8 @@ struct MetWishes {
 /// Finds the dimensions that a design wants: of each device a Newton solve from the trip point, with the trip value's
 /// exact gradient. The trip value, distances from earlier points, a reset value and sensitivities are numbers; of the
 /// class it is the least projection of a contact, measured by what the leading multiplier leaves and in units of the
-/// largest one, which decides between "trips" (negative) and "persists"; of a trip time the time by the map and simulation. Those of which no gradient is known
-/// are followed by differences.
+/// largest one, which decides between "trips" (negative) and "persists"; of a trip time the time by the map and
+/// simulation. Those of which no gradient is known are followed by differences.
 /// @param trip of the first device
 /// @throws InputError for wants that the device cannot have at all, such as a reset value of one that does not return
 MetWishes meet_wishes(const Design& design, const TripPoint& trip, const WishesOptions& options = {});
