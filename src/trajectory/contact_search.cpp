@@ -77,6 +77,8 @@ std::size_t Trajectory::find_contact(double& step, const Outlook& outlook, std::
     }
     if (first != no_event && step + uncertain >= whole)
         look_beyond(first, step, uncertain);
+    if (first == no_event)
+        first = passed_with_period(whole, outlook, lane);
     std::stable_sort(touches_.begin(), touches_.end(),
                      [](const Touch& a, const Touch& b) { return a.root.at < b.root.at; });
     return first;
@@ -98,6 +100,33 @@ void Trajectory::look_beyond(std::size_t& first, double step, double uncertain) 
         together_.push_back(watched[w < first ? first : w]);
         first = std::min(first, w);
     }
+}
+
+/// A state that is set back where a step ends, at the end of its period, may have an event there that round-off has put
+/// just behind: the next step begins with the next period and would not see it.
+std::size_t Trajectory::passed_with_period(double step, const Outlook& outlook, std::size_t lane) {
+    constexpr double error = 16 * std::numeric_limits<double>::epsilon(); // of the state, in periods
+    const auto& mode = *compiled_mode_;
+    for (const std::size_t i : cyclic_states_) {
+        const double end = step == outlook.length(lane) ? outlook.state(i, lane) : evaluate_state(i, step);
+        if (end >= 0 && end < periods_[i])
+            continue;
+        for (std::size_t w = 0; w < mode.watched.size(); ++w) {
+            const auto& states = mode.gradients[w].states;
+            const auto at = std::find(states.begin(), states.end(), i);
+            const double value = evaluate_polynomial(event_series(w), step);
+            if (watches_[w].side <= 0 || at == states.end() || !(value >= 0) ||
+                !(evaluate_derivative(event_series(w), step) < 0))
+                continue;
+            for (const std::size_t state : states)
+                inputs_[state] = evaluate_state(state, step);
+            values_.resize(std::max(mode.events.outputs(), states.size()));
+            mode.gradients[w].values.evaluate(inputs_, values_, work_);
+            if (value <= error * periods_[i] * std::abs(values_[static_cast<std::size_t>(at - states.begin())]))
+                return w;
+        }
+    }
+    return no_event;
 }
 
 /// The series of a watched event, without the factors that are zero at the start of an arc (but for one).

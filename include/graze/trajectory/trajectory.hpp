@@ -156,6 +156,7 @@ private:
     // The contact that comes first in it (contact_search.cpp)
     std::size_t find_contact(double& step, const Outlook& outlook, std::size_t lane);
     void look_beyond(std::size_t& first, double step, double uncertain);
+    std::size_t passed_with_period(double step, const Outlook& outlook, std::size_t lane);
     bool find_fall(std::size_t watched, double length, Root& root);
     std::span<const double> shifted_series(std::size_t watched);
     void note_size(std::size_t watched);
