@@ -38,7 +38,7 @@ next = "running"
 TEST(PeriodEnd, IsCountedWhereATrajectoryEndsThereAndGoesOn) {
     Random random(5);
     constexpr int periods = 30;
-    for (int trial = 0; trial < 200; ++trial) {
+    for (int trial = 0; trial < 2000; ++trial) {
         const double rate = random.log_uniform(1e-6, 1e6), turn = random.log_uniform(1e-3, 1e3);
         Model model = model_from(clock_text);
         model.set_parameter("rate", rate);
