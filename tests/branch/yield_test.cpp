@@ -62,7 +62,7 @@ TEST(Yield, where_the_value_is_linear_has_the_statistics_of_what_was_drawn) {
     EXPECT_NEAR(yield.deviation->high - yield.deviation->value, 1.96 * error / std::sqrt(2.0), 0.1 * error);
     constexpr double share = 0.8413447460685429; // of a normal distribution above -1
     EXPECT_NEAR(yield.within.value().value, share, 4 * std::sqrt(share * (1 - share) / 4000));
-    const Estimate surely =
+    const ConfidenceInterval surely =
         wilson_interval(static_cast<std::size_t>(std::lround(4000 * yield.within->value)), 4000, 0.9999);
     EXPECT_LT(surely.low, share);
     EXPECT_GT(surely.high, share);
@@ -178,7 +178,7 @@ TEST(WilsonInterval, is_that_of_the_formula) {
     // Both limits p solve (share - p)^2 = z^2 p (1 - p) / n.
     constexpr double z = 1.959963984540054;
     for (const auto& [hits, trials] : {std::pair<std::size_t, std::size_t>{3, 10}, {50, 1000}, {999, 1000}}) {
-        const Estimate one = wilson_interval(hits, trials, 0.95);
+        const ConfidenceInterval one = wilson_interval(hits, trials, 0.95);
         const auto n = static_cast<double>(trials);
         EXPECT_EQ(one.value, static_cast<double>(hits) / n);
         for (const double p : {one.low, one.high})
