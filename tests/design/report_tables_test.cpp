@@ -44,10 +44,12 @@ TEST(ReportTables, CurvesAndPlanesHaveARowForEachDevice) {
             EXPECT_EQ(one.table.rows(), design.curve_points);
             EXPECT_EQ(one.table.columns()[1].name, "amplitude");
         }
-        if (one.name == "plane-sigma-zeta")
+        if (one.name == "plane-sigma-zeta") {
             EXPECT_EQ(one.table.rows(), design.plane_points * design.plane_points);
-        if (one.name == "devices")
+        }
+        if (one.name == "devices") {
             EXPECT_EQ(one.table.rows(), design.yield.devices);
+        }
     }
 }
 
