@@ -58,8 +58,12 @@ TripOrigin beginning_on(const System& system, const Orbit& orbit, ParameterId pa
     origin.value = orbit.parameters[parameter.place()];
     origin.cycle = orbit.round();
     origin.parameters = orbit.parameters;
-    const auto longest = static_cast<std::size_t>(std::max_element(orbit.durations.begin(), orbit.durations.end()) -
-                                                  orbit.durations.begin());
+    // Of arcs as long as each other but for round-off, the first.
+    constexpr double alike = 1 - 1e-9;
+    const double most = alike * *std::max_element(orbit.durations.begin(), orbit.durations.end());
+    std::size_t longest = 0;
+    while (longest + 1 < orbit.durations.size() && orbit.durations[longest] < most)
+        ++longest;
     origin.mode = orbit.signature[longest].mode;
     origin.state = orbit.starts[longest];
     ModeFlow flow(system, tolerance);

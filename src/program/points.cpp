@@ -192,9 +192,9 @@ private:
         add_columns({for_people_ ? "physical" : "admissible"}, with_reason_);
         add_columns({"reason"}, !for_people_);
         add_columns({"located", "low", "high"}, with_bracket_);
-        add_columns({"verdict", "next_contact"}, with_verdict_);
-        add_columns({"touch_map", "verdict_reason", "projection_1", "growth", "jump_growth", "reach", "clearance_rate",
-                     "first_speed", "fold_distance"},
+        add_columns({"touch_verdict", "touch_next_contact"}, with_verdict_);
+        add_columns({"touch_map", "touch_verdict_reason", "touch_projection_1", "touch_growth", "touch_jump_growth",
+                     "touch_reach", "touch_clearance_rate", "touch_first_speed", "touch_fold_distance"},
                     with_verdict_ && !for_people_);
         add_columns({"detail"}, with_detail_);
         add_monitors();

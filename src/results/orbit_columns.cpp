@@ -231,19 +231,19 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
              if (!cell.is_nothing())
                  r.touch.emplace().map = cell.text();
          }},
-        {{"verdict", Type::text, Unit::none, true},
+        {{"touch_verdict", Type::text, Unit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) { cell.word(r.touch ? r.touch->verdict : ""); },
          [](const Context&, Record& r, CellReader& cell) {
              if (r.touch)
                  r.touch->verdict = cell.text();
          }},
-        {{"verdict_reason", Type::text, Unit::none, true},
+        {{"touch_verdict_reason", Type::text, Unit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) { cell.word(r.touch ? r.touch->reason : ""); },
          [](const Context&, Record& r, CellReader& cell) {
              if (r.touch)
                  r.touch->reason = cell.text();
          }},
-        {{"next_contact", Type::whole, Unit::none, true},
+        {{"touch_next_contact", Type::whole, Unit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) {
              r.touch&& r.touch->next_contact > 0 ? cell.whole(r.touch->next_contact) : cell.nothing();
          },
@@ -251,27 +251,27 @@ const ColumnsOf<OrbitContext, OrbitRecord>& orbit_columns() {
              if (r.touch)
                  r.touch->next_contact = cell.whole();
          }},
-        {{"projection_1", Type::real, Unit::none, true},
+        {{"touch_projection_1", Type::real, Unit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::projection); },
          [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::projection); }},
-        {{"growth", Type::real, Unit::none, true},
+        {{"touch_growth", Type::real, Unit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::growth); },
          [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::growth); }},
-        {{"jump_growth", Type::real, Unit::none, true},
+        {{"touch_jump_growth", Type::real, Unit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::jump_growth); },
          [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::jump_growth); }},
-        {{"reach", Type::real, Unit::none, true},
+        {{"touch_reach", Type::real, Unit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::reach); },
          [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::reach); }},
-        {{"clearance_rate", Type::real, Unit::none, true},
+        {{"touch_clearance_rate", Type::real, Unit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) {
              write_touch(r, cell, &TouchFindings::clearance_rate);
          },
          [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::clearance_rate); }},
-        {{"first_speed", Type::real, Unit::none, true},
+        {{"touch_first_speed", Type::real, Unit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::first_speed); },
          [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::first_speed); }},
-        {{"fold_distance", Type::real, Unit::none, true},
+        {{"touch_fold_distance", Type::real, Unit::none, true},
          [](const Context&, const Record& r, CellWriter& cell) { write_touch(r, cell, &TouchFindings::fold_distance); },
          [](const Context&, Record& r, CellReader& cell) { read_touch(r, cell, &TouchFindings::fold_distance); }},
         {{"tangent", Type::text}, // as JSON

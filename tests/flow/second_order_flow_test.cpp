@@ -312,7 +312,9 @@ Setting setting_of(const System& system, std::size_t mode) {
     const Numbers parameters = model.parameter_values();
     ModeFlow flow(system, tolerance);
     flow.set_parameters(parameters);
-    double duration = 2 / model.values_of(std::vector{model.symbol("omega")}).front();
+    // A radian or two of what drives it, whose frequency is given as such or by its periods.
+    double duration = model.find_parameter("omega") ? 2 / model.values_of(std::vector{model.symbol("omega")}).front()
+                                                    : 0.3 / model.values_of(std::vector{model.symbol("f")}).front();
     for (;; duration /= 2) {
         Setting setting{{}, Numbers(model.states.size(), 0.0), duration};
         Numbers state = model.initial_state();
