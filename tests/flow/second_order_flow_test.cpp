@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <limits>
 #include <random>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -411,12 +412,14 @@ private:
 
 /// What can be said without knowing the solution: on every mode of every shipped model, by all its parameters.
 TEST(SecondOrderFlow, IsSymmetricAndTheLimitOfDifferencesOnEveryShippedModel) {
-    std::mt19937_64 random(5);
     std::size_t modes = 0;
-    for (const auto& file : std::filesystem::directory_iterator(testing::models_folder())) {
-        if (file.path().extension() != ".toml")
-            continue;
-        const System system(read_model(file.path().string()));
+    std::set<std::filesystem::path> files;
+    for (const auto& file : std::filesystem::directory_iterator(testing::models_folder()))
+        if (file.path().extension() == ".toml")
+            files.insert(file.path());
+    for (const auto& file : files) {
+        const System system(read_model(file.string()));
+        std::mt19937_64 random(5); // the same vectors however many models there are
         const VariationalSystem variational(system, all_parameters(system.model()));
         for (std::size_t mode = 0; mode < system.model().modes.size(); ++mode, ++modes) {
             SCOPED_TRACE(system.model().name + " " + system.model().modes[mode].name);

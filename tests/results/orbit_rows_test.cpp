@@ -170,7 +170,7 @@ TEST_F(OrbitRows, findings_at_touches_are_those_that_were_written) {
     EXPECT_EQ(file.orbit("b", std::size_t{0})->touch, lost.touch);
     EXPECT_EQ(file.orbit("b", std::size_t{1})->touch, persists.touch);
     EXPECT_EQ(file.orbit("b", std::size_t{2})->touch, std::nullopt);
-    auto view = file.query("SELECT number FROM branch_points WHERE verdict = 'lost' AND growth > 8");
+    auto view = file.query("SELECT number FROM branch_points WHERE touch_verdict = 'lost' AND touch_growth > 8");
     ASSERT_TRUE(view.next());
     EXPECT_EQ(view.integer(0), 0);
     EXPECT_FALSE(view.next());
