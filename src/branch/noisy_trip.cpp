@@ -217,9 +217,12 @@ NoisyTrips noisy_trips(const System& system, const TripOrigin& origin, double le
     }
     result.trips = cycles.size();
     result.beyond = count_beyond(origin, level, settings);
-    if (result.motions > 0)
-        result.probability = wilson_interval(result.trips, result.motions, settings.confidence);
-    const std::size_t half = (result.motions + 1) / 2;
+    const std::size_t decided = result.motions - result.failed;
+    if (decided > 0)
+        result.probability = wilson_interval(result.trips, decided, settings.confidence);
+    else
+        result.probability = {0, 0, 1}; // nothing is known
+    const std::size_t half = (decided + 1) / 2;
     if (half > 0 && cycles.size() >= half) {
         std::nth_element(cycles.begin(), cycles.begin() + static_cast<std::ptrdiff_t>(half - 1), cycles.end());
         result.half = cycles[half - 1];

@@ -30,8 +30,9 @@ std::vector<ParameterId> parameters_of(const Design& design) {
 /// was asked for is remembered, since several wants ask for the same.
 class ValueOfDevices {
 public:
-    ValueOfDevices(const TripPoint& trip, std::vector<ParameterId> dimensions)
-        : trip_(trip), dimensions_(std::move(dimensions)),
+    /// @param approach beyond whose range no device is looked for
+    ValueOfDevices(const TripPoint& trip, std::vector<ParameterId> dimensions, const Approach& approach = {})
+        : trip_(trip), least_(approach.least), greatest_(approach.greatest), dimensions_(std::move(dimensions)),
           located_(trip_.system, trip_.point, trip_.control, dimensions_) {}
 
     /// @return none where there is no such device; `problem` says why
@@ -45,6 +46,12 @@ public:
         problem_ = solution.problem;
         if (!solution.found || !solution.admissible)
             return nullptr;
+        // The finished device has to come from rest to its trip point within the approach's range.
+        const double value = solution.orbit.parameters[trip_.control.place()];
+        if (least_ < greatest_ && !(value >= least_ && value <= greatest_)) {
+            problem_ = fmt::format("it trips at {:.6g}, outside of approach.range", value);
+            return nullptr;
+        }
         device_ = std::make_unique<TripPoint>(moved_to(trip_, solution.orbit));
         return device_.get();
     }
@@ -68,6 +75,7 @@ public:
 
 private:
     TripPoint trip_;
+    double least_, greatest_; ///< alike: anywhere
     std::vector<ParameterId> dimensions_;
     LocatedValue located_;
     std::vector<double> last_, gradient_;
@@ -100,7 +108,10 @@ class WishMaker {
 public:
     WishMaker(const Design& design, const TripPoint& trip, const WishesOptions& options)
         : design_(design), trip_(trip), options_(options),
-          devices_(std::make_shared<ValueOfDevices>(trip, parameters_of(design))) {}
+          devices_(std::make_shared<ValueOfDevices>(trip, parameters_of(design), design.approach)) {}
+
+    /// The trip value of a device, if it has one.
+    std::optional<double> value_of(const std::vector<double>& values) { return devices_->value_at(values).value; }
 
     /// @param hasty with the trip time, which jumps from cycle to cycle: nothing that a solver likes
     WishList make(bool hasty) {
@@ -297,6 +308,8 @@ MetWishes meet_wishes(const Design& design, const TripPoint& trip, const WishesO
             result.found.wants.push_back(time);
         result.list = std::move(whole);
     }
+    if (result.found.outcome != WishOutcome::nowhere)
+        result.trip_value = maker.value_of(result.values());
     for (Want& one : result.list.wants)
         one.value = nullptr; // they refer to what ends here
     return result;

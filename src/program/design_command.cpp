@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <sstream>
@@ -151,6 +152,13 @@ MetWishes wished(const Design& design, const TripPoint& trip, const DesignReport
     return meet_wishes(design, trip, wishes);
 }
 
+/// Whether the finished device, which goes all the way to its trip point, comes to another one than it was made for.
+bool trips_elsewhere(const TripPoint& trip, const DesignReport& report) {
+    constexpr double alike = 1e-6; // far more than two solutions of one problem differ by
+    return report.wishes && report.wishes->trip_value &&
+           !(std::abs(*report.wishes->trip_value - trip.value()) <= alike * std::abs(trip.value()));
+}
+
 /// What calls for a look at the numbers.
 bool is_irregular(const Design& design, const DesignReport& report) {
     const bool other_class = design.wanted.outcome && report.found.outcome != *design.wanted.outcome;
@@ -219,7 +227,13 @@ int design_command(const DesignArguments& arguments, const Console& console) {
     }
     if (report.yield)
         tell(*report.yield, console);
-    return is_irregular(design, report) ? exit_irregular : exit_success;
+    const bool elsewhere = trips_elsewhere(*trip, report);
+    if (elsewhere)
+        console.err << fmt::format(
+            "graze: the device was made to trip at {:.6g}, but on its way there it comes first to the "
+            "trip point at {:.6g}: change approach.range, approach.from or what is wanted\n",
+            *report.wishes->trip_value, trip->value());
+    return elsewhere || is_irregular(design, report) ? exit_irregular : exit_success;
 }
 
 } // namespace graze

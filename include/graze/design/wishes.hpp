@@ -5,6 +5,7 @@
 #include "graze/design/wish_list.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct WishesOptions {
 struct MetWishes {
     WishList list; ///< without callbacks: dimensions, names and limits
     FoundDesign found;
+    std::optional<double> trip_value; ///< of the device found, which follows from that of the first
 
     std::vector<double> values() const; ///< of the dimensions
 };
