@@ -1,5 +1,6 @@
-# Where much is compiled once and run once, sources of a folder (but for tests, which open namespaces) are compiled several at once: parsing what they include,
-# and what they make of templates, is most of the work. Those whose own names collide stay apart.
+# Where much is compiled once and run once, sources of a folder are compiled several at once: parsing what they include,
+# and what they make of templates, is most of the work. Those whose own names collide stay apart, and so do tests, which
+# open namespaces.
 option(GRAZE_TOGETHER "Compile several sources at once; needs Python" OFF)
 if(GRAZE_TOGETHER)
     find_package(Python3 COMPONENTS Interpreter)
