@@ -1,6 +1,8 @@
 #include "graze/identify/impedance.hpp"
 
+#include "graze/record/harmonic.hpp"
 #include "graze/record/period.hpp"
+#include "graze/record/spectrum.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
 
@@ -15,7 +17,8 @@ namespace graze {
 
 namespace {
 
-double guessed_frequency(std::span<const double> times, std::span<const double> voltage) {
+/// Of samples at any times; where they are noisy there are crossings that no period has.
+double frequency_of_crossings(std::span<const double> times, std::span<const double> voltage) {
     Samples samples;
     samples.times.assign(times.begin(), times.end());
     samples.values.emplace_back(voltage.begin(), voltage.end());
@@ -31,6 +34,33 @@ double guessed_frequency(std::span<const double> times, std::span<const double> 
     if (crossings.size() < 2)
         throw InputError("the voltage has less than two periods", "record more of them");
     return 2 * std::numbers::pi / fit_period(crossings).period;
+}
+
+/// Where the largest wave of equally distant samples has the largest amplitude, to a tenth of what tells two waves
+/// apart.
+double guessed_frequency(std::span<const double> times, std::span<const double> voltage) {
+    constexpr int parts = 10;
+    double by_time = 0;
+    try {
+        by_time = sampling_frequency(times);
+    } catch (const InputError&) {
+        return frequency_of_crossings(times, voltage);
+    }
+    const Spectrum waves = spectrum(voltage, by_time);
+    const auto highest = std::max_element(waves.amplitudes.begin(), waves.amplitudes.end());
+    if (highest == waves.amplitudes.end() || highest == waves.amplitudes.begin())
+        return frequency_of_crossings(times, voltage);
+    const double peak = waves.frequencies[static_cast<std::size_t>(highest - waves.amplitudes.begin())];
+    const double apart = by_time / static_cast<double>(times.size());
+    double best = 0, largest = -1;
+    for (int part = -parts; part <= parts; ++part) {
+        const double frequency = 2 * std::numbers::pi * (peak + part * apart / parts);
+        if (const double size = fit_harmonic(times, voltage, frequency).amplitude(); size > largest) {
+            largest = size;
+            best = frequency;
+        }
+    }
+    return best;
 }
 
 } // namespace

@@ -76,7 +76,7 @@ void declare_known(CLI::App& command, IdentifyArguments& arguments) {
         ->delimiter(',')
         ->expected(2);
     add(command, group, "--frequency", arguments.frequency, "F",
-        "Impedance: about the frequency of the voltage (that of its crossings)")
+        "Impedance: about the frequency of the voltage (that of its largest wave)")
         ->check(CLI::PositiveNumber);
     add(command, group, "--beta1", arguments.beta1, "VALUE[+-ERROR]",
         "Impedance: with these the leakage inductance too, L - beta1/(beta2 + gap - q)")

@@ -58,6 +58,19 @@ TEST(Impedance, IntervalsCoverTheTruth) {
     expect_coverage(leakages, "leakage inductance");
 }
 
+// Half as much noise as signal crosses the mean many times in a period.
+TEST(Impedance, IsFoundInNoiseThatCrossesTheMeanOften) {
+    std::size_t covered = 0;
+    for (std::size_t seed = 0; seed < experiments; ++seed) {
+        Noise noise(seed);
+        const Recorded record = recorded(noise, 0.5 * size, 0.5);
+        const Impedance found = impedance(record.times, record.voltage, record.current);
+        EXPECT_NEAR(found.frequency, omega, 0.02 * omega) << seed;
+        covered += std::abs(found.resistance.value - resistance) < found.resistance.half_width() ? 1 : 0;
+    }
+    expect_coverage(covered, "resistance");
+}
+
 TEST(Impedance, ErrorsOfTheConstantsCount) {
     const Estimate all{0.014, 0, 100};
     EXPECT_NEAR(leakage_inductance(all, {beta1, 1e-3 * beta1, 9}, {beta2, 0, 9}, gap, q).error,
