@@ -24,6 +24,9 @@ def own_names(source):
             inside = False
         elif inside and (found := DECLARED.match(line)):
             names.add(found[1] or found[2])
+            # `constexpr double one = 1, other = 2;`
+            if line.startswith("const"):
+                names.update(re.findall(r", (\w+) = ", line))
     return names
 
 

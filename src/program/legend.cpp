@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t most_entries = 10;
 // In sizes of the legend's font.
-constexpr double line_sample = 2.4, symbol_sample = 0.9, gap = 0.5, gap_of_columns = 1.6, row_height = 1.4;
+constexpr double line_sample = 2.4, symbol_sample = 0.9, space = 0.5, gap_of_columns = 1.6, row_height = 1.4;
 
 double sample_of(const LegendEntry& entry) {
     using Style = FigureSeries::Style;
@@ -73,7 +73,7 @@ double place_legend(std::vector<LegendEntry>& entries, double left, double top, 
     double widest = 0;
     for (LegendEntry& entry : entries) {
         entry.sample = sample_of(entry) * size;
-        const double before = entry.sample + (entry.sampled ? gap * size : 0);
+        const double before = entry.sample + (entry.sampled ? space * size : 0);
         const std::vector<std::string> lines = wrapped(entry.title, (width - before) / size, 1);
         entry.text = rich_words(lines.empty() ? "" : lines.front(), symbols);
         entry.box = {0, 0, before + width_of(entry.text) * size, row_height * size};
@@ -89,7 +89,7 @@ double place_legend(std::vector<LegendEntry>& entries, double left, double top, 
         const double y = top - row_height * size * static_cast<double>(row);
         Box& box = entries[i].box;
         box = {x, y, x + box.width(), y + box.height()};
-        entries[i].title_left = x + entries[i].sample + (entries[i].sampled ? gap * size : 0);
+        entries[i].title_left = x + entries[i].sample + (entries[i].sampled ? space * size : 0);
     }
     return row_height * size * static_cast<double>(rows);
 }
