@@ -426,7 +426,7 @@ bool TapeJet::has_any(const KernelOperands& combination, const std::vector<char>
 
 void TapeJet::set_parameters(std::span<const double> parameters) {
     require_size(parameters.size(), parameters_ * layout_.number, "parameters of a jet");
-    if (std::memcmp(parameters.data(), memory_.data(), parameters.size_bytes()) == 0)
+    if (parameters.empty() || std::memcmp(parameters.data(), memory_.data(), parameters.size_bytes()) == 0)
         return;
     begun_ = false;
     std::ranges::copy(parameters, memory_.data());
