@@ -1,8 +1,8 @@
 #include "graze/branch/disturbed_trip.hpp"
 
-#include "branch/end_watch.hpp"
 #include "graze/model/driven_parameter.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "grazing/end_watch.hpp"
 
 #include <fmt/format.h>
 
@@ -23,12 +23,9 @@ TripTime follow(const TripOrigin& origin, const DrivenParameter& driven, const s
     std::vector<double> parameters = origin.parameters, state = origin.state;
     parameters.insert(parameters.end(), further.begin(), further.end());
     state.push_back(0);
-    EndWatch watch(end, origin.event, origin.half, options.interrupted);
-    Trajectory trajectory(simulation, parameters, watch);
-    trajectory.start(state, origin.mode, 0, longest);
-    JetSet jets(simulation, LaneKind::single);
-    run(trajectory, jets);
-    TripTime trip = watch.trip(trajectory.outcome());
+    const auto counts = [&](const Contact& contact) { return origin.counts(contact); };
+    EndWatch watch(end, counts, options.interrupted);
+    TripTime trip = run_until(simulation, parameters, state, origin.mode, longest, watch);
     trip.cycles = trip.time / origin.cycle;
     return trip;
 }

@@ -1,10 +1,10 @@
 #include "graze/branch/fold_passage.hpp"
 
-#include "branch/end_watch.hpp"
 #include "branch/normal_form.hpp"
 #include "flow/cyclic.hpp"
 #include "graze/branch/curve_start.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "grazing/end_watch.hpp"
 #include "orbit/shooting.hpp"
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ class ReturnWatch : public EndWatch {
 public:
     ReturnWatch(const System& system, const FoldPassage& fold, const TripEnd& end, bool until_passed,
                 const TripOptions& options, double start)
-        : EndWatch(end, std::nullopt, false, options.interrupted), fold_(fold), until_passed_(until_passed),
+        : EndWatch(end, {}, options.interrupted), fold_(fold), until_passed_(until_passed),
           closing_(fold.orbit.signature.back()), w_(start), periods_(system.periods()(fold.orbit.parameters)) {
         each_ =
             static_cast<std::size_t>(std::count(fold.orbit.signature.begin(), fold.orbit.signature.end(), closing_));
@@ -184,13 +184,10 @@ SimulatedPassage simulated_passage(const System& system, const FoldPassage& fold
     for (std::size_t i = 0; i < start.size(); ++i)
         start[i] -= fold.gate * fold.critical[i];
     ReturnWatch watch(system, fold, end, until_passed, options, -fold.gate);
-    Trajectory trajectory(simulation, parameters, watch);
-    trajectory.start(start, fold.orbit.signature.front().mode, 0, options.cycles * fold.cycle);
-    JetSet jets(simulation, LaneKind::single);
-    graze::run(trajectory, jets);
-    SimulatedPassage result{watch.passed(), watch.cycles(), watch.time(), watch.trip(trajectory.outcome())};
-    result.trip.cycles = result.trip.time / fold.cycle;
-    return result;
+    TripTime trip =
+        run_until(simulation, parameters, start, fold.orbit.signature.front().mode, options.cycles * fold.cycle, watch);
+    trip.cycles = trip.time / fold.cycle;
+    return {watch.passed(), watch.cycles(), watch.time(), trip};
 }
 
 } // namespace graze

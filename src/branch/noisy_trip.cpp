@@ -1,9 +1,9 @@
-#include "branch/end_watch.hpp"
 #include "branch/random_number.hpp"
 #include "graze/branch/disturbed_trip.hpp"
 #include "graze/model/driven_parameter.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/trajectory/ensemble.hpp"
+#include "grazing/end_watch.hpp"
 
 #include <fmt/format.h>
 
@@ -72,7 +72,7 @@ private:
     /// One place in which a motion after another is followed, cycle by cycle.
     struct Slot {
         Slot(const NoisyMotions& all)
-            : watch(all.end_, all.origin_.event, all.origin_.half, {}),
+            : watch(all.end_, [&all](const Contact& contact) { return all.origin_.counts(contact); }, {}),
               trajectory(all.simulation_, all.parameters_, watch), noise(all.settings_, 0) {}
         EndWatch watch;
         Trajectory trajectory;

@@ -75,6 +75,10 @@ TripOrigin beginning_on(const System& system, const Orbit& orbit, ParameterId pa
 
 } // namespace
 
+bool TripOrigin::counts(const Contact& contact) const {
+    return contact.event == event || (half && contact.rate_after >= 0); // of the image, what throws back
+}
+
 TripOrigin trip_origin(const System& system, const Orbit& orbit, const CycleMap& map, ParameterId parameter,
                        double value) {
     if (!map.exists() || !map.clearance_rate || *map.clearance_rate == 0)

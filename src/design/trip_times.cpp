@@ -2,7 +2,7 @@
 
 #include "graze/branch/fold_passage.hpp"
 #include "graze/symbolic/input_error.hpp"
-#include "graze/trajectory/trajectory.hpp"
+#include "grazing/end_watch.hpp"
 
 #include <fmt/format.h>
 
@@ -12,40 +12,6 @@
 namespace graze {
 
 namespace {
-
-/// Waits for the end of a trip that is no matter of one touched surface: any hard contact will do.
-class EndWatch : public Observer {
-public:
-    EndWatch(const Model& model, double speed, const std::function<bool()>& interrupted)
-        : model_(&model), speed_(speed), interrupted_(&interrupted) {}
-
-    void contact(const Contact& contact) override {
-        if (contact.kind != ContactKind::crossing || model_->events[contact.event].kind != EventKind::barrier ||
-            !trip_.ending.empty())
-            return;
-        ++trip_.contacts;
-        trip_.speed = -contact.rate_before;
-        if (speed_ > 0 && trip_.speed >= speed_)
-            end("speed", contact.time);
-    }
-    void passage(const Passage& passage) override {
-        if (trip_.ending.empty())
-            end("level", passage.time);
-    }
-    bool stop() override { return !trip_.ending.empty() || (*interrupted_ && (*interrupted_)()); }
-    const TripTime& trip() const { return trip_; }
-
-private:
-    void end(const char* ending, double time) {
-        trip_.ending = ending;
-        trip_.time = time;
-        trip_.ended = true;
-    }
-    const Model* model_;
-    double speed_;
-    const std::function<bool()>* interrupted_;
-    TripTime trip_;
-};
 
 void add_touch_row(TripTimes& times, const TripPoint& trip, const TripClass& found, const TripRequest& request,
                    double overshoot, double level, const TripOptions& options) {
@@ -96,28 +62,13 @@ std::vector<double> overshoots_of(const TripRequest& request, double value, int 
 TripTime simulate_until(const System& system, std::span<const double> parameters, std::span<const double> state,
                         std::size_t mode, double cycle, const TripEnd& end, const TripOptions& options) {
     options.validate();
-    SimulationOptions numbers;
-    numbers.tolerance = options.tolerance;
-    numbers.step_limit = options.step_limit;
-    std::vector<Probe> probes;
-    if (end.quantity) {
-        Probe& probe = probes.emplace_back();
-        probe.name = "end";
-        probe.expression = *end.quantity - end.level;
-    }
-    const Simulation simulation(system, std::move(probes), {}, numbers);
-    EndWatch watch(system.model(), end.speed, options.interrupted);
-    Trajectory trajectory(simulation, parameters, watch);
-    trajectory.start(state, mode, 0, options.cycles * cycle);
-    JetSet jets(simulation, LaneKind::single);
-    run(trajectory, jets);
-    TripTime trip = watch.trip();
-    const Outcome& outcome = trajectory.outcome();
-    if (trip.ending.empty()) {
-        trip.ending = name_of(outcome.ending);
-        trip.time = outcome.time;
-        trip.ended = outcome.ending == Ending::singular || outcome.ending == Ending::terminal;
-    }
+    const Simulation simulation = simulation_until(system, end, options);
+    // It is no matter of one touched surface: any hard contact will do.
+    const auto counts = [&](const Contact& contact) {
+        return system.model().events[contact.event].kind == EventKind::barrier;
+    };
+    EndWatch watch(end, counts, options.interrupted);
+    TripTime trip = run_until(simulation, parameters, state, mode, options.cycles * cycle, watch);
     trip.cycles = trip.time / cycle;
     return trip;
 }

@@ -1,10 +1,9 @@
 #include "graze/grazing/trip_time.hpp"
 
 #include "graze/symbolic/input_error.hpp"
-#include "graze/trajectory/trajectory.hpp"
+#include "grazing/end_watch.hpp"
 #include "grazing/trip_start.hpp"
 #include "orbit/certify.hpp"
-#include "orbit/newton.hpp"
 
 #include <fmt/format.h>
 
@@ -15,64 +14,6 @@ namespace graze {
 
 namespace {
 
-/// Waits for the end of a trip.
-class TripWatch : public Observer {
-public:
-    TripWatch(const System& system, const CycleMap& map, double speed, const std::function<bool()>& interrupted)
-        : system_(system), event_(map.touch.event), half_(map.half), level_(speed), interrupted_(interrupted) {}
-
-    void contact(const Contact& contact) override {
-        if (!counts(contact) || contact.kind != ContactKind::crossing || is_over(contact.time))
-            return;
-        ++contacts_;
-        speed_ = -contact.rate_before;
-        if (level_ > 0 && speed_ >= level_)
-            note("speed", contact.time);
-    }
-    void passage(const Passage& passage) override {
-        if (!is_over(passage.time))
-            note("level", passage.time);
-    }
-    bool stop() override { return !ending_.empty() || (interrupted_ && interrupted_()); }
-
-    const std::string& ending() const { return ending_; }
-    double time() const { return time_; }
-    std::size_t contacts() const { return contacts_; }
-    double speed() const { return speed_; }
-
-private:
-    /// The image of a touch, at the end of half of an orbit, may be one of another event.
-    bool counts(const Contact& contact) const {
-        return contact.event == event_ || (half_ && !is_harmless(system_, contact.transition));
-    }
-    bool is_over(double time) const { return !ending_.empty() && time >= time_; }
-    void note(const char* ending, double time) {
-        ending_ = ending;
-        time_ = time;
-    }
-
-    const System& system_;
-    std::size_t event_;
-    bool half_;
-    double level_;
-    const std::function<bool()>& interrupted_;
-    std::string ending_;
-    double time_ = 0, speed_ = 0;
-    std::size_t contacts_ = 0;
-};
-
-Simulation simulation_of(const System& system, const TripEnd& end, const TripOptions& options) {
-    SimulationOptions numbers = integration(options.tolerance);
-    numbers.step_limit = options.step_limit;
-    std::vector<Probe> probes;
-    if (end.quantity) {
-        Probe& probe = probes.emplace_back();
-        probe.name = "end";
-        probe.expression = *end.quantity - end.level;
-    }
-    return Simulation(system, std::move(probes), {}, numbers);
-}
-
 /// A motion that begins beside a touch, at the time of the touch.
 struct Beginning {
     std::vector<double> state, parameters;
@@ -81,9 +22,8 @@ struct Beginning {
 
 TripTime follow(const System& system, const CycleMap& map, Beginning begin, const TripEnd& end,
                 const TripOptions& options) {
-    TripTime trip;
     const TouchState& touch = map.contact.touch;
-    const Simulation simulation = simulation_of(system, end, options);
+    const Simulation simulation = simulation_until(system, end, options);
     // What would begin beyond the surface begins before its contact, which is before the touch by speed over
     // acceleration.
     double early = 0;
@@ -93,22 +33,20 @@ TripTime follow(const System& system, const CycleMap& map, Beginning begin, cons
         ModeFlow flow(system, options.tolerance);
         flow.set_parameters(begin.parameters);
         if (flow.run(touch.mode, begin.state, -early) != ModeFlow::Ending::done) {
+            TripTime trip;
             trip.ending = "undefined";
             return trip;
         }
     }
-    TripWatch watch(system, map, end.speed, options.interrupted);
-    Trajectory trajectory(simulation, begin.parameters, watch);
-    trajectory.start(begin.state, touch.mode, 0, options.cycles * map.time + early);
-    JetSet jets(simulation, LaneKind::single);
-    graze::run(trajectory, jets);
-    const Outcome& outcome = trajectory.outcome();
-    trip.ended = !watch.ending().empty() || outcome.ending == Ending::singular || outcome.ending == Ending::terminal;
-    trip.ending = watch.ending().empty() ? name_of(outcome.ending) : watch.ending();
-    trip.time = (watch.ending().empty() ? outcome.time : watch.time()) - early;
+    // The image of a touch, at the end of half of an orbit, may be one of another event.
+    const auto counts = [&](const Contact& contact) {
+        return contact.event == map.touch.event || (map.half && !is_harmless(system, contact.transition));
+    };
+    EndWatch watch(end, counts, options.interrupted);
+    TripTime trip =
+        run_until(simulation, begin.parameters, begin.state, touch.mode, options.cycles * map.time + early, watch);
+    trip.time -= early;
     trip.cycles = trip.time / map.time;
-    trip.contacts = watch.contacts();
-    trip.speed = watch.speed();
     return trip;
 }
 

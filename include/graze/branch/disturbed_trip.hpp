@@ -3,6 +3,7 @@
 #include "graze/branch/fold_passage.hpp"
 #include "graze/branch/yield.hpp"
 #include "graze/grazing/trip_time.hpp"
+#include "graze/trajectory/observer.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +24,8 @@ struct TripOrigin {
     std::size_t mode = 0;
     std::optional<std::size_t> event; ///< whose contacts' speeds may end a trip
     bool half = false;                ///< so may those of its image
+
+    bool counts(const Contact& contact) const;
 };
 
 /// @param map of the touch at which the orbit is lost, with respect to the parameter; @param orbit that touches

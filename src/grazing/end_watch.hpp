@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,14 +17,13 @@ namespace graze {
 /// Waits for what ends a trip: a contact of some approach speed, the level of a quantity.
 class EndWatch : public Observer {
 public:
-    /// @param event whose contacts have the speed, if any; @param images others that throw back count too
-    EndWatch(const TripEnd& end, std::optional<std::size_t> event, bool images,
-             const std::function<bool()>& interrupted)
-        : event_(event), images_(images), speed_limit_(end.speed), interrupted_(interrupted) {}
+    using Counts = std::function<bool(const Contact&)>;
+    /// @param counts which contacts have the speed that counts; none: no contact does
+    EndWatch(const TripEnd& end, Counts counts, const std::function<bool()>& interrupted)
+        : counts_(std::move(counts)), speed_limit_(end.speed), interrupted_(interrupted) {}
 
     void contact(const Contact& contact) override {
-        const bool counts = contact.event == event_ || (images_ && contact.rate_after >= 0);
-        if (contact.kind != ContactKind::crossing || !counts || is_over(contact.time))
+        if (contact.kind != ContactKind::crossing || !counts_ || !counts_(contact) || is_over(contact.time))
             return;
         ++contacts_;
         speed_ = -contact.rate_before;
@@ -61,8 +61,7 @@ private:
         time_ = time;
     }
 
-    std::optional<std::size_t> event_;
-    bool images_;
+    Counts counts_;
     double speed_limit_;
     std::function<bool()> interrupted_;
     std::string ending_;
@@ -76,13 +75,25 @@ inline Simulation simulation_until(const System& system, const TripEnd& end, con
                                    const std::optional<Probe>& further = std::nullopt) {
     SimulationOptions numbers = integration(options.tolerance);
     numbers.step_limit = options.step_limit;
-    Probe level;
-    level.name = "end";
-    level.expression = end.quantity ? *end.quantity - end.level : system.model().number(1);
-    std::vector<Probe> probes{level};
+    std::vector<Probe> probes;
+    if (end.quantity || further) {
+        Probe& level = probes.emplace_back();
+        level.name = "end";
+        level.expression = end.quantity ? *end.quantity - end.level : system.model().number(1);
+    }
     if (further)
         probes.push_back(*further);
     return Simulation(system, std::move(probes), {}, numbers);
+}
+
+/// The motion from a state at time 0 until the watch stops it.
+inline TripTime run_until(const Simulation& simulation, std::span<const double> parameters,
+                          std::span<const double> state, std::size_t mode, double longest, EndWatch& watch) {
+    Trajectory trajectory(simulation, parameters, watch);
+    trajectory.start(state, mode, 0, longest);
+    JetSet jets(simulation, LaneKind::single);
+    run(trajectory, jets);
+    return watch.trip(trajectory.outcome());
 }
 
 } // namespace graze
