@@ -197,7 +197,8 @@ void declare_trip(CLI::App& app, TripArguments& arguments) {
         "Added to the state of the touch in which the motion begins (none)");
     auto* until = add(command, group, "--until", arguments.until, "EXPR=LEVEL",
                       "End there, or where the motion ends by itself: end (contacts as hard as the map can tell; the "
-                      "fold is passed)");
+                      "fold is passed)")
+                      ->check(not_empty());
     add(command, group, "--greatest-speed", arguments.greatest_speed, "SPEED",
         "End at a contact of this approach speed")
         ->check(CLI::PositiveNumber)
