@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/grazing/cycle_map.hpp"
+#include "graze/orbit/certificate.hpp"
 #include "grazing/touch_geometry.hpp"
 #include "orbit/shooting.hpp"
 
