@@ -155,6 +155,16 @@ bool hand_over(PredictedTrip& trip, const Passes& passes, bool half) {
 
 } // namespace
 
+std::vector<double> usual_overshoots(double value, int side) {
+    const int size = value != 0 ? static_cast<int>(std::floor(std::log10(std::abs(value)))) : 0;
+    const char* sign = side < 0 ? "-" : "";
+    constexpr int least = 20;
+    std::vector<double> result;
+    for (int digits = 2; digits <= least; digits += 2)
+        result.push_back(std::stod(fmt::format("{}1e{}", sign, size - digits)));
+    return result;
+}
+
 TouchMeeting meeting_of(const CycleMap& map, double overshoot, std::span<const double> disturbance) {
     TouchMeeting meeting;
     meeting.gap = explicit_rate(map) * overshoot;
