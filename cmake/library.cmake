@@ -5,6 +5,7 @@ set(GRAZE_FOLDERS symbolic model tape flow trajectory record bench acquire ident
 # What a folder needs besides.
 set(GRAZE_NEEDS_sweep Threads::Threads)
 set(GRAZE_NEEDS_record graze_hdf5)
+set(GRAZE_NEEDS_acquire Boost::headers Threads::Threads)
 set(GRAZE_NEEDS_results SQLite::SQLite3 graze_hdf5)
 set(GRAZE_NEEDS_design NLopt::nlopt)
 

@@ -61,8 +61,9 @@ void TextSampleDevice::set_rate(double rate) {
     rate_ = rate;
 }
 
-void TextSampleDevice::begin(std::size_t count) {
-    line_->send(fmt::format("READ {}", count));
+void TextSampleDevice::begin(std::size_t count, std::size_t block) {
+    line_->send(block > 0 ? fmt::format("READ {} {}", count, block) : fmt::format("READ {}", count));
+    block_ = block;
     wanted_ = count;
     given_ = 0;
     last_time_ = -std::numeric_limits<double>::infinity();
@@ -97,7 +98,10 @@ void TextSampleDevice::parse(const std::string& row, Samples& samples) {
 
 bool TextSampleDevice::read(Samples& samples) {
     samples.clear(header_.channels.size());
-    while (running_ && samples.rows() < rows_at_once) {
+    const std::size_t most = block_ > 0 ? block_ : rows_at_once;
+    if (running_ && block_ > 0 && given_ > 0 && given_ < wanted_)
+        line_->send("MORE");
+    while (running_ && (samples.rows() < most || given_ == wanted_)) {
         const std::string row = awaited_line(*line_, timeout_ + (rate_ > 0 ? 1 / rate_ : 0), interrupted_, who);
         if (!row.starts_with("END")) {
             if (given_ == wanted_)

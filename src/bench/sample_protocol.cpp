@@ -36,6 +36,10 @@ bool SampleProtocol::receive(std::string_view line) {
         wanted_ = given_;
         return true;
     }
+    if (line == "MORE") {
+        allowed_ = std::min(allowed_ + block_, most_rows);
+        return true;
+    }
     if (waiting_.size() == most_waiting || line.size() > longest_line)
         return false;
     waiting_.emplace_back(line);
@@ -55,7 +59,9 @@ std::string SampleProtocol::next(std::size_t rows_at_most, double until) {
         waiting_.pop_front();
         return answer(line);
     }
-    std::size_t count = std::min(rows_at_most, wanted_ - given_);
+    std::size_t count = std::min(rows_at_most, std::min(wanted_, std::max(allowed_, given_)) - given_);
+    if (count == 0 && given_ < wanted_)
+        return {};
     if (std::isfinite(until)) {
         const double due = std::floor((until - bench_->time()) * bench_->rate());
         count = due < 1 ? 0 : std::min(count, static_cast<std::size_t>(std::min(due, 1e9)));
@@ -106,11 +112,18 @@ std::string SampleProtocol::answer(std::string_view line) {
         }
         return fmt::format("OK {}\n", bench_->rate());
     }
-    if (std::size_t count = 0; word == "READ" && read_number(rest, count) && count <= most_rows) {
-        reading_ = true;
-        wanted_ = count;
-        given_ = 0;
-        return {};
+    if (word == "READ") {
+        const std::size_t gap = std::min(rest.find(' '), rest.size());
+        std::size_t count = 0, block = most_rows;
+        const bool good = read_number(rest.substr(0, gap), count) && count <= most_rows &&
+                          (gap == rest.size() || (read_number(rest.substr(gap + 1), block) && block > 0));
+        if (good) {
+            reading_ = true;
+            wanted_ = count;
+            given_ = 0;
+            block_ = allowed_ = std::min(block, most_rows);
+            return {};
+        }
     }
     if (std::uint64_t number = 0; (word == "MARK" || word == "RETURN") && read_number(rest, number)) {
         if (word == "MARK")

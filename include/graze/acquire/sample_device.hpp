@@ -22,8 +22,10 @@ public:
     virtual const RecordHeader& header() const = 0;
     /// @param rate samples in a second
     virtual void set_rate(double rate) = 0;
-    /// Begins to take so many samples, from now on.
-    virtual void begin(std::size_t count) = 0;
+    /// Begins to take so many samples, from now on, without gaps.
+    /// @param block so many are read at once; a device whose time stands still while nobody reads takes no more than
+    ///              those before the next ones are read. 0: as many as are there
+    virtual void begin(std::size_t count, std::size_t block = 0) = 0;
     /// Replaces `samples` by the next ones, with times from the first that was taken.
     /// @return false when all that were asked for have been given
     virtual bool read(Samples& samples) = 0;
@@ -46,7 +48,7 @@ public:
 
     const RecordHeader& header() const override { return header_; }
     void set_rate(double rate) override;
-    void begin(std::size_t count) override;
+    void begin(std::size_t count, std::size_t block = 0) override;
     bool read(Samples& samples) override;
     void stop() override;
     bool mark(std::uint64_t number) override;
@@ -64,7 +66,7 @@ private:
     std::function<bool()> interrupted_;
     RecordHeader header_;
     double rate_ = 0;
-    std::size_t wanted_ = 0, given_ = 0;
+    std::size_t wanted_ = 0, given_ = 0, block_ = 0;
     double last_time_ = -std::numeric_limits<double>::infinity();
     bool running_ = false;
 };

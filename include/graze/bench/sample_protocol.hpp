@@ -15,6 +15,8 @@ namespace graze {
 ///     CHANNELS   t [s], V [V], q [m]            names and units, as the first line of a record
 ///     RATE 1000  OK 1000                        samples in a second, as they will be
 ///     READ 3     0,0.1,0.2 ... END 3            rows, with times from the first of them, and how many there were
+///     READ 9 4   4 rows, and 4 more whenever it is told
+///     MORE
 ///     STOP       END 2                          ends a READ before its time
 ///     MARK 7     OK                             keeps how all is now, and
 ///     RETURN 7   OK                             makes it so again; devices of hardware know neither
@@ -25,7 +27,7 @@ public:
     /// @param bench must outlive this
     explicit SampleProtocol(VirtualBench& bench) : bench_(&bench) {}
 
-    /// A line without its terminator. While rows are given only STOP is heeded at once; the rest waits.
+    /// A line without its terminator. While rows are given only STOP and MORE are heeded at once; the rest waits.
     /// @return false when too many wait, and the device gives up
     bool receive(std::string_view line);
     /// What is to be sent next; empty when there is nothing.
@@ -47,6 +49,7 @@ private:
     std::deque<std::string> waiting_;
     bool reading_ = false;
     std::size_t wanted_ = 0, given_ = 0;
+    std::size_t block_ = 0, allowed_ = 0; ///< rows that may be given before MORE
     Samples samples_;
 };
 
