@@ -1,4 +1,4 @@
-#include "branch/random_number.hpp"
+#include "symbolic/random_number.hpp"
 #include "graze/branch/disturbed_trip.hpp"
 #include "graze/model/driven_parameter.hpp"
 #include "graze/symbolic/input_error.hpp"
