@@ -22,6 +22,7 @@ find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(NLopt REQUIRED)
+find_package(Ceres REQUIRED)
 find_package(Threads REQUIRED)
 include(cmake/hdf5.cmake)
 
