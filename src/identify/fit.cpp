@@ -14,8 +14,7 @@ namespace graze {
 
 namespace {
 
-/// Stage by stage: first states alone, so that each piece is near its readings; then all, while pieces join more and
-/// more.
+/// Pieces join more and more.
 std::vector<FitStage> stages_of(const FitRows& rows, const FitSettings& settings) {
     constexpr int few = 30;
     const bool joined = std::any_of(rows.layout.pieces.begin(), rows.layout.pieces.end(),
@@ -26,10 +25,10 @@ std::vector<FitStage> stages_of(const FitRows& rows, const FitSettings& settings
     if (!joined)
         return {last};
     std::vector<FitStage> stages;
-    for (const double joint : {0.03, 1.0, 30.0, 1e3}) {
+    for (const double joint : {1.0, 30.0, 1e3}) {
         FitStage stage;
         stage.joint = joint;
-        stage.states_only = stages.empty();
+        stage.tolerance = 1e-6;
         stage.most_iterations = std::min(few, settings.most_iterations);
         stages.push_back(stage);
     }
@@ -56,17 +55,17 @@ public:
     Fit run() {
         const std::vector<FitStage> stages = stages_of(rows_, *settings_);
         Fit fit;
-        StageReport report;
+        StageReport report = begin(fit);
         for (std::size_t s = 0; s + 1 < stages.size() && !report.interrupted; ++s) {
-            report = make(stages[s], static_cast<int>(s), static_cast<int>(stages.size()), fit);
+            report = make(stages[s], static_cast<int>(s) + 1, static_cast<int>(stages.size()) + 1, fit);
             update_modes(rows_, point_);
-            if (!report.interrupted && !stages[s].states_only)
+            if (!report.interrupted)
                 rows_.noise = noise_at(rows_, point_);
         }
         // Once more where weights or modes have changed by what was found.
         constexpr int most_rounds = 8;
         for (int round = 0; round < most_rounds && !report.interrupted; ++round) {
-            report = make(stages.back(), static_cast<int>(stages.size()) - 1, static_cast<int>(stages.size()), fit);
+            report = make(stages.back(), static_cast<int>(stages.size()), static_cast<int>(stages.size()) + 1, fit);
             const std::vector<double> before = rows_.noise;
             if (report.interrupted || report.failed)
                 break;
@@ -82,6 +81,44 @@ public:
     }
 
 private:
+    /// The first pieces of records alone, then twice as many, and so on: each begins where what is known by then leads
+    /// to, so that a wrong frequency, say, does not add up to a wrong phase.
+    StageReport begin(Fit& fit) {
+        std::vector<FitPiece>& pieces = rows_.layout.pieces;
+        std::vector<std::size_t> ordinals;
+        std::size_t most = 0;
+        for (const FitPiece& piece : pieces) {
+            ordinals.push_back(piece.opening ? 0 : ordinals.back() + 1);
+            most = std::max(most, ordinals.back() + 1);
+        }
+        StageReport report;
+        std::size_t done = 0;
+        for (std::size_t count = 1; done < most && most > 1 && !report.interrupted; count *= 2) {
+            FitStage stage;
+            stage.joint = 1;
+            stage.tolerance = 1e-3;
+            stage.most_iterations = 15;
+            for (std::size_t k = 0; k < pieces.size(); ++k)
+                if (ordinals[k] >= done && ordinals[k] < count) {
+                    if (!pieces[k].opening)
+                        continue_from(rows_, point_, k);
+                    stage.active.assign(pieces.size(), false);
+                    stage.active[k] = true;
+                    stage.states_only = true;
+                    stage.prior = 0.03;
+                    report = make(stage, 0, 5, fit);
+                }
+            for (std::size_t k = 0; k < pieces.size(); ++k)
+                stage.active[k] = ordinals[k] < count;
+            stage.states_only = false;
+            stage.prior = 0.01;
+            report = make(stage, 0, 5, fit);
+            update_modes(rows_, point_);
+            done = count;
+        }
+        return report;
+    }
+
     StageReport make(const FitStage& stage, int number, int count, Fit& fit) {
         const int before = fit.iterations;
         const StageReport report =

@@ -21,11 +21,12 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 /// piece; those without numbers are left out.
 class PieceCost : public ceres::CostFunction {
 public:
-    PieceCost(FitRows& rows, const FitPiece& piece, double joint) : rows_(&rows), piece_(piece), joint_(joint) {
+    PieceCost(FitRows& rows, const FitPiece& piece, bool joined, double joint)
+        : rows_(&rows), piece_(piece), joint_(joint) {
         const FitLayout& layout = rows.layout;
         shared_ = layout.shared();
         states_ = layout.unknown_states(rows.task(), piece);
-        ahead_ = piece.leads ? static_cast<Eigen::Index>(layout.states) : 0;
+        ahead_ = joined ? static_cast<Eigen::Index>(layout.states) : 0;
         for (const Eigen::Index size : {shared_, states_, ahead_})
             if (size > 0)
                 mutable_parameter_block_sizes()->push_back(static_cast<int>(size));
@@ -94,6 +95,29 @@ private:
     mutable PieceRows known_;
 };
 
+/// Holds unknowns where they are, softly.
+class PriorCost : public ceres::CostFunction {
+public:
+    PriorCost(Eigen::VectorXd at, double weight) : at_(std::move(at)), weight_(weight) {
+        mutable_parameter_block_sizes()->push_back(static_cast<int>(at_.size()));
+        set_num_residuals(static_cast<int>(at_.size()));
+    }
+    bool Evaluate(const double* const* numbers, double* rests, double** slopes) const override {
+        Eigen::Map<Eigen::VectorXd>(rests, at_.size()) =
+            weight_ * (Eigen::Map<const Eigen::VectorXd>(numbers[0], at_.size()) - at_);
+        if (slopes != nullptr && slopes[0] != nullptr) {
+            Eigen::Map<RowMatrix> slope(slopes[0], at_.size(), at_.size());
+            slope.setZero();
+            slope.diagonal().setConstant(weight_);
+        }
+        return true;
+    }
+
+private:
+    Eigen::VectorXd at_;
+    double weight_;
+};
+
 class ProgressCallback : public ceres::IterationCallback {
 public:
     ProgressCallback(const StageProgress& progress, const FitPoint& point) : progress_(&progress), point_(&point) {}
@@ -123,21 +147,32 @@ void set_bounds(ceres::Problem& problem, const FitRows& rows, double* shared) {
 StageReport minimise(FitRows& rows, FitPoint& point, const FitStage& stage, const StageProgress& progress) {
     ceres::Problem problem;
     const std::vector<FitPiece>& pieces = rows.layout.pieces;
+    const auto is_active = [&](std::size_t k) { return stage.active.empty() || stage.active[k]; };
+    const auto hold = [&](Eigen::VectorXd& block) {
+        if (stage.prior > 0 && block.size() > 0)
+            problem.AddResidualBlock(new PriorCost(block, stage.prior), nullptr, block.data());
+    };
     Eigen::Index unknowns = point.shared.size();
     for (std::size_t k = 0; k < pieces.size(); ++k) {
+        if (!is_active(k))
+            continue;
         std::vector<double*> blocks;
         if (point.shared.size() > 0)
             blocks.push_back(point.shared.data());
         if (point.states[k].size() > 0)
             blocks.push_back(point.states[k].data());
-        if (pieces[k].leads)
+        const bool joined = pieces[k].leads && is_active(k + 1);
+        if (joined)
             blocks.push_back(point.states[k + 1].data());
         if (!blocks.empty())
-            problem.AddResidualBlock(new PieceCost(rows, pieces[k], stage.joint), nullptr, blocks);
+            problem.AddResidualBlock(new PieceCost(rows, pieces[k], joined, stage.joint), nullptr, blocks);
+        hold(point.states[k]);
         unknowns += point.states[k].size();
     }
+    if (!stage.states_only)
+        hold(point.shared);
     StageReport report;
-    if (point.shared.size() > 0) {
+    if (point.shared.size() > 0 && problem.HasParameterBlock(point.shared.data())) {
         if (stage.states_only)
             problem.SetParameterBlockConstant(point.shared.data());
         else
@@ -148,14 +183,13 @@ StageReport minimise(FitRows& rows, FitPoint& point, const FitStage& stage, cons
         return report;
     }
     constexpr Eigen::Index most_dense = 500;
-    constexpr double round_off = 1e-15;
     ProgressCallback callback(progress, point);
     ceres::Solver::Options options;
     options.linear_solver_type = unknowns <= most_dense ? ceres::DENSE_QR : ceres::SPARSE_NORMAL_CHOLESKY;
     options.max_num_iterations = stage.most_iterations;
-    options.function_tolerance = stage.states_only ? 1e-6 : round_off;
+    options.function_tolerance = stage.tolerance;
     options.gradient_tolerance = 1e-300;
-    options.parameter_tolerance = round_off;
+    options.parameter_tolerance = 1e-15;
     options.logging_type = ceres::SILENT;
     options.minimizer_progress_to_stdout = false;
     options.update_state_every_iteration = true;

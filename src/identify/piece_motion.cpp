@@ -25,6 +25,14 @@ public:
 
     void watch(const Trajectory& trajectory) { trajectory_ = &trajectory; }
     std::size_t taken() const { return next_; }
+    /// Samples before a time, from the motion of the first mode.
+    void take_until(double time) {
+        owner_->fan_.begin(piece_->mode, piece_->state, piece_->seeds);
+        for (; next_ < piece_->times.size() && piece_->times[next_] < time; ++next_) {
+            owner_->motion_.differentiable &= owner_->fan_.at(piece_->times[next_] - piece_->begin, state_, matrix_);
+            owner_->take(next_, state_, matrix_);
+        }
+    }
 
     void step(const Step& step) override {
         start_ = step.start;
@@ -116,6 +124,54 @@ void PieceMotion::take(std::size_t sample, std::span<const double> state, std::s
     one.derivatives.assign(matrix.begin(), matrix.end());
 }
 
+/// A watched barrier that the state is beyond; as many as there are events if none.
+std::size_t PieceMotion::violated(std::size_t mode, std::span<const double> state) {
+    const System& system = simulation_.system();
+    const System::CompiledMode& compiled = system.mode(mode);
+    inputs_.assign(state.begin(), state.end());
+    inputs_.insert(inputs_.end(), parameters_.begin(), parameters_.end());
+    work_.resize(system.workspace());
+    values_.resize(compiled.events.outputs());
+    compiled.events.evaluate(inputs_, values_, work_);
+    for (std::size_t w = 0; w < compiled.watched.size(); ++w)
+        if (simulation_.model().events[compiled.watched[w]].kind == EventKind::barrier && values_[w] < 0)
+            return compiled.watched[w];
+    return simulation_.model().events.size();
+}
+
+/// Newton's method for where the motion, without events, is on the right side of a surface by a thousandth of what it
+/// is beyond now.
+bool PieceMotion::find_side(const MotionPiece& piece, std::size_t event) {
+    constexpr int most = 20;
+    const System& system = simulation_.system();
+    const std::size_t states = system.states();
+    std::vector<double> gradient(1 + states + parameters_.size()), rates(states);
+    side_ = 0;
+    side_state_.assign(piece.state.begin(), piece.state.end());
+    side_matrix_.assign(piece.seeds.begin(), piece.seeds.end());
+    double aim = 0;
+    for (int i = 0; i < most; ++i) {
+        inputs_.assign(side_state_.begin(), side_state_.end());
+        inputs_.insert(inputs_.end(), parameters_.begin(), parameters_.end());
+        system.event(event).evaluate(inputs_, gradient, work_);
+        system.mode(piece.mode).rates.evaluate(inputs_, rates, work_);
+        if (i == 0)
+            aim = -1e-3 * gradient[0];
+        else if (gradient[0] > 0 && gradient[0] < 2 * aim)
+            return violated(piece.mode, side_state_) == simulation_.model().events.size();
+        double rate = 0;
+        for (std::size_t k = 0; k < states; ++k)
+            rate += gradient[1 + k] * rates[k];
+        side_ += (aim - gradient[0]) / rate;
+        if (!(std::abs(side_) <= piece.end - piece.begin))
+            return false;
+        fan_.begin(piece.mode, piece.state, piece.seeds);
+        if (!fan_.at(side_, side_state_, side_matrix_))
+            return false;
+    }
+    return false;
+}
+
 const PredictedMotion& PieceMotion::follow(const MotionPiece& piece) {
     const std::size_t states = simulation_.system().states(), count = directions();
     motion_.samples.resize(piece.times.size());
@@ -124,17 +180,26 @@ const PredictedMotion& PieceMotion::follow(const MotionPiece& piece) {
     motion_.contacts = 0;
     motion_.differentiable = true;
     motion_.detail.clear();
+    std::span<const double> first = piece.state, first_seeds = piece.seeds;
+    double begin = piece.begin;
+    Watcher watcher(*this, piece);
+    if (const std::size_t event = violated(piece.mode, piece.state);
+        event != simulation_.model().events.size() && find_side(piece, event)) {
+        first = side_state_;
+        first_seeds = side_matrix_;
+        begin += side_;
+        watcher.take_until(begin);
+    }
     seeds_.assign(count * (states + parameters_.size()), 0.0);
     for (std::size_t d = 0; d < count; ++d) {
         double* seed = &seeds_[d * (states + parameters_.size())];
         for (std::size_t i = 0; i < states; ++i)
-            seed[i] = piece.seeds[i * count + d];
+            seed[i] = first_seeds[i * count + d];
         for (std::size_t j = 0; j < parameters_.size(); ++j)
             seed[states + j] = parameter_seeds_[j * count + d];
     }
-    Watcher watcher(*this, piece);
     Trajectory trajectory(simulation_, parameters_, watcher);
-    trajectory.start(piece.state, piece.mode, piece.begin, piece.end);
+    trajectory.start(first, piece.mode, begin, piece.end);
     trajectory.carry_tangents(seeds_, count);
     watcher.watch(trajectory);
     run(trajectory, jets_);

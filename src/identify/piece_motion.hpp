@@ -42,6 +42,9 @@ struct PredictedMotion {
 
 /// Follows pieces of motions with their derivatives by states at their beginnings and by some parameters: along arcs by
 /// tangent lanes, through contacts by saltation, through accumulations of contacts as Trajectory does.
+///
+/// A state at the beginning may be a little beyond a surface, as an unknown can while it is sought: then the motion is
+/// followed, back or on, to where it is on the right side, and begins there. So it depends smoothly on that state.
 class PieceMotion {
 public:
     /// @param moved independent parameters by which derivatives are asked for, as the last directions; the ones before
@@ -56,6 +59,8 @@ public:
 private:
     class Watcher;
     void take(std::size_t sample, std::span<const double> state, std::span<const double> matrix);
+    std::size_t violated(std::size_t mode, std::span<const double> state);
+    bool find_side(const MotionPiece& piece, std::size_t event);
 
     Simulation simulation_;
     std::vector<std::size_t> moved_;
@@ -63,6 +68,9 @@ private:
     JetSet jets_;
     TangentFan fan_;
     PredictedMotion motion_;
+    std::vector<double> inputs_, values_, work_;
+    double side_ = 0; ///< how far from its beginning a piece is on the right side of all surfaces
+    std::vector<double> side_state_, side_matrix_; ///< there
 };
 
 } // namespace graze
