@@ -58,6 +58,7 @@ public:
         StageReport report = begin(fit);
         for (std::size_t s = 0; s + 1 < stages.size() && !report.interrupted; ++s) {
             report = make(stages[s], static_cast<int>(s) + 1, static_cast<int>(stages.size()) + 1, fit);
+            merge_bound(rows_, point_);
             update_modes(rows_, point_);
             if (!report.interrupted)
                 rows_.noise = noise_at(rows_, point_);
@@ -69,7 +70,7 @@ public:
             const std::vector<double> before = rows_.noise;
             if (report.interrupted || report.failed)
                 break;
-            const bool switched = update_modes(rows_, point_);
+            const bool merged = merge_bound(rows_, point_), switched = update_modes(rows_, point_) || merged;
             const std::vector<double> noise = noise_at(rows_, point_);
             if (!switched && is_settled(noise, before, rows_))
                 break;
@@ -84,54 +85,70 @@ private:
     /// The first pieces of records alone, then twice as many, and so on: each begins where what is known by then leads
     /// to, so that a wrong frequency, say, does not add up to a wrong phase.
     StageReport begin(Fit& fit) {
-        std::vector<FitPiece>& pieces = rows_.layout.pieces;
-        std::vector<std::size_t> ordinals;
-        std::size_t most = 0;
-        for (const FitPiece& piece : pieces) {
-            ordinals.push_back(piece.opening ? 0 : ordinals.back() + 1);
-            most = std::max(most, ordinals.back() + 1);
-        }
         StageReport report;
         std::size_t done = 0;
-        for (std::size_t count = 1; done < most && most > 1 && !report.interrupted; count *= 2) {
-            FitStage stage;
-            stage.joint = 1;
-            stage.tolerance = 1e-3;
-            stage.most_iterations = 15;
-            for (std::size_t k = 0; k < pieces.size(); ++k)
-                if (ordinals[k] >= done && ordinals[k] < count) {
-                    if (!pieces[k].opening)
-                        continue_from(rows_, point_, k);
-                    stage.active.assign(pieces.size(), false);
-                    stage.active[k] = true;
-                    stage.states_only = true;
-                    stage.prior = 0.03;
-                    report = make(stage, 0, 5, fit);
+        for (std::size_t count = 1; done < most_pieces() && most_pieces() > 1 && !report.interrupted; count *= 2) {
+            for (std::size_t k = 0; k < pieces().size(); ++k) {
+                if (ordinal(k) < done || ordinal(k) >= count)
+                    continue;
+                if (!pieces()[k].opening && ends_bound(rows_, point_, k - 1)) {
+                    merge(rows_, point_, k--);
+                    continue;
                 }
-            for (std::size_t k = 0; k < pieces.size(); ++k)
-                stage.active[k] = ordinals[k] < count;
-            stage.states_only = false;
-            stage.prior = 0.01;
-            report = make(stage, 0, 5, fit);
+                if (!pieces()[k].opening)
+                    continue_from(rows_, point_, k);
+                FitStage alone = soft_stage();
+                alone.active.assign(pieces().size(), false);
+                alone.active[k] = true;
+                alone.states_only = true;
+                alone.prior = 0.03;
+                report = make(alone, 0, 5, fit);
+            }
+            FitStage together = soft_stage();
+            for (std::size_t k = 0; k < pieces().size(); ++k)
+                together.active.push_back(ordinal(k) < count);
+            together.prior = 0.01;
+            report = make(together, 0, 5, fit);
             update_modes(rows_, point_);
             done = count;
         }
         return report;
     }
 
+    static FitStage soft_stage() {
+        FitStage stage;
+        stage.joint = 1;
+        stage.tolerance = 1e-3;
+        stage.most_iterations = 15;
+        return stage;
+    }
+    std::vector<FitPiece>& pieces() { return rows_.layout.pieces; }
+    /// Which piece of its record.
+    std::size_t ordinal(std::size_t piece) {
+        std::size_t count = 0;
+        while (!pieces()[piece - count].opening)
+            ++count;
+        return count;
+    }
+    std::size_t most_pieces() {
+        std::size_t most = 0;
+        for (std::size_t k = 0; k < pieces().size(); ++k)
+            most = std::max(most, ordinal(k) + 1);
+        return most;
+    }
+
     StageReport make(const FitStage& stage, int number, int count, Fit& fit) {
         const int before = fit.iterations;
-        const StageReport report =
-            minimise(rows_, point_, stage, [&](int iteration, double cost, const FitPoint&) {
-                if (!settings_->progress)
-                    return true;
-                FitProgress progress;
-                progress.stage = number;
-                progress.stages = count;
-                progress.iteration = before + iteration;
-                progress.misfit = std::sqrt(2 * cost / static_cast<double>(std::max<std::size_t>(1, readings())));
-                return settings_->progress(progress);
-            });
+        const StageReport report = minimise(rows_, point_, stage, [&](int iteration, double cost, const FitPoint&) {
+            if (!settings_->progress)
+                return true;
+            FitProgress progress;
+            progress.stage = number;
+            progress.stages = count;
+            progress.iteration = before + iteration;
+            progress.misfit = std::sqrt(2 * cost / static_cast<double>(std::max<std::size_t>(1, readings())));
+            return settings_->progress(progress);
+        });
         fit.iterations += report.iterations;
         return report;
     }

@@ -93,7 +93,7 @@ FitDecomposition decompose(const FitInformation& information, const std::vector<
     const double longest = count > 0 ? result.lengths.maxCoeff() : 0;
     for (Eigen::Index c = 0; c < count; ++c)
         scaled.col(c) = result.lengths[c] > 1e-13 * longest ? Eigen::VectorXd(scaled.col(c) / result.lengths[c])
-                                                             : Eigen::VectorXd::Zero(count);
+                                                            : Eigen::VectorXd::Zero(count);
     const Eigen::JacobiSVD<Eigen::MatrixXd> factors(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
     result.values = factors.singularValues();
     result.directions = factors.matrixV();

@@ -25,9 +25,10 @@ void require_parameters(const System& system, const FitTask& task) {
             throw InputError(fmt::format("the guess of parameter '{}' is {}", name, unknown.guess),
                              "give a finite number");
         if (!(unknown.least < unknown.greatest) || unknown.guess < unknown.least || unknown.guess > unknown.greatest)
-            throw InputError(fmt::format("the guess {:.9g} of parameter '{}' is not within its bounds, {:.9g} and {:.9g}",
-                                         unknown.guess, name, unknown.least, unknown.greatest),
-                             "give bounds that rise, with the guess between them");
+            throw InputError(
+                fmt::format("the guess {:.9g} of parameter '{}' is not within its bounds, {:.9g} and {:.9g}",
+                            unknown.guess, name, unknown.least, unknown.greatest),
+                "give bounds that rise, with the guess between them");
     }
     if (!task.values.empty())
         require_size(task.values.size(), names.size(), "values of independent parameters");
@@ -141,11 +142,12 @@ std::vector<FitPiece> cut_records(const System& system, const FitTask& task, con
         for (std::size_t k = 0; k < count; ++k) {
             std::size_t to = record.times.size() - 1;
             if (k + 1 < count) {
-                const double part = length / static_cast<double>(count), middle = begin + static_cast<double>(k + 1) * part;
+                const double part = length / static_cast<double>(count),
+                             middle = begin + static_cast<double>(k + 1) * part;
                 constexpr double slack = 0.25;
                 const auto place = [&](double time) {
-                    return static_cast<std::size_t>(
-                        std::lower_bound(record.times.begin(), record.times.end(), time) - record.times.begin());
+                    return static_cast<std::size_t>(std::lower_bound(record.times.begin(), record.times.end(), time) -
+                                                    record.times.begin());
                 };
                 to = std::max(from + 1, place(middle));
                 for (std::size_t i = std::max(from + 1, place(middle - slack * part));

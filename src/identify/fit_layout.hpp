@@ -14,9 +14,9 @@ struct FitPiece {
     std::size_t record = 0;
     std::size_t first = 0, last = 0; ///< its readings: first ... last - 1
     double begin = 0, end = 0;
-    std::size_t mode = 0;  ///< at its beginning
-    bool leads = false;    ///< a piece of the same record follows
-    bool opening = false;  ///< the first of its record
+    std::size_t mode = 0; ///< at its beginning
+    bool leads = false;   ///< a piece of the same record follows
+    bool opening = false; ///< the first of its record
 };
 
 /// All unknowns, each divided by its scale.

@@ -248,14 +248,15 @@ void FitRows::add_time(const FitPiece& piece, std::size_t sample, const Eigen::V
     const double size = unit();
     for (const FitRecord::Readings& readings : record.readings) {
         const std::size_t o = readings.output;
-        const double factor = gain(o, shared), rest = factor * side_.values[o] + offset(o, shared) - readings.values[sample];
+        const double factor = gain(o, shared),
+                     rest = factor * side_.values[o] + offset(o, shared) - readings.values[sample];
         rows_.rests.push_back(rest);
         const Costed costed = cost_of(rest / noise[o], loss());
         const double weight = size * costed.slope / noise[o];
         const double* slope = &side_.slopes[o * count];
         for (Eigen::Index c = 0; c < states; ++c) {
-            const std::size_t state = piece.opening ? record.unknown_states[static_cast<std::size_t>(c)]
-                                                    : static_cast<std::size_t>(c);
+            const std::size_t state =
+                piece.opening ? record.unknown_states[static_cast<std::size_t>(c)] : static_cast<std::size_t>(c);
             raw_(row, c) = weight * factor * slope[state] * scale_of(piece, c);
         }
         for (std::size_t j = 0; j < layout.parameters; ++j) {
@@ -287,8 +288,8 @@ void FitRows::add_ends(const FitPiece& piece, const PredictedMotion& predicted) 
     for (Eigen::Index i = 0; i < rows_.ends.rows(); ++i) {
         const double* slope = &predicted.end_derivatives[static_cast<std::size_t>(i) * count];
         for (Eigen::Index c = 0; c < states; ++c) {
-            const std::size_t state = piece.opening ? record.unknown_states[static_cast<std::size_t>(c)]
-                                                    : static_cast<std::size_t>(c);
+            const std::size_t state =
+                piece.opening ? record.unknown_states[static_cast<std::size_t>(c)] : static_cast<std::size_t>(c);
             rows_.ends(i, c) = slope[state] * scale_of(piece, c) / layout.state_scale[i];
         }
         for (std::size_t j = 0; j < layout.parameters; ++j) {

@@ -17,8 +17,8 @@ namespace graze {
 struct PieceRows {
     /// Triangular: as many rows as columns, of the same sums of squares and products as those of all its readings.
     Eigen::MatrixXd readings;
-    Eigen::MatrixXd ends; ///< the state at its end, in scales: derivatives, and, last, the state
-    std::vector<double> rests;  ///< readings as they should be less what they are: time by time, reading by reading
+    Eigen::MatrixXd ends;      ///< the state at its end, in scales: derivatives, and, last, the state
+    std::vector<double> rests; ///< readings as they should be less what they are: time by time, reading by reading
     std::size_t end_mode = 0, contacts = 0, misplaced = 0;
     bool complete = false, finite = false;
     std::string detail;
@@ -70,7 +70,8 @@ private:
     FitLoss loss_;
     double reach_;
     std::vector<double> ranges_, values_, periods_, inputs_, work_, gradient_;
-    std::vector<Function> outputs_, initials_; ///< values, with gradients; of outputs, and of the model's initial states
+    std::vector<Function> outputs_,
+        initials_; ///< values, with gradients; of outputs, and of the model's initial states
     PieceMotion motion_;
     Side side_, beyond_;
     Eigen::MatrixXd raw_;

@@ -188,6 +188,8 @@ StageReport minimise(FitRows& rows, FitPoint& point, const FitStage& stage, cons
     options.linear_solver_type = unknowns <= most_dense ? ceres::DENSE_QR : ceres::SPARSE_NORMAL_CHOLESKY;
     options.max_num_iterations = stage.most_iterations;
     options.function_tolerance = stage.tolerance;
+    if (stage.tolerance < 1e-12)
+        options.initial_trust_region_radius = 1e10; // near the end already: what is hardly told must move, too
     options.gradient_tolerance = 1e-300;
     options.parameter_tolerance = 1e-15;
     options.logging_type = ceres::SILENT;

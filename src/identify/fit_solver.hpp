@@ -9,12 +9,12 @@ namespace graze {
 
 /// One minimisation, with pieces joined more or less strictly.
 struct FitStage {
-    double joint = 1;          ///< what a gap of the size of the state weighs, beside what is left of readings by range
-    bool states_only = false;  ///< parameters, gains and offsets stay as they are
+    double joint = 1;         ///< what a gap of the size of the state weighs, beside what is left of readings by range
+    bool states_only = false; ///< parameters, gains and offsets stay as they are
     int most_iterations = 100;
-    std::vector<bool> active{};     ///< pieces that take part; empty: all
-    double prior = 0;               ///< what moving by its scale weighs of each unknown
-    double tolerance = 1e-15;       ///< relative change of the sum of squares that ends it
+    std::vector<bool> active{}; ///< pieces that take part; empty: all
+    double prior = 0;           ///< what moving by its scale weighs of each unknown
+    double tolerance = 1e-15;   ///< relative change of the sum of squares that ends it
 };
 
 struct StageReport {

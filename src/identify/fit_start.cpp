@@ -39,9 +39,9 @@ public:
             if (!output.value.is_symbol())
                 continue;
             const std::optional<std::size_t> index = system_.model().find_state(output.value.name());
-            const bool free = index && (!piece.opening || std::find(record.unknown_states.begin(),
-                                                                    record.unknown_states.end(),
-                                                                    *index) != record.unknown_states.end());
+            const bool free =
+                index && (!piece.opening || std::find(record.unknown_states.begin(), record.unknown_states.end(),
+                                                      *index) != record.unknown_states.end());
             if (!free)
                 continue;
             const double before = state[*index];
@@ -154,8 +154,8 @@ FitPoint starting_point(FitRows& rows) {
         if (!piece.opening || record.start.empty())
             starter.take_readings(piece, piece.opening ? piece.first : piece.first - 1, parameters, state);
         for (Eigen::Index c = 0; c < unknown; ++c)
-            states[c] = state[piece.opening ? record.unknown_states[static_cast<std::size_t>(c)]
-                                            : static_cast<std::size_t>(c)];
+            states[c] =
+                state[piece.opening ? record.unknown_states[static_cast<std::size_t>(c)] : static_cast<std::size_t>(c)];
         point.states.push_back(states);
         firsts.push_back(state);
         const PredictedMotion& motion = rows.motion(piece, point.shared, states);
@@ -172,9 +172,8 @@ FitPoint starting_point(FitRows& rows) {
     for (std::size_t k = 0; k < layout.pieces.size(); ++k) {
         const FitPiece& piece = layout.pieces[k];
         for (Eigen::Index c = 0; c < point.states[k].size(); ++c) {
-            const std::size_t i = piece.opening
-                                      ? task.records[piece.record].unknown_states[static_cast<std::size_t>(c)]
-                                      : static_cast<std::size_t>(c);
+            const std::size_t i = piece.opening ? task.records[piece.record].unknown_states[static_cast<std::size_t>(c)]
+                                                : static_cast<std::size_t>(c);
             const double size = sizes[static_cast<Eigen::Index>(i)];
             point.states[k][c] = size > 0 ? firsts[k][i] / size : 0;
         }
@@ -189,10 +188,33 @@ void continue_from(FitRows& rows, FitPoint& point, std::size_t piece) {
     std::vector<double> state = motion.end_state;
     if (motion.complete)
         next.mode = motion.end_mode;
-    Starter(rows, rows.system())
-        .take_readings(next, next.first - 1, rows.parameters(next.record, point.shared), state);
+    Starter(rows, rows.system()).take_readings(next, next.first - 1, rows.parameters(next.record, point.shared), state);
     for (Eigen::Index i = 0; i < point.states[piece].size(); ++i)
         point.states[piece][i] = state[static_cast<std::size_t>(i)] / rows.layout.state_scale[i];
+}
+
+bool ends_bound(FitRows& rows, const FitPoint& point, std::size_t piece) {
+    const PredictedMotion& motion = rows.motion(rows.layout.pieces[piece], point.shared, point.states[piece]);
+    return motion.complete && motion.bound;
+}
+
+void merge(FitRows& rows, FitPoint& point, std::size_t piece) {
+    std::vector<FitPiece>& pieces = rows.layout.pieces;
+    pieces[piece - 1].last = pieces[piece].last;
+    pieces[piece - 1].end = pieces[piece].end;
+    pieces[piece - 1].leads = pieces[piece].leads;
+    pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(piece));
+    point.states.erase(point.states.begin() + static_cast<std::ptrdiff_t>(piece));
+}
+
+bool merge_bound(FitRows& rows, FitPoint& point) {
+    bool any = false;
+    for (std::size_t k = 0; k < rows.layout.pieces.size(); ++k)
+        while (rows.layout.pieces[k].leads && ends_bound(rows, point, k)) {
+            merge(rows, point, k + 1);
+            any = true;
+        }
+    return any;
 }
 
 bool update_modes(FitRows& rows, const FitPoint& point) {

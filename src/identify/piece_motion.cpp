@@ -1,5 +1,6 @@
 #include "identify/piece_motion.hpp"
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -59,6 +60,7 @@ public:
         if (contact.kind == ContactKind::touch)
             return;
         ++owner_->motion_.contacts;
+        owner_->motion_.bound = is_bound(contact);
         if (contact.kind != ContactKind::crossing || trajectory_->finished() || !(piece_->reach > 0))
             return;
         const std::vector<double> after(contact.after.begin(), contact.after.end());
@@ -81,6 +83,27 @@ public:
     }
 
 private:
+    /// Whether the jump of a contact takes freedom from the states.
+    bool is_bound(const Contact& contact) {
+        const System& system = owner_->simulation_.system();
+        const Transition& transition = owner_->simulation_.model().transitions[contact.transition];
+        const System::CompiledJump& jump = system.jump(
+            contact.kind == ContactKind::sticking && transition.chatter ? transition.chatter->jump : transition.jump);
+        std::vector<double> inputs(contact.before.begin(), contact.before.end()), work(system.workspace()),
+            values(system.jacobian_entries());
+        inputs.insert(inputs.end(), owner_->parameters_.begin(), owner_->parameters_.end());
+        jump.jacobian.evaluate(inputs, values, work);
+        const auto states = static_cast<Eigen::Index>(state_.size());
+        Eigen::MatrixXd map = Eigen::MatrixXd::Identity(states, states);
+        for (const std::size_t i : jump.changed)
+            map.row(static_cast<Eigen::Index>(i)).setZero();
+        for (std::size_t k = 0; k < jump.entries.size(); ++k)
+            if (jump.entries[k].column < state_.size())
+                map(static_cast<Eigen::Index>(jump.entries[k].row), static_cast<Eigen::Index>(jump.entries[k].column)) =
+                    values[k];
+        return !jump.identity && Eigen::FullPivLU<Eigen::MatrixXd>(map).rank() < states;
+    }
+
     bool look(std::size_t sample, double s, double contact) {
         const double distance = std::abs(piece_->times[sample] - contact);
         PredictedMotion::Sample& one = owner_->motion_.samples[sample];
@@ -178,6 +201,7 @@ const PredictedMotion& PieceMotion::follow(const MotionPiece& piece) {
     for (PredictedMotion::Sample& sample : motion_.samples)
         sample.other = false;
     motion_.contacts = 0;
+    motion_.bound = false;
     motion_.differentiable = true;
     motion_.detail.clear();
     std::span<const double> first = piece.state, first_seeds = piece.seeds;
@@ -210,8 +234,8 @@ const PredictedMotion& PieceMotion::follow(const MotionPiece& piece) {
     motion_.differentiable = motion_.differentiable && trajectory.tangents_valid();
     if (!motion_.complete)
         motion_.detail = fmt::format("the motion ends at time {:.9g}: {}{}{}", trajectory.outcome().time,
-                                     name_of(trajectory.outcome().ending), trajectory.outcome().detail.empty() ? "" : ", ",
-                                     trajectory.outcome().detail);
+                                     name_of(trajectory.outcome().ending),
+                                     trajectory.outcome().detail.empty() ? "" : ", ", trajectory.outcome().detail);
     for (std::size_t i = watcher.taken(); i < piece.times.size(); ++i)
         take(i, motion_.end_state, motion_.end_derivatives);
     return motion_;

@@ -35,9 +35,11 @@ struct PredictedMotion {
     std::vector<Sample> samples;
     std::vector<double> end_state, end_derivatives;
     std::size_t end_mode = 0, contacts = 0;
-    bool complete = false;    ///< it came to its end; samples behind where it ended have the last state and its seeds
+    bool complete = false;      ///< it came to its end; samples behind where it ended have the last state and its seeds
     bool differentiable = true; ///< no contact without speed
-    std::string detail;       ///< why it is not complete
+    /// The last jump has left fewer states free than there are, as where friction brings a mass to rest.
+    bool bound = false;
+    std::string detail; ///< why it is not complete
 };
 
 /// Follows pieces of motions with their derivatives by states at their beginnings and by some parameters: along arcs by

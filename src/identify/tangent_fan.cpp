@@ -64,7 +64,8 @@ bool TangentFan::at(double s, std::span<double> state, std::span<double> matrix)
     for (const auto& group : groups_) {
         if (!follow(*group, s))
             return false;
-        const std::span<const double> here = s == group->from ? std::span<const double>(group->state) : group->steps.state();
+        const std::span<const double> here =
+            s == group->from ? std::span<const double>(group->state) : group->steps.state();
         if (group == groups_.front())
             std::copy(here.begin(), here.end(), state.begin());
         for (std::size_t i = 0; i < states_; ++i)

@@ -32,8 +32,8 @@ private:
         std::size_t first, count;
         TangentSteps steps;
         std::vector<double> state, matrix, next; ///< where it is, and where it was asked for
-        double from = 0;                                ///< how far that is from the beginning
-        bool begun = false;                             ///< there is a jet of that place
+        double from = 0;                         ///< how far that is from the beginning
+        bool begun = false;                      ///< there is a jet of that place
     };
     bool follow(Group& group, double s);
 

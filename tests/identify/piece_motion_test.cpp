@@ -18,6 +18,7 @@ struct Case {
     std::vector<std::string> moved;
     double begin, end;
     std::size_t times;
+    double velocity = 0; ///< the second state at the beginning
 };
 
 /// Derivatives of all samples and of the end, and of the sides beyond contacts, against central differences.
@@ -33,9 +34,11 @@ void expect_differences(const Case& one) {
     for (std::size_t i = 0; i < states; ++i)
         seeds[i * count + i] = 1;
     for (std::size_t k = 0; k < one.times; ++k)
-        times.push_back(one.begin + (one.end - one.begin) * (static_cast<double>(k) + 0.5) /
-                                        static_cast<double>(one.times));
-    const std::vector<double> parameters = model.parameter_values(), start = model.initial_state();
+        times.push_back(one.begin +
+                        (one.end - one.begin) * (static_cast<double>(k) + 0.5) / static_cast<double>(one.times));
+    const std::vector<double> parameters = model.parameter_values(), usual = model.initial_state();
+    std::vector<double> start = usual;
+    start[1] += one.velocity;
     MotionPiece piece;
     piece.mode = model.initial_mode;
     piece.begin = one.begin;
@@ -70,13 +73,14 @@ void expect_differences(const Case& one) {
             const double scale = sizes[i] / size, period = model.periods()[i];
             const double difference = period > 0 ? std::remainder(above - below, period) : above - below;
             EXPECT_NEAR(derivative / scale, difference / (2 * step) / scale,
-                        1e-5 * std::max(1.0, std::abs(derivative / scale)))
+                        1e-4 * std::max(1.0, std::abs(derivative / scale)))
                 << one.model << ": state " << i << " direction " << d << " at " << k;
         };
         for (std::size_t k = 0; k < times.size(); ++k)
             for (std::size_t i = 0; i < states; ++i) {
                 const PredictedMotion::Sample& sample = known.samples[k];
-                expect(sample.derivatives[i * count + d], sides[0].samples[k].state[i], sides[1].samples[k].state[i], i, k);
+                expect(sample.derivatives[i * count + d], sides[0].samples[k].state[i], sides[1].samples[k].state[i], i,
+                       k);
                 if (!sample.other)
                     continue;
                 ++beyond;
@@ -94,9 +98,11 @@ void expect_differences(const Case& one) {
 TEST(PieceMotion, DerivativesAreThoseOfDifferences) {
     expect_differences({"impact-oscillator", {"zeta", "omega", "sigma", "e", "amplitude"}, 0, 9, 87});
     expect_differences({"bouncing-ball", {"g", "e", "a", "f"}, 0, 0.5, 113});
-    expect_differences({"dry-friction-oscillator", {"zeta", "omega", "friction_static", "friction_dynamic"}, 0, 20, 119});
+    expect_differences(
+        {"dry-friction-oscillator", {"zeta", "omega", "friction_static", "friction_dynamic"}, 0, 20, 119, -0.1});
     expect_differences({"ball-and-shaker", {"zeta", "omega_n", "e", "a", "f"}, 0, 0.4, 117});
-    expect_differences({"electromagnetic-testbed", {"V0", "zeta", "e", "beta1", "R", "w0", "delta", "Ll"}, 0, 0.6, 119});
+    expect_differences(
+        {"electromagnetic-testbed", {"V0", "zeta", "e", "beta1", "R", "w0", "delta", "Ll"}, 0, 0.6, 119});
 }
 
 } // namespace graze::testing

@@ -30,7 +30,7 @@ struct MeasuredOutput {
     Expression value{}; ///< in states and independent parameters, of any graph
     double gain = 1, offset = 0;
     bool gain_unknown = false, offset_unknown = false; ///< then the numbers above are guesses
-    double noise = 0; ///< standard deviation of readings; 0: found from what is left
+    double noise = 0;                                  ///< standard deviation of readings; 0: found from what is left
 };
 
 /// A record of a motion.
@@ -136,8 +136,8 @@ struct Fit {
     std::vector<FittedRecord> records{};
     std::size_t readings = 0, pieces = 0;
     int iterations = 0;
-    double freedom = 0; ///< readings less numbers
-    double gap = 0;     ///< largest jump that is left between pieces, relative to the sizes of the states
+    double freedom = 0;               ///< readings less numbers
+    double gap = 0;                   ///< largest jump that is left between pieces, relative to the sizes of the states
     std::vector<double> parameters{}; ///< of the model, all independent ones, with those that were found
 };
 
@@ -152,11 +152,11 @@ struct FitTask {
 /// Finds parameters, gains, offsets and initial states by least squares from records of motions with contacts.
 ///
 /// Records are cut into pieces, whose first states are unknowns too (multiple shooting: H. G. Bock, in: Modelling of
-/// Chemical Reaction Systems, Springer 1981, p. 102): what is far off at the guess, or diverges in chaotic motion, stays
-/// within a piece. That the pieces join is demanded step by step, at last to a hundred-thousandth of what readings may
-/// be off. Derivatives are exact, through contacts too. Where the motion's contact and the recorded one are a little
-/// apart, readings between are compared with that side of the contact to which they belong: sums of squares stay
-/// smooth. Steps are those of Levenberg and Marquardt, within bounds, by Ceres Solver.
+/// Chemical Reaction Systems, Springer 1981, p. 102): what is far off at the guess, or diverges in chaotic motion,
+/// stays within a piece. That the pieces join is demanded step by step, at last to a hundred-thousandth of what
+/// readings may be off. Derivatives are exact, through contacts too. Where the motion's contact and the recorded one
+/// are a little apart, readings between are compared with that side of the contact to which they belong: sums of
+/// squares stay smooth. Steps are those of Levenberg and Marquardt, within bounds, by Ceres Solver.
 ///
 /// Errors and intervals are those of the linearised problem in which the pieces join, and are taken from the scatter
 /// (noise that is given for outputs tells their ratio, and chi square). Of robust losses they are P. J. Huber's.
