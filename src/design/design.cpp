@@ -39,7 +39,7 @@ std::optional<std::size_t> Design::find_dimension(std::string_view dimension) co
 }
 
 Design parse_design(std::string_view text, const std::string& file) {
-    const toml::table root = parse_toml(text, file);
+    const toml::table root = parse_toml(text, file, "docs/design.md shows how a design is written");
     return DesignReader(file).read(root);
 }
 

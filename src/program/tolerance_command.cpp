@@ -59,7 +59,7 @@ SpecialPoint with_condition(const SpecialPoint& point) {
 /// What was asked for, or what the run follows; on a curve first the parameter that was freed.
 std::vector<ParameterId> parameters_of(const StoredRun& run, const std::string& asked) {
     if (!asked.empty())
-        return {run.model.independent_parameter(asked)};
+        return {asked_parameter(run.model, asked)};
     std::vector<ParameterId> result;
     if (run.record.kind == "curve" && run.record.coordinates.size() > 1)
         result.push_back(run.model.independent_parameter(run.record.coordinates[1].name));

@@ -39,7 +39,7 @@ struct Trips {
     LossPoint point;
     AskedEnd end;
     std::vector<TripRow> rows{};
-    bool all_ended = true;
+    std::vector<std::string> lacks{}; ///< what has not come to its end
 };
 
 /// Those asked for, or ten from 1e-2 to 1e-20 of the size of the parameter, on the side on which the motion is lost.
@@ -67,14 +67,16 @@ bool add_row(Trips& trips, double overshoot, const TripOptions& options) {
     const LossPoint& point = trips.point;
     TripRow row;
     row.overshoot = overshoot;
-    bool ended = true;
+    std::string lack;
+    constexpr const char* longer = "give more --cycles, or another end by --until";
     if (point.fold) {
         row.cycles = cycles_of_passage(*point.fold, overshoot);
         row.gate_cycles = cycles_of_passage(*point.fold, overshoot, -point.fold->gate, point.fold->gate);
         if (row.cycles < options.cycles && std::abs(overshoot) >= least_overshoot(*point.fold)) {
             row.passage =
                 simulated_passage(point.system, *point.fold, overshoot, trips.end.end, !trips.end.given, options);
-            ended = trips.end.given ? row.passage->trip.ended : row.passage->passed;
+            if (!(trips.end.given ? row.passage->trip.ended : row.passage->passed))
+                lack = why_not(row.passage->trip, longer);
         }
     } else {
         PredictionOptions prediction;
@@ -86,11 +88,14 @@ bool add_row(Trips& trips, double overshoot, const TripOptions& options) {
             continued_trip(point.system, point.map, point.parameter, overshoot, row.predicted, trips.end.end, options);
         if (overshoot == 0 || std::abs(overshoot) >= least_overshoot(point.map, point.parameter))
             row.simulated = simulated_trip(point.system, point.map, point.parameter, overshoot, trips.end.end, options);
-        ended = row.continued.ended;
+        if (!row.continued.ended)
+            lack = why_not(row.continued, longer);
     }
     if (InterruptGuard::requested())
         return false;
-    trips.all_ended = trips.all_ended && ended;
+    if (!lack.empty())
+        trips.lacks.push_back(
+            fmt::format("the trip at the overshoot {:g} has not come to its end: {}", overshoot, lack));
     trips.rows.push_back(std::move(row));
     return true;
 }
@@ -274,14 +279,15 @@ int trip_command(const TripArguments& arguments, const Console& console) {
     if (!arguments.plot.empty())
         require_drawable(overshoots);
     const InterruptGuard guard;
-    bool interrupted = false, all_ended = true;
+    bool interrupted = false;
+    std::vector<std::string> lacks;
     for (Trips& trips : all) {
         const TripOptions options = options_of(trips.point, arguments);
         for (std::size_t i = 0; i < overshoots.size() && !interrupted; ++i) {
             const bool own = &trips == &all.front();
             interrupted = !add_row(trips, own ? overshoots[i] : trips.point.side * std::abs(overshoots[i]), options);
         }
-        all_ended = all_ended && trips.all_ended;
+        lacks.insert(lacks.end(), trips.lacks.begin(), trips.lacks.end());
     }
     if (arguments.plot.empty() || interrupted) {
         const Trips& one = all.front();
@@ -298,7 +304,8 @@ int trip_command(const TripArguments& arguments, const Console& console) {
                                    overshoots.size());
         return InterruptGuard::exit_code();
     }
-    return all_ended ? exit_success : exit_irregular;
+    tell_lacks(lacks, console);
+    return lacks.empty() ? exit_success : exit_irregular;
 }
 
 } // namespace graze

@@ -19,6 +19,7 @@ struct TripTime {
     double time = 0;
     std::size_t contacts = 0; ///< with the touched surface until then, that at the end included
     double speed = 0;         ///< approach speed of the last of these
+    std::string detail{};     ///< of a simulation that could not go on: what happened and what to do
 };
 
 /// A trip as the map has it. Cycles are passes of the touch, of which the beginning is number 0.
