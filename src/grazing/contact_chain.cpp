@@ -138,7 +138,7 @@ private:
         if (!sizes_.is_zero_gain(lift, geometry_.gradient))
             return set_reason(fmt::format("the jump '{}' moves states off the surface of event '{}'", name,
                                           model_.events[touch_.event].name));
-        if (gained.cwiseAbs().maxCoeff() > 0)
+        if (!sizes_.is_zero_gain(gained))
             chain_.only_changes_modes = false;
         chain_.gain += gained;
         return true;
