@@ -38,8 +38,8 @@ public:
         const double time = 1 / map.contact.acceleration, speed = std::sqrt(2 * map.contact.acceleration * depth);
         // Before the contact, and before the next pass, which may be another one.
         const double early = 3 * speed * time,
-                     late =
-                         std::max(20 * speed * time, 3 * std::sqrt(2 * std::abs(map.projections(1)[0]) * speed * time));
+                     late = std::max(20 * speed * time, 3 * std::sqrt(2 * std::abs(map.projections(1)[0]) *
+                                                                      map.contact.by_depth(depth) * time));
         EXPECT_EQ(flow_.run(touch_.mode, state, -early), ModeFlow::Ending::done);
         Observer nobody;
         Trajectory trajectory(simulation_, touch_.parameters, nobody);

@@ -62,7 +62,7 @@ TEST(ShippedCycles, err_by_the_next_power_of_the_depth) {
 
     Model beam = load_model("microbeam");
     beam.set_parameter("V", 0.01);
-    expect_rates(beam, map_at(beam, first_touch(beam, "phase0", "V", 0.005, 0.06)), 1e-3);
+    expect_rates(beam, map_at(beam, first_touch(beam, "phase0", "V", 0.005, 0.06)), 3e-5);
 
     Model shaker = load_model("ball-and-shaker");
     shaker.set_parameter("a", 0.65);

@@ -123,6 +123,30 @@ TEST(Sliding, on_a_belt_sets_off_chaos) {
     expect_rates(model, map_at(model, touches[0]), 1e-4);
 }
 
+/// The branch of the orbit that sticks once more begins on the predicted side, with the predicted multiplier.
+TEST(Sliding, goes_on_with_dry_friction) {
+    Model model = load_model("dry-friction-oscillator");
+    model.set_parameter("friction_static", 0.3);
+    model.set_parameter("omega", 0.2);
+    const BranchSettings settings = along(model, "omega", 1, 0.15, 0.22);
+    const auto touches = of_type(follow_branch(model, settled(model, "phase0").orbit, settings), PointType::grazing);
+    ASSERT_EQ(touches.size(), 1U);
+    const Judgement one = judgement(model, touches[0], settings.parameter);
+    EXPECT_EQ(one.verdict.outcome, GrazingOutcome::persists) << one.verdict.reason;
+    EXPECT_EQ(one.verdict.border, BorderCollision::persistence);
+    EXPECT_EQ(one.verdict.attractor, AttractorKind::periodic);
+    EXPECT_EQ(one.verdict.in, 1U);
+    EXPECT_EQ(one.verdict.side, 1);
+    EXPECT_EQ(one.trial.outcome, TrialOutcome::agreed) << one.trial.reason;
+    const Branch beyond = follow(model, branches_at(model, touches[0], settings).at(0), settings);
+    ASSERT_GE(beyond.points.size(), 3U);
+    EXPECT_GT(beyond.points[1].parameter, touches[0].parameter);
+    const OrbitSolution& near = beyond.points[0].solution;
+    EXPECT_EQ(near.orbit.segments(), touches[0].solution.orbit.segments() + 2);
+    // It begins a thousandth of the usual speed beyond, and multipliers go with the speed.
+    EXPECT_NEAR(std::abs(near.half_multipliers.at(0)), *one.verdict.leading, 2e-3 * *one.verdict.leading);
+}
+
 /// The orbit that slides is there before the touch, and neither beyond it.
 TEST(Sliding, on_a_belt_folds) {
     Model model = belt();

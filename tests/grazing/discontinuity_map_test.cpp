@@ -415,6 +415,19 @@ TEST(DiscontinuityMap, of_an_oscillator_that_sticks_for_a_moment) {
     }
 }
 
+/// Where the greatest force just reaches friction: beyond it the mass slips by the square of the depth.
+TEST(DiscontinuityMap, of_the_end_of_sliding_is_refused_with_the_reason) {
+    Model model = load_model("dry-friction-oscillator");
+    model.set_parameter("friction_static", 0.3);
+    const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "stick", "break_plus", {0.7, 0, 0}));
+    EXPECT_FALSE(map.exists());
+    EXPECT_THAT(map.reason, HasSubstr("the motion slides along the surface of event 'stop_plus'"));
+    // With greater friction at rest it slips far.
+    model.set_parameter("friction_static", 0.4);
+    EXPECT_THAT(discontinuity_map(model, touch_of(model, "stick", "break_plus", {0.6, 0, 0})).reason,
+                HasSubstr("mode 'slip_plus', from which the motion does not come back at once"));
+}
+
 TEST(DiscontinuityMap, of_sliding_is_refused_with_the_reason) {
     const auto reason_of = [](const Model& model) {
         const DiscontinuityMap map = discontinuity_map(model, touch_of(model, "free", "touch", touch_of_relay()));
