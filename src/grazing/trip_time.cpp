@@ -182,6 +182,9 @@ TouchMeeting meeting_of(const CycleMap& map, double overshoot, std::span<const d
 constexpr double trusted_share = 0.1;
 
 double level_of_map(const CycleMap& map, const Verdict& verdict) {
+    if (verdict.outcome == GrazingOutcome::lost && map.contact.order == MapOrder::linear)
+        throw InputError("the times of trips are those of rigid contacts, and here the motion slides",
+                         "simulate it instead, with the parameter beyond the touch");
     if (verdict.outcome != GrazingOutcome::lost || !verdict.reach)
         throw InputError(fmt::format("the verdict is {}{}: there is no trip", name_of(verdict.outcome),
                                      verdict.reason.empty() ? "" : " (" + verdict.reason + ")"),
