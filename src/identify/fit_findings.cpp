@@ -306,6 +306,14 @@ FitChecks check_point(FitRows& rows, const FitPoint& point, double joint) {
     return checks;
 }
 
+double squares_at(FitRows& rows, const FitPoint& point) {
+    const Rests rests = rests_at(rows, point, nullptr);
+    double sum = 0;
+    for (std::size_t o = 0; o < rests.of_output.size(); ++o)
+        sum += square_sum(rests.of_output[o]) / (rows.range(o) * rows.range(o));
+    return sum;
+}
+
 std::vector<double> noise_at(FitRows& rows, const FitPoint& point) {
     constexpr double floor = 1e-12; // of ranges: round-off
     const Rests rests = rests_at(rows, point, nullptr);
