@@ -14,6 +14,7 @@ WHAT is one of
   restitution  coefficient of restitution from impacts in a velocity, a record for each set of conditions
   coupling     constants of an electromagnet from equilibria: each row of the records is one
   impedance    resistance and inductance of a coil whose mass is clamped, under a sinusoidal voltage
+  fit          any parameters and initial states of a model, named before the records: least squares through impacts
 Each value comes with its standard error and the interval that covers the truth with a probability of 95 %. The picture
 shows what was measured, what was fitted, and what is left.)";
 
@@ -21,7 +22,9 @@ constexpr const char* identify_examples = R"(Examples:
   graze identify decrement release*.csv --channel v --plot decay.svg
   graze identify restitution run1.csv run2.csv --channel v --displacement q
   graze identify coupling static.csv --gap 4.79e-3 --stiffness 5948
-  graze identify impedance clamped.csv --voltage V --current I --format json)";
+  graze identify impedance clamped.csv --voltage V --current I --format json
+  graze identify fit impact-oscillator run.csv --free zeta,e=0.7 --save found.toml
+  graze simulate impact-oscillator --set @found.toml --from @found.toml --time 100)";
 
 template <class Value>
 CLI::Option* add(CLI::App& command, const char* group, const char* name, Value& value, const char* type,
@@ -85,10 +88,41 @@ void declare_known(CLI::App& command, IdentifyArguments& arguments) {
     add(command, group, "--clamped", arguments.clamped, "Q", "Impedance: displacement at which the mass is held (0)");
 }
 
+void declare_fit(CLI::App& command, IdentifyArguments& arguments) {
+    const char* group = "Fit";
+    add(command, group, "--free", arguments.free, "NAME[=GUESS][:LEAST:GREATEST]",
+        "Parameters to be found, from these guesses (the model's values), within these bounds");
+    add(command, group, "--set", arguments.set, "NAME=VALUE", "Values of other parameters");
+    add(command, group, "--with", arguments.own, "FILE:NAME=VALUE", "Parameters that one record has of its own");
+    add(command, group, "--start", arguments.start, "STATE=VALUE",
+        "Guesses of states at the first time (from readings, or the model)");
+    add(command, group, "--known", arguments.known, "STATE,...",
+        "States that begin as --start or the model says, and are not to be found; `all`: none are")
+        ->check(not_empty());
+    add(command, group, "--mode", arguments.mode, "MODE", "Mode at the first time (the model's initial one)")
+        ->check(not_empty());
+    add(command, group, "--reading", arguments.meanings, "CHANNEL=EXPRESSION",
+        "What a channel measures (the state or quantity of its name; other channels are not used)");
+    add(command, group, "--gain", arguments.gains, "CHANNEL[=GUESS]", "Channels whose gain is to be found, too (1)");
+    add(command, group, "--offset", arguments.offsets, "CHANNEL[=GUESS]",
+        "Channels whose offset is to be found, too (0)");
+    add(command, group, "--deviation", arguments.noises, "CHANNEL=VALUE",
+        "Standard deviation of a channel's noise (found from what is left)");
+    add(command, group, "--loss", arguments.loss, "LOSS", "How far readings count: squares (default), huber, cauchy")
+        ->check(one_of({"squares", "huber", "cauchy"}));
+    add(command, group, "--piece", arguments.piece, "T",
+        "Length of the pieces into which records are cut (some thirty readings)")
+        ->check(not_empty());
+    add(command, group, "--table", arguments.table, "TABLE", "numbers (default), outputs, correlations or readings")
+        ->check(one_of({"numbers", "outputs", "correlations", "readings"}));
+    add(command, group, "--save", arguments.save, "FILE", "Keep what was found, for --set @FILE and --from @FILE")
+        ->check(not_empty());
+}
+
 } // namespace
 
 std::vector<std::string> identify_kinds() {
-    return {"decrement", "restitution", "coupling", "impedance"};
+    return {"decrement", "restitution", "coupling", "impedance", "fit"};
 }
 
 void declare_identify_command(CLI::App& app, Arguments& all) {
@@ -97,13 +131,16 @@ void declare_identify_command(CLI::App& app, Arguments& all) {
     IdentifyArguments& arguments = all.identify;
     CLI::App& command = *app.add_subcommand("identify", identify_text);
     command.footer(identify_examples);
-    command.add_option("WHAT", arguments.what, "decrement, restitution, coupling or impedance")
+    command.add_option("WHAT", arguments.what, "decrement, restitution, coupling, impedance or fit")
         ->type_name("")
         ->check(one_of(identify_kinds()))
         ->required();
-    command.add_option("FILE", arguments.reading.files, "Records")->type_name("")->required();
+    command.add_option("FILE", arguments.reading.files, "Records; of a fit, the model before them")
+        ->type_name("")
+        ->required();
     declare_channels(command, arguments);
     declare_known(command, arguments);
+    declare_fit(command, arguments);
     const char* group = "Output";
     OutputArguments& output = arguments.reading.output;
     add(command, group, "--format", output.format, "FORMAT", "table (default), csv or json")
