@@ -3,6 +3,7 @@
 #include "graze/symbolic/parser.hpp"
 #include "program/branch_arguments.hpp"
 #include "program/design_arguments.hpp"
+#include "program/experiment_arguments.hpp"
 #include "program/help_arguments.hpp"
 #include "program/identify_arguments.hpp"
 #include "program/record_arguments.hpp"
@@ -335,6 +336,7 @@ void declare_arguments(CLI::App& app, Arguments& arguments) {
     declare_design_command(app, arguments);
     declare_record_commands(app, arguments);
     declare_identify_command(app, arguments);
+    declare_experiment_commands(app, arguments);
     declare_help_commands(app, arguments);
 }
 
