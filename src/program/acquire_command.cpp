@@ -25,6 +25,8 @@ Experiment asked_experiment(const AcquireArguments& arguments) {
         device_address(arguments.device, Place{"--device", 0, 0});
         experiment.device = arguments.device;
     }
+    if (arguments.dry_run)
+        return experiment;
     if (experiment.serial.port.empty())
         throw InputError(Place{arguments.experiment, 0, 0}, "nothing says where the generator is",
                          "give port = \"/dev/ttyUSB0\" under [generator], or --port");

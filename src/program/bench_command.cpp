@@ -71,6 +71,8 @@ BenchSettings bench_settings(const BenchArguments& arguments) {
 } // namespace
 
 int bench_command(const BenchArguments& arguments, const Console& console) {
+    if (arguments.port.empty())
+        throw InputError("the serial line has no name", "give one by --port PATH");
     VirtualBench bench(bench_settings(arguments));
     ServiceSettings settings;
     settings.port = arguments.port;

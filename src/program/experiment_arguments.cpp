@@ -15,7 +15,7 @@ goes on until Ctrl-C. `graze acquire` runs against it as it does against hardwar
 constexpr const char* bench_examples = R"(Examples:
   graze bench electromagnetic-testbed --port /tmp/generator --tcp 4711 --noise v=0.002 --range v=1
   graze bench electromagnetic-testbed --port /tmp/generator --on-demand --clip 6 --drop 0.001
-  graze bench impact-oscillator --port /tmp/generator --amplitude alpha --frequency omega=2*pi --channel x)";
+  graze bench impact-oscillator --port /tmp/generator --amplitude amplitude --frequency omega=2*pi)";
 
 constexpr const char* acquire_text = R"(Carry out an experiment: step a generator, wait, record, again and again.
 EXPERIMENT is a TOML file with the lines to the instruments, the limits, the levels, and what to record. Each record
@@ -68,7 +68,7 @@ void declare_sensors(CLI::App& command, BenchArguments& arguments) {
 
 void declare_service(CLI::App& command, BenchArguments& arguments) {
     const char* group = "Connections and time";
-    add(command, group, "--port", arguments.port, "PATH", "Name of the serial line")->check(not_empty())->required();
+    add(command, group, "--port", arguments.port, "PATH", "Name of the serial line")->check(not_empty());
     add(command, group, "--tcp", arguments.tcp, "PORT", "For samples, on 127.0.0.1 (one that is free)")
         ->check(whole_number(0, 65535));
     add(command, group, "--speed", arguments.speed, "FACTOR", "Seconds of the bench in a second (1)")
