@@ -157,7 +157,7 @@ int tell(const AcquisitionReport& report, const Experiment& experiment, const st
                                experiment.levels.size());
     if (report.unsettled > 0)
         console.err << fmt::format(
-            "graze: warning: at {} levels sections did not repeat within {} s; see manifest.csv\n", report.unsettled,
+            "graze: warning: at {} levels sections did not repeat within {} s; see manifest.txt\n", report.unsettled,
             experiment.settling.most);
     if (report.ending != AcquisitionEnding::complete)
         console.err << fmt::format("graze: {}{}; call it again to go on\n",
