@@ -17,20 +17,12 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace graze {
 
 namespace {
-
-std::string csv_of(const Table& table) {
-    std::ostringstream text;
-    write_table(text, table, TableFormat::csv, 17, {});
-    return text.str();
-}
 
 std::vector<JsonObject> rows_of(const Table& table) {
     std::vector<JsonObject> rows;
@@ -148,7 +140,7 @@ void write_all(Workplace& place, const Design& design, const TripPoint& trip, co
                const DesignArguments& arguments, const Console& console) {
     const std::vector<NamedTable> tables = tables_of(design, trip, report);
     for (const NamedTable& table : tables)
-        place.write(table.name + ".csv", csv_of(table.table));
+        place.write(table.name + ".csv", csv_text(table.table));
     place.write("report.json", json_of(design, tables));
     place.write("device.toml", write_model(model_of_device(trip)));
     if (!arguments.no_pictures) {
@@ -231,8 +223,7 @@ int design_command(const DesignArguments& arguments, const Console& console) {
     const InterruptGuard guard;
     StatusLine line(console, console.terminal);
     DesignReportOptions options;
-    options.jobs =
-        arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    options.jobs = threads_for(arguments.jobs);
     options.interrupted = [] { return InterruptGuard::requested(); };
     options.progress = [&](const std::string& what) {
         if (line.is_due())

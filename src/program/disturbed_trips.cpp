@@ -16,7 +16,6 @@
 #include <functional>
 #include <limits>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -85,14 +84,6 @@ FigurePanel panel_of(const std::string& x, const std::string& x_unit, const std:
     panel.logarithmic_x = true;
     panel.roomy_x = panel.roomy_y = true;
     return panel;
-}
-
-FigureSeries series_of(const std::string& title, FigureSeries::Style style, std::size_t colour) {
-    FigureSeries series;
-    series.title = title;
-    series.style = style;
-    series.colour = colour;
-    return series;
 }
 
 /// One row after another, until Ctrl-C. @param row is not added when interrupted: it then says false
@@ -216,8 +207,7 @@ NoiseSettings settings_of(const Asked& asked) {
     settings.memory = asked.arguments.memory.value_or(0);
     settings.motions = asked.arguments.motions;
     settings.seed = asked.arguments.seed;
-    settings.jobs = asked.arguments.jobs > 0 ? asked.arguments.jobs
-                                             : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    settings.jobs = threads_for(asked.arguments.jobs);
     settings.interrupted = [] { return InterruptGuard::requested(); };
     return settings;
 }
@@ -311,6 +301,14 @@ void require_together(const TripArguments& arguments) {
 }
 
 } // namespace
+
+FigureSeries series_of(const std::string& title, FigureSeries::Style style, std::size_t colour) {
+    FigureSeries series;
+    series.title = title;
+    series.style = style;
+    series.colour = colour;
+    return series;
+}
 
 bool is_disturbed(const TripArguments& arguments) {
     return !(arguments.ramps.empty() && arguments.waves.empty() && arguments.noises.empty());

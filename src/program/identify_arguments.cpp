@@ -1,6 +1,8 @@
 #include "program/identify_arguments.hpp"
 
-#include <map>
+#include "program/declared_option.hpp"
+#include "program/record_arguments.hpp"
+
 #include <string>
 #include <vector>
 
@@ -14,6 +16,7 @@ WHAT is one of
   restitution  coefficient of restitution from impacts in a velocity, a record for each set of conditions
   coupling     constants of an electromagnet from equilibria: each row of the records is one
   impedance    resistance and inductance of a coil whose mass is clamped, under a sinusoidal voltage
+  fit          any parameters and initial states of a model, named before the records: least squares through impacts
 Each value comes with its standard error and the interval that covers the truth with a probability of 95 %. The picture
 shows what was measured, what was fitted, and what is left.)";
 
@@ -21,105 +24,119 @@ constexpr const char* identify_examples = R"(Examples:
   graze identify decrement release*.csv --channel v --plot decay.svg
   graze identify restitution run1.csv run2.csv --channel v --displacement q
   graze identify coupling static.csv --gap 4.79e-3 --stiffness 5948
-  graze identify impedance clamped.csv --voltage V --current I --format json)";
-
-template <class Value>
-CLI::Option* add(CLI::App& command, const char* group, const char* name, Value& value, const char* type,
-                 const char* text) {
-    return command.add_option(name, value, text)->type_name(type)->group(group);
-}
+  graze identify impedance clamped.csv --voltage V --current I --format json
+  graze identify fit impact-oscillator run.csv --free zeta,e=0.7 --save found.toml
+  graze simulate impact-oscillator --set @found.toml --from @found.toml --time 100)";
 
 void declare_channels(CLI::App& command, IdentifyArguments& arguments) {
     const char* group = "Channels";
-    add(command, group, "--channel", arguments.channel, "NAME", "Decrement, restitution: the velocity (v)")
+    declare_option(command, group, "--channel", arguments.channel, "NAME", "Decrement, restitution: the velocity (v)");
+    declare_option(command, group, "--displacement", arguments.displacement, "NAME",
+                   "Coupling: the displacement (q). Restitution: a channel whose corners tell the times of impacts");
+    declare_option(command, group, "--voltage", arguments.voltage, "NAME", "Impedance: the voltage (V)")
         ->check(not_empty());
-    add(command, group, "--displacement", arguments.displacement, "NAME",
-        "Coupling: the displacement (q). Restitution: a channel whose corners tell the times of impacts")
-        ->check(not_empty());
-    add(command, group, "--voltage", arguments.voltage, "NAME", "Impedance: the voltage (V)")->check(not_empty());
-    add(command, group, "--current", arguments.current, "NAME", "Coupling, impedance: the current (I)")
-        ->check(not_empty());
-    RecordArguments& reading = arguments.reading;
-    group = "What is read";
-    add(command, group, "--columns", reading.columns, "NAMES",
-        "Names and units of the columns of texts without a first line that says it: 't [s], V [V]'")
-        ->check(not_empty());
-    add(command, group, "--group", reading.group, "NAME", "Of HDF5: the group whose datasets are the channels")
-        ->check(not_empty());
-    add(command, group, "--scale", reading.scales, "NAME=FACTOR[+OFFSET][:UNIT]",
-        "What readings of a channel mean, such as q=2.011:mm");
-    add(command, group, "--from", reading.from, "T", "Rows from this time on");
-    add(command, group, "--to", reading.to, "T", "Rows up to this time");
+    declare_option(command, group, "--current", arguments.current, "NAME", "Coupling, impedance: the current (I)");
+    declare_reading(command, arguments.reading);
 }
 
 void declare_known(CLI::App& command, IdentifyArguments& arguments) {
     const char* group = "Of each kind";
-    add(command, group, "--peaks", arguments.peaks, "N", "Decrement: the first peaks of each release (10)")
+    declare_option(command, group, "--peaks", arguments.peaks, "N", "Decrement: the first peaks of each release (10)")
         ->check(whole_number(2, 100'000));
-    add(command, group, "--window", arguments.window, "N",
-        "Restitution: samples on each side of an impact that tell velocities (12)")
+    declare_option(command, group, "--window", arguments.window, "N",
+                   "Restitution: samples on each side of an impact that tell velocities (12)")
         ->check(whole_number(5, 100'000));
-    add(command, group, "--transition", arguments.transition, "N",
-        "Restitution: samples on each side that the impact itself disturbs (0)")
+    declare_option(command, group, "--transition", arguments.transition, "N",
+                   "Restitution: samples on each side that the impact itself disturbs (0)")
         ->check(whole_number(0, 100'000));
-    add(command, group, "--least-jump", arguments.least_jump, "VALUE", "Restitution: smaller jumps are no impacts (0)")
+    declare_option(command, group, "--least-jump", arguments.least_jump, "VALUE",
+                   "Restitution: smaller jumps are no impacts (0)")
         ->check(CLI::NonNegativeNumber);
-    add(command, group, "--gap", arguments.gap, "D", "Coupling, impedance: gap at rest")->check(CLI::PositiveNumber);
-    add(command, group, "--stiffness", arguments.stiffness, "K", "Coupling: mass times square of natural frequency")
+    declare_option(command, group, "--gap", arguments.gap, "D", "Coupling, impedance: gap at rest")
         ->check(CLI::PositiveNumber);
-    add(command, group, "--gap-error", arguments.gap_error, "D", "Coupling: its standard error (0)")
+    declare_option(command, group, "--stiffness", arguments.stiffness, "K",
+                   "Coupling: mass times square of natural frequency")
+        ->check(CLI::PositiveNumber);
+    declare_option(command, group, "--gap-error", arguments.gap_error, "D", "Coupling: its standard error (0)")
         ->check(CLI::NonNegativeNumber);
-    add(command, group, "--stiffness-error", arguments.stiffness_error, "K", "Coupling: its standard error (0)")
+    declare_option(command, group, "--stiffness-error", arguments.stiffness_error, "K",
+                   "Coupling: its standard error (0)")
         ->check(CLI::NonNegativeNumber);
-    add(command, group, "--noise", arguments.noise, "Q,I",
-        "Coupling: noise of displacement and current, or their ratio (that of the largest ones)")
+    declare_option(command, group, "--noise", arguments.noise, "Q,I",
+                   "Coupling: noise of displacement and current, or their ratio (that of the largest ones)")
         ->delimiter(',')
         ->expected(2);
-    add(command, group, "--frequency", arguments.frequency, "F",
-        "Impedance: about the frequency of the voltage (that of its largest wave)")
+    declare_option(command, group, "--frequency", arguments.frequency, "F",
+                   "Impedance: about the frequency of the voltage (that of its largest wave)")
         ->check(CLI::PositiveNumber);
-    add(command, group, "--beta1", arguments.beta1, "VALUE[+-ERROR]",
-        "Impedance: with these the leakage inductance too, L - beta1/(beta2 + gap - q)")
+    declare_option(command, group, "--beta1", arguments.beta1, "VALUE[+-ERROR]",
+                   "Impedance: with these the leakage inductance too, L - beta1/(beta2 + gap - q)");
+    declare_option(command, group, "--beta2", arguments.beta2, "VALUE[+-ERROR]", "Impedance: likewise")
         ->check(not_empty());
-    add(command, group, "--beta2", arguments.beta2, "VALUE[+-ERROR]", "Impedance: likewise")->check(not_empty());
-    add(command, group, "--clamped", arguments.clamped, "Q", "Impedance: displacement at which the mass is held (0)");
+    declare_option(command, group, "--clamped", arguments.clamped, "Q",
+                   "Impedance: displacement at which the mass is held (0)");
+}
+
+void declare_fit(CLI::App& command, IdentifyArguments& arguments) {
+    const char* group = "Fit";
+    declare_option(command, group, "--free", arguments.free, "NAME[=GUESS][:LEAST:GREATEST]",
+                   "Parameters to be found, from these guesses (the model's values), within these bounds");
+    declare_option(command, group, "--set", arguments.set, "NAME=VALUE", "Values of other parameters");
+    declare_option(command, group, "--with", arguments.own, "FILE:NAME=VALUE",
+                   "Parameters that one record has of its own");
+    declare_option(command, group, "--start", arguments.start, "STATE=VALUE",
+                   "Guesses of states at the first time (from readings, or the model)");
+    declare_option(command, group, "--known", arguments.known, "STATE,...",
+                   "States that begin as --start or the model says, and are not to be found; `all`: none are")
+        ->check(not_empty());
+    declare_option(command, group, "--mode", arguments.mode, "MODE", "Mode at the first time (the model's initial one)")
+        ->check(not_empty());
+    declare_option(command, group, "--reading", arguments.meanings, "CHANNEL=EXPRESSION",
+                   "What a channel measures (the state or quantity of its name; other channels are not used)");
+    declare_option(command, group, "--gain", arguments.gains, "CHANNEL[=GUESS]",
+                   "Channels whose gain is to be found, too (1)");
+    declare_option(command, group, "--offset", arguments.offsets, "CHANNEL[=GUESS]",
+                   "Channels whose offset is to be found, too (0)");
+    declare_option(command, group, "--deviation", arguments.noises, "CHANNEL=VALUE",
+                   "Standard deviation of a channel's noise (found from what is left)");
+    declare_option(command, group, "--loss", arguments.loss, "LOSS",
+                   "How far readings count: squares (default), huber, cauchy")
+        ->check(one_of({"squares", "huber", "cauchy"}));
+    declare_option(command, group, "--piece", arguments.piece, "T",
+                   "Length of the pieces into which records are cut (some thirty readings)")
+        ->check(not_empty());
+    declare_option(command, group, "--table", arguments.table, "TABLE",
+                   "numbers (default), outputs, correlations or readings")
+        ->check(one_of({"numbers", "outputs", "correlations", "readings"}));
+    declare_option(command, group, "--save", arguments.save, "FILE",
+                   "Keep what was found, for --set @FILE and --from @FILE")
+        ->check(not_empty());
 }
 
 } // namespace
 
 std::vector<std::string> identify_kinds() {
-    return {"decrement", "restitution", "coupling", "impedance"};
+    return {"decrement", "restitution", "coupling", "impedance", "fit"};
 }
 
 void declare_identify_command(CLI::App& app, Arguments& all) {
-    static const std::map<std::string, TableFormat> formats{
-        {"table", TableFormat::table}, {"csv", TableFormat::csv}, {"json", TableFormat::json}};
     IdentifyArguments& arguments = all.identify;
     CLI::App& command = *app.add_subcommand("identify", identify_text);
     command.footer(identify_examples);
-    command.add_option("WHAT", arguments.what, "decrement, restitution, coupling or impedance")
+    command.add_option("WHAT", arguments.what, "decrement, restitution, coupling, impedance or fit")
         ->type_name("")
         ->check(one_of(identify_kinds()))
         ->required();
-    command.add_option("FILE", arguments.reading.files, "Records")->type_name("")->required();
+    command.add_option("FILE", arguments.reading.files, "Records; of a fit, the model before them")
+        ->type_name("")
+        ->required();
     declare_channels(command, arguments);
     declare_known(command, arguments);
-    const char* group = "Output";
-    OutputArguments& output = arguments.reading.output;
-    add(command, group, "--format", output.format, "FORMAT", "table (default), csv or json")
-        ->transform(CLI::Transformer(formats).description(""));
-    add(command, group, "--digits", output.digits, "N",
-        "Significant digits of numbers (8; 17 of csv and json, which lose nothing)")
-        ->check(whole_number(1, 17));
-    add(command, group, "--output", output.file, "FILE", "Write the table there instead of to standard output")
-        ->check(not_empty());
-    command.add_flag("--all", output.all, "All columns of a table, also those that do not fit a terminal")
-        ->group(group);
-    group = "Picture";
-    add(command, group, "--plot", arguments.reading.plot, "FILE", "Draw what was fitted, too, as svg, png or pdf")
-        ->check(not_empty());
-    add(command, group, "--data", arguments.reading.data, "FILE",
-        "Keep data and commands, to be changed and drawn by `gnuplot FILE`");
+    declare_fit(command, arguments);
+    declare_table(command, arguments.reading.output);
+    declare_option(command, "Picture", "--plot", arguments.reading.plot, "FILE",
+                   "Draw what was fitted, too, as svg, png or pdf");
+    declare_data(command, arguments.reading.data);
 }
 
 } // namespace graze

@@ -19,7 +19,6 @@
 #include <limits>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -147,8 +146,7 @@ void set_yield(Findings& found, const System& system, const ToleranceArguments& 
         set_interval(found, arguments.within);
     settings.devices = arguments.devices;
     settings.seed = arguments.seed;
-    settings.jobs =
-        arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    settings.jobs = threads_for(arguments.jobs);
     settings.interrupted = [] { return InterruptGuard::requested(); };
     StatusLine line(console, console.terminal);
     settings.progress = [&](std::size_t devices) {

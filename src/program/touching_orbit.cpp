@@ -39,6 +39,7 @@ OrbitTouch touch_of(const System& system, const OrbitRecord& record) {
 void find_map(TouchingOrbit& found, const System& system, const std::string& asked) {
     const OrbitTouch touch = touch_of(system, found.stored.record);
     CycleMapOptions options;
+    options.next_order = true;
     found.map = cycle_map(system, found.stored.record.point.solution.orbit, touch, options);
     for (const ParameterId parameter : moving_parameters(found.stored.run, asked)) {
         found.parameter = options.parameter = parameter;

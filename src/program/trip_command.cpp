@@ -47,13 +47,7 @@ std::vector<double> overshoots_of(const LossPoint& point, const std::vector<std:
     std::vector<double> values = numbers_by_decades(point.model(), asked, "--overshoot");
     if (!values.empty())
         return values;
-    const double value = std::abs(point.value);
-    const int size = value > 0 ? static_cast<int>(std::floor(std::log10(value))) : 0;
-    const char* sign = point.side > 0 ? "" : "-";
-    constexpr int least = 20;
-    for (int digits = 2; digits <= least; digits += 2)
-        values.push_back(std::stod(fmt::format("{}1e{}", sign, size - digits)));
-    return values;
+    return usual_overshoots(point.value, point.side);
 }
 
 TripOptions options_of(const LossPoint& point, const TripArguments& arguments) {
@@ -194,14 +188,6 @@ Table table_of_both(const Trips& one, const Trips& other) {
         }
     }
     return table;
-}
-
-FigureSeries series_of(const std::string& title, FigureSeries::Style style, std::size_t colour) {
-    FigureSeries series;
-    series.title = title;
-    series.style = style;
-    series.colour = colour;
-    return series;
 }
 
 void add_touch(FigurePanel& panel, const Trips& trips, const std::string& which) {

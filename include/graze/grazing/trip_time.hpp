@@ -41,6 +41,10 @@ struct PredictionOptions {
     std::size_t contacts = 10'000;   ///< at most
 };
 
+/// Overshoots over ten decades: 1e-2, 1e-4 ... 1e-20 times the power of ten of the parameter's value.
+/// @param side on which they are: negative below the value
+std::vector<double> usual_overshoots(double value, int side);
+
 /// An approach speed up to which the map of a lost orbit says what happens: a tenth of what its contacts grow to, and
 /// of the speed with which the states of the orbit could meet the surface at all.
 /// @throws InputError unless the verdict is `lost`
