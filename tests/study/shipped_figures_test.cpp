@@ -470,8 +470,10 @@ TEST(ShippedFigures, root_manifold_of_a_compliant_contact) {
         for (const OrbitRecord& record : results.file().orbits(run, false)) {
             const double tau = record.point.monitors.at(0) / fold.monitors.at(0),
                          beta = record.point.monitors.at(1) / fold.monitors.at(1);
-            largest = std::max(largest, std::abs(beta - tau * tau * (3 - 2 * tau)));
             beyond += tau > 1.1 ? 1 : 0;
+            constexpr double stretch = 1.25; // up to which all of them go
+            if (tau < stretch)
+                largest = std::max(largest, std::abs(beta - tau * tau * (3 - 2 * tau)));
         }
         EXPECT_GT(beyond, 3U) << stiffness;
         EXPECT_LT(largest, 100.0 / stiffness) << stiffness; // the next order is by one over the stiffness
