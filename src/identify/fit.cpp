@@ -27,7 +27,7 @@ std::vector<FitStage> stages_of(const FitRows& rows, const FitSettings& settings
     if (!joined)
         return {last};
     std::vector<FitStage> stages;
-    for (const double joint : {1.0, 30.0, 1e3}) {
+    for (const double joint : {10.0, 100.0, 3e3}) {
         FitStage stage;
         stage.joint = joint;
         stage.tolerance = 1e-6;
@@ -84,7 +84,9 @@ private:
         const int count = static_cast<int>(stages.size());
         StageReport report = begin(fit);
         for (int s = 0; s + 1 < count && !report.interrupted; ++s) {
-            report = make(stages[static_cast<std::size_t>(s)], s + 1, count + 1, fit);
+            FitStage stage = stages[static_cast<std::size_t>(s)];
+            stage.prior = prior();
+            report = make(stage, s + 1, count + 1, fit);
             merge_bound(rows_, point_);
             update_modes(rows_, point_);
             if (!report.interrupted)
@@ -147,7 +149,7 @@ private:
             FitStage together = soft_stage();
             for (std::size_t k = 0; k < pieces().size(); ++k)
                 together.active.push_back(ordinal(k) < count);
-            together.prior = 0.01;
+            together.prior = prior();
             report = make(together, 0, 5, fit);
             update_modes(rows_, point_);
             done = count;
@@ -175,9 +177,16 @@ private:
         return best;
     }
 
+    /// While little is known, a change by a tenth counts as much as one reading's noise: what noise alone would move far
+    /// stays near.
+    double prior() const {
+        constexpr double usual_change = 0.1;
+        return rows_.unit() / usual_change;
+    }
+
     static FitStage soft_stage() {
         FitStage stage;
-        stage.joint = 1;
+        stage.joint = 10;
         stage.tolerance = 1e-3;
         stage.most_iterations = 15;
         return stage;
@@ -210,6 +219,13 @@ private:
             return settings_->progress(progress);
         });
         fit.iterations += report.iterations;
+        if (getenv("DBG") && !stage.states_only) {
+            printf("joint %g active %zu cost %.4e its %d :", stage.joint, (size_t)std::count(stage.active.begin(), stage.active.end(), true), report.cost, report.iterations);
+            for (int j = 0; j < (int)point_.shared.size(); ++j) printf(" %.5g", point_.shared[j]);
+            printf("  noise");
+            for (double n : rows_.noise) printf(" %.3g", n);
+            printf("\n");
+        }
         return report;
     }
 
@@ -235,6 +251,7 @@ private:
                        fmt::format("pieces of the motion do not join, by {:.3g} of its size: begin from other guesses, "
                                    "or with shorter pieces",
                                    checks.gap));
+        if (getenv("DBG")) printf("%s\n", checks.broken.c_str());
         if (!checks.stationary)
             return end(FitEnding::unfinished,
                        fmt::format("it has not converged after {} iterations: allow more, or begin from other guesses",
