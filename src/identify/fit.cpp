@@ -14,7 +14,9 @@ namespace graze {
 
 namespace {
 
-constexpr double last_joint = 1e5;
+/// Gaps are then some millionth of what readings are off; the larger it is, the shorter steps have to be along the
+/// curved set of motions that join.
+constexpr double last_joint = 3e3;
 
 /// Pieces join more and more.
 std::vector<FitStage> stages_of(const FitRows& rows, const FitSettings& settings) {
@@ -27,10 +29,10 @@ std::vector<FitStage> stages_of(const FitRows& rows, const FitSettings& settings
     if (!joined)
         return {last};
     std::vector<FitStage> stages;
-    for (const double joint : {1.0, 30.0, 1e3}) {
+    for (const double joint : {1.0, 30.0, 100.0, 300.0, 1e3}) {
         FitStage stage;
         stage.joint = joint;
-        stage.tolerance = 1e-6;
+        stage.tolerance = 1e-8;
         stage.most_iterations = std::min(few, settings.most_iterations);
         stages.push_back(stage);
     }
@@ -85,7 +87,7 @@ private:
         StageReport report = begin(fit);
         for (int s = 0; s + 1 < count && !report.interrupted; ++s) {
             FitStage stage = stages[static_cast<std::size_t>(s)];
-            stage.prior = prior();
+            stage.prior = s == 0 ? prior() : 0;
             report = make(stage, s + 1, count + 1, fit);
             merge_bound(rows_, point_);
             update_modes(rows_, point_);
@@ -220,8 +222,8 @@ private:
         return best;
     }
 
-    /// While little is known, a change by a tenth counts as much as one reading's noise: what noise alone would move far
-    /// stays near.
+    /// While little is known, a change by a tenth counts as much as one reading's noise: what noise alone would move
+    /// far stays near.
     double prior() const {
         constexpr double usual_change = 0.1;
         return rows_.unit() / usual_change;
@@ -262,13 +264,6 @@ private:
             return settings_->progress(progress);
         });
         fit.iterations += report.iterations;
-        if (getenv("DBG") && !stage.states_only) {
-            printf("joint %g active %zu cost %.4e its %d :", stage.joint, (size_t)std::count(stage.active.begin(), stage.active.end(), true), report.cost, report.iterations);
-            for (int j = 0; j < (int)point_.shared.size(); ++j) printf(" %.5g", point_.shared[j]);
-            printf("  noise");
-            for (double n : rows_.noise) printf(" %.3g", n);
-            printf("\n");
-        }
         return report;
     }
 
@@ -294,7 +289,6 @@ private:
                        fmt::format("pieces of the motion do not join, by {:.3g} of its size: begin from other guesses, "
                                    "or with shorter pieces",
                                    checks.gap));
-        if (getenv("DBG")) printf("%s\n", checks.broken.c_str());
         if (!checks.stationary)
             return end(FitEnding::unfinished,
                        fmt::format("it has not converged after {} iterations: allow more, or begin from other guesses",

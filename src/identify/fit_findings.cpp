@@ -304,7 +304,6 @@ FitChecks check_point(FitRows& rows, const FitPoint& point, double joint) {
         held.push_back(number.at_bound);
     const FitInformation information = information_of(rows, point, joint);
     const FitDecomposition parts = decompose(information, held);
-    if (getenv("DBG")) printf("gain %.3e elim %.3e size %.3e step %.3e\n", parts.gain, information.eliminated, size, parts.step.lpNorm<Eigen::Infinity>());
     checks.stationary = std::sqrt(parts.gain + information.eliminated) <= part_of_error * size ||
                         (parts.step.size() == 0 || parts.step.lpNorm<Eigen::Infinity>() <= nothing);
     return checks;

@@ -33,7 +33,8 @@ std::vector<double> ranges_of(const FitTask& task) {
     return ranges;
 }
 
-/// What noise at most makes of readings, by their third differences: smooth motion has small ones, and contacts are few.
+/// What noise at most makes of readings, by their third differences: smooth motion has small ones, and contacts are
+/// few.
 double rough_noise(const FitTask& task, std::size_t output, double range) {
     constexpr double of_normal = 1.4826, least = 1e-3, greatest = 0.05;
     const double spread = std::sqrt(20.0); // 1, 3, 3, 1
