@@ -162,6 +162,32 @@ struct IdentifyArguments {
     std::string mode, loss = "squares", piece, table = "numbers", save;
 };
 
+/// Lists are of NAME=VALUE, still to be split.
+struct BenchArguments {
+    std::string model;
+    std::vector<std::string> set, from;
+    std::string amplitude = "V0", frequency = "f", offset;
+    double time_unit = 1;
+    std::vector<std::string> channels, noise, bias, drift, range;
+    int bits = 16;
+    double anti_alias = 0;
+    std::size_t seed = 1;
+    std::string port;
+    unsigned tcp = 0;
+    double speed = 1;
+    bool on_demand = false;
+    std::optional<double> clip;
+    double drop = 0, delay = 0, break_for = 1;
+    std::size_t break_after = 0, break_samples = 0;
+};
+
+struct AcquireArguments {
+    std::string experiment, port, device, folder;
+    bool dry_run = false, progress = false;
+    std::string live, reference, channel;
+    double phase = 0;
+};
+
 struct InfoArguments {
     std::string file;
     bool all = false;
@@ -193,6 +219,8 @@ struct Arguments {
     DesignArguments design;
     RecordArguments record;
     IdentifyArguments identify;
+    BenchArguments bench;
+    AcquireArguments acquire;
     CheckArguments check;
     ModelsArguments models;
     SimulateArguments simulate;
