@@ -4,6 +4,7 @@
 
 #include <ceres/cost_function.h>
 #include <ceres/iteration_callback.h>
+#include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
@@ -173,7 +174,11 @@ StageReport minimise(FitRows& rows, FitPoint& point, const FitStage& stage, cons
         hold(point.shared);
     StageReport report;
     if (point.shared.size() > 0 && problem.HasParameterBlock(point.shared.data())) {
-        if (stage.states_only)
+        const bool all_held = stage.held.size() == static_cast<std::size_t>(point.shared.size());
+        if (!stage.held.empty() && !all_held)
+            problem.SetManifold(point.shared.data(),
+                                new ceres::SubsetManifold(static_cast<int>(point.shared.size()), stage.held));
+        if (stage.states_only || all_held)
             problem.SetParameterBlockConstant(point.shared.data());
         else
             set_bounds(problem, rows, point.shared.data());
