@@ -57,8 +57,12 @@ public:
             if (double* to = slopes[block++]; to != nullptr) {
                 Eigen::Map<RowMatrix> slope(to, own + ahead_, size);
                 slope.topRows(own) = known_.readings.middleCols(from, size);
-                if (ahead_ > 0)
-                    slope.bottomRows(ahead_) = joint_ * known_.ends.middleCols(from, size);
+                if (ahead_ > 0) {
+                    Eigen::MatrixXd ends = known_.ends.middleCols(from, size);
+                    if (from == states_)
+                        rows_->add_period_slopes(known_, ahead, ends);
+                    slope.bottomRows(ahead_) = joint_ * ends;
+                }
             }
         };
         fill(states_, shared_);
