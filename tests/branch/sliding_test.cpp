@@ -199,6 +199,10 @@ std::map<std::string, int> try_random(int count, unsigned seed) {
                     ++counts["not grazing-sliding"];
                     continue;
                 }
+                if (one.verdict.outcome == GrazingOutcome::undecided) {
+                    ++counts["undecided: " + one.verdict.reason];
+                    continue;
+                }
                 ++counts[fmt::format("{} ({}), {}", name_of(one.verdict.outcome), name_of(one.verdict.border),
                                      name_of(one.trial.outcome))];
                 ++counts[std::string(name_of(one.trial.outcome))];
@@ -218,8 +222,8 @@ TEST(Sliding, verdicts_agree_with_simulation_on_random_belts) {
 }
 
 TEST(SlidingSlow, verdicts_agree_with_simulation_on_many_random_belts) {
-    auto counts = try_random(150, 2);
-    EXPECT_GE(counts["agreed"], 50);
+    auto counts = try_random(250, 2);
+    EXPECT_GE(counts["agreed"], 60);
 }
 
 } // namespace
