@@ -146,6 +146,22 @@ bool BranchState::find_touch(const Orbit& orbit) {
     return found;
 }
 
+bool BranchState::keep_image_of_touch(const Orbit& orbit) {
+    SpecialPoint& kept = *settings_.kept;
+    const std::size_t mode = orbit.signature[kept.segment].mode;
+    const Transition* contact = model().find_transition(mode, kept.event);
+    if (!contact)
+        return false;
+    const auto transition = static_cast<std::size_t>(contact - model().transitions.data());
+    try {
+        const Segment image = image_of(system(), orbit.symmetry.value(), {mode, SegmentEnd::event, transition}, orbit);
+        kept.event = model().transitions[image.index].event;
+    } catch (const InputError&) { // no event is its image
+        return false;
+    }
+    return true;
+}
+
 bool BranchState::is_outside(double parameter) const {
     return (settings_.least && parameter < *settings_.least) || (settings_.greatest && parameter > *settings_.greatest);
 }

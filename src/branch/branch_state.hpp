@@ -42,6 +42,9 @@ public:
     /// Goes on along a curve from a guess of another signature. @param direction of the parameter
     /// @return false when Newton's method does not lead to an orbit of the curve: then there is nowhere to go on from
     bool go_on_curve(const Orbit& guess, int direction, double arclength);
+    /// From now on the touch that is kept is one of the image of its event: where a half orbit ends its image goes on.
+    /// @return false where nothing is done at the event, so that it has no image that is known
+    bool keep_image_of_touch(const Orbit& orbit);
 
 private:
     void hold(const Orbit& candidate);

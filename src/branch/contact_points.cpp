@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <complex>
 #include <limits>
 
 namespace graze {
@@ -271,26 +272,44 @@ std::vector<BranchStart> leave_order(const System& system, const SpecialPoint& p
 }
 
 /// What an impact makes of the next pass, by its speed: where it is positive the next pass is free, where it is
-/// negative it hits the harder. Where it is zero curves of folds and flips of the impacting orbits end on that of the
-/// touches (P. Thota, X. Zhao and H. Dankowicz, "Co-dimension-two grazing bifurcations in single-degree-of-freedom
-/// impact oscillators", J. Comput. Nonlinear Dynam. 1, 2006).
+/// negative it hits the harder. And what impacts in all passes make of one, of equal or of alternating effect: where
+/// that is zero curves of folds and flips of the impacting orbits end on that of the touches. With two multipliers all
+/// are zero at once (P. Thota, X. Zhao and H. Dankowicz, "Co-dimension-two grazing bifurcations in
+/// single-degree-of-freedom impact oscillators", J. Comput. Nonlinear Dynam. 1, 2006).
 void test_sensitivity(const TestedPoint& point, std::vector<BranchTest>& tests) {
+    constexpr double least = 1e-9; // of a round: less is round-off, as where impacts change nothing of the next pass
     const auto& kept = point.settings.kept;
     if (!kept || kept->type != PointType::grazing || kept->at_end)
         return;
-    double value = nothing;
+    double next = nothing, same = nothing, alternating = nothing, size = 1;
     if (!point.settings.kept_too) {
         const CycleMap map = cycle_map_of(point.equations, point.at, {kept->segment, kept->event, kept->time, false},
                                           std::nullopt, AskedContacts::rigid);
-        if (map.exists() && map.contact.order == MapOrder::square_root)
-            value = map.projections(1).front();
+        if (map.exists() && map.contact.order == MapOrder::square_root) {
+            next = map.projections(1).front();
+            same = map.sum_of_projections(1);
+            alternating = map.sum_of_projections(-1);
+            for (const std::complex<double> one : map.multipliers)
+                size *= 1 + std::abs(one);
+        }
     }
-    constexpr double least = 1e-9; // of a round: less is round-off, as where impacts change nothing of the next pass
-    tests.push_back({.type = PointType::sensitivity, .value = value, .noise = least * point.solution.orbit.round()});
+    const double noise = least * point.solution.orbit.round();
+    tests.push_back({.type = PointType::sensitivity, .value = next, .noise = noise});
+    tests.push_back({.type = PointType::fold_degenerate, .value = same, .noise = noise * size});
+    tests.push_back({.type = PointType::flip_degenerate, .value = alternating, .noise = noise * size});
 }
 
 bool confirm_sensitivity(BranchState& state, SpecialPoint& special, const BranchTest&) {
     special.detail = fmt::format("of an impact at {}", state.model().events[state.settings().kept->event].name);
+    return special.located;
+}
+
+bool confirm_degenerate_grazing(BranchState& state, SpecialPoint& special, const BranchTest& test) {
+    const char* const ending = test.type == PointType::fold_degenerate  ? "folds"
+                               : state.problem().equations().symmetry() ? "losses of symmetry"
+                                                                        : "flips";
+    special.detail = fmt::format("{} of orbits with an impact at {} end", ending,
+                                 state.model().events[state.settings().kept->event].name);
     return special.located;
 }
 

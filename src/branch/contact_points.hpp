@@ -30,5 +30,6 @@ std::unique_ptr<OrbitCondition> condition_of_guard(const OrbitEquations& equatio
 std::vector<BranchStart> leave_order(const System& system, const SpecialPoint& point, const BranchSettings& settings);
 void test_sensitivity(const TestedPoint& point, std::vector<BranchTest>& tests);
 bool confirm_sensitivity(BranchState& state, SpecialPoint& special, const BranchTest&);
+bool confirm_degenerate_grazing(BranchState& state, SpecialPoint& special, const BranchTest& test);
 
 } // namespace graze

@@ -171,43 +171,90 @@ std::optional<Orbit> followed_after_contact(const Simulation& simulation, const 
 
 } // namespace
 
-BranchStart with_one_more_contact(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
-    const Model& model = system.model();
-    const Simulation simulation(system, {}, {}, integration(settings.orbit.tolerance));
-    const System& compiled = simulation.system();
-    const Orbit& grazing = point.solution.orbit;
-    const Touch touch(simulation, point);
-    const Transition* transition = model.find_transition(touch.mode(), touch.event());
-    const std::string& name = model.events[touch.event()].name;
-    if (!transition)
-        throw InputError(fmt::format("nothing happens at event '{}'", name), "no branch leaves there");
-    const auto transition_index = static_cast<std::size_t>(transition - model.transitions.data());
-    Segment last{touch.mode(), SegmentEnd::event, transition_index};
-    if (grazing.symmetry)
-        last = image_of(system, *grazing.symmetry, last, grazing);
-    std::string why = "Newton's method does not find it";
-    for (const double share : speeds) {
-        const double speed = share * touch.greatest_speed();
-        std::vector<double> state = touch.displaced(0, -speed), work(compiled.workspace());
-        if (!compiled.jump(transition->jump).identity)
-            compiled.jump(transition->jump).map.evaluate(touch.inputs(state), state, work);
-        const auto mode = mode_after(compiled, transition_index, touch.inputs(state));
+namespace {
+
+/// A touch that becomes a contact: guesses of orbits in which it has a small speed.
+class NewContact {
+public:
+    /// @throws InputError where nothing happens at the event
+    NewContact(const System& system, const SpecialPoint& point, const BranchSettings& settings)
+        : simulation_(system, {}, {}, integration(settings.orbit.tolerance)), point_(point), touch_(simulation_, point),
+          name_(system.model().events[touch_.event()].name) {
+        const Model& model = system.model();
+        const Orbit& grazing = point.solution.orbit;
+        transition_ = model.find_transition(touch_.mode(), touch_.event());
+        if (!transition_)
+            throw InputError(fmt::format("nothing happens at event '{}'", name_), "no branch leaves there");
+        index_ = static_cast<std::size_t>(transition_ - model.transitions.data());
+        last_ = {touch_.mode(), SegmentEnd::event, index_};
+        if (grazing.symmetry)
+            last_ = image_of(system, *grazing.symmetry, last_, grazing);
+    }
+    const Simulation& simulation() const { return simulation_; }
+    double greatest_speed() const { return touch_.greatest_speed(); }
+    const std::string& name() const { return name_; }
+
+    /// @param inserted the touch cut in two by the contact, rather than the motion after it for a whole round
+    std::optional<Orbit> with_speed(double speed, bool inserted, std::string& why) const {
+        const System& compiled = simulation_.system();
+        std::vector<double> state = touch_.displaced(0, -speed), work(compiled.workspace());
+        if (!compiled.jump(transition_->jump).identity)
+            compiled.jump(transition_->jump).map.evaluate(touch_.inputs(state), state, work);
+        const auto mode = mode_after(compiled, index_, touch_.inputs(state));
         if (!mode) {
             why = "the motion ends there";
-            continue;
+            return std::nullopt;
         }
+        auto orbit = inserted ? with_contact_inserted(simulation_, point_, state, *mode, last_)
+                              : followed_after_contact(simulation_, point_, state, *mode, last_, why);
+        if (orbit)
+            join_drifts(simulation_, *orbit);
+        return orbit;
+    }
+
+private:
+    Simulation simulation_;
+    const SpecialPoint& point_;
+    Touch touch_;
+    const std::string& name_;
+    const Transition* transition_ = nullptr;
+    std::size_t index_ = 0; ///< of the transition
+    Segment last_;
+};
+
+} // namespace
+
+BranchStart with_one_more_contact(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
+    const NewContact contact(system, point, settings);
+    std::string why = "Newton's method does not find it";
+    for (const double share : speeds) {
+        const double speed = share * contact.greatest_speed();
         for (const bool inserted : {true, false}) {
-            auto orbit = inserted ? with_contact_inserted(simulation, point, state, *mode, last)
-                                  : followed_after_contact(simulation, point, state, *mode, last, why);
+            auto orbit = contact.with_speed(speed, inserted, why);
             if (!orbit)
                 continue;
-            join_drifts(simulation, *orbit);
-            const OrbitDirection direction = meet_at_speed(simulation, *orbit, speed, settings);
-            if (!direction.is_empty() && is_admissible(simulation, *orbit, why))
-                return {*orbit, direction, 0, fmt::format("with one more contact at '{}'", name)};
+            const OrbitDirection direction = meet_at_speed(contact.simulation(), *orbit, speed, settings);
+            if (!direction.is_empty() && is_admissible(contact.simulation(), *orbit, why))
+                return {*orbit, direction, 0, fmt::format("with one more contact at '{}'", contact.name())};
         }
     }
-    throw InputError(fmt::format("no orbit with one more contact at '{}' was found: {}", name, why),
+    throw InputError(fmt::format("no orbit with one more contact at '{}' was found: {}", contact.name(), why),
+                     "the motion after the contact may accumulate contacts, or not come back");
+}
+
+Orbit with_contact_of_no_speed(const System& system, const SpecialPoint& point, const BranchSettings& settings) {
+    constexpr double shares[] = {1e-6, 1e-5, 1e-4}; // of the greatest speed: the contact says what happens after it
+    const NewContact contact(system, point, settings);
+    std::string why = "Newton's method does not find it";
+    for (const double share : shares)
+        for (const bool inserted : {true, false}) {
+            auto orbit = contact.with_speed(share * contact.greatest_speed(), inserted, why);
+            if (!orbit || meet_at_speed(contact.simulation(), *orbit, 0, settings).is_empty())
+                continue;
+            orbit->parameters = point.solution.orbit.parameters; // which it has, but for round-off
+            return *orbit;
+        }
+    throw InputError(fmt::format("no orbit with a contact more at '{}' was found: {}", contact.name(), why),
                      "the motion after the contact may accumulate contacts, or not come back");
 }
 

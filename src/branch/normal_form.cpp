@@ -25,8 +25,8 @@ public:
     /// More unknowns than that are not written out as one matrix.
     static constexpr std::size_t most_unknowns = 600;
 
-    Expansion(const OrbitEquations& equations, const OrbitEvaluation& at)
-        : equations_(equations), shifted_(at), variation_(equations),
+    Expansion(const OrbitEquations& equations, const OrbitEvaluation& at, SecondVariation& variation)
+        : equations_(equations), shifted_(at), variation_(variation),
           columns_(at.scales.head(index(equations.layout().start_of(at.pieces.size())))), rows_(columns_.size()),
           fixed_(MatrixXd::Zero(columns_.size(), columns_.size())), closing_(fixed_) {
         const auto n = index(equations.layout().states()), pieces = index(at.pieces.size());
@@ -121,7 +121,7 @@ private:
 
     const OrbitEquations& equations_;
     OrbitEvaluation shifted_;
-    SecondVariation variation_;
+    SecondVariation& variation_;
     VectorXd columns_, rows_;  ///< units of starts and durations, and of the equations
     MatrixXd fixed_, closing_; ///< A(mu) = fixed + mu closing
 };
@@ -146,11 +146,11 @@ void null_vectors(const MatrixXcd& matrix, VectorXcd& right, VectorXcd& left) {
 
 /// F_3(q, q, q*) + 2 F_2(q, z_11) + F_2(q*, z_20), projected on the critical direction, where z_11 and z_20 are what
 /// the square of the motion along q adds to its mean and to its second harmonic.
-std::optional<Complex> cubic_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
-                                         Complex multiplier) {
+std::optional<Complex> cubic_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at, Complex multiplier,
+                                         SecondVariation& variation) {
     if (equations.layout().start_of(at.pieces.size()) > Expansion::most_unknowns)
         return std::nullopt;
-    Expansion expansion(equations, at);
+    Expansion expansion(equations, at, variation);
     VectorXcd q, left;
     null_vectors(expansion.closed_by(multiplier), q, left);
     q /= expansion.length_of_start(q);
@@ -176,7 +176,13 @@ std::optional<Complex> cubic_coefficient(const OrbitEquations& equations, const 
 } // namespace
 
 std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at) {
-    const auto cubic = cubic_coefficient(equations, at, -1);
+    SecondVariation variation(equations);
+    return flip_coefficient(equations, at, variation);
+}
+
+std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                       SecondVariation& variation) {
+    const auto cubic = cubic_coefficient(equations, at, -1, variation);
     return cubic ? std::optional(cubic->real() / 6) : std::nullopt;
 }
 
@@ -205,7 +211,8 @@ std::vector<double> list_of(const VectorXd& vector) {
 std::optional<FoldForm> fold_form(const OrbitEquations& equations, const OrbitEvaluation& at) {
     if (equations.layout().start_of(at.pieces.size()) > Expansion::most_unknowns || equations.free().empty())
         return std::nullopt;
-    Expansion expansion(equations, at);
+    SecondVariation variation(equations);
+    Expansion expansion(equations, at, variation);
     const Fold fold(expansion, expansion.closed_by(1));
     double second = 0;
     if (!fold.right.allFinite() || !expansion.second(fold.left, fold.right, second))
@@ -226,7 +233,8 @@ std::optional<double> cusp_coefficient(const OrbitEquations& equations, const Or
     const auto count = index(equations.layout().start_of(at.pieces.size()));
     if (static_cast<std::size_t>(count) > Expansion::most_unknowns)
         return std::nullopt;
-    Expansion expansion(equations, at);
+    SecondVariation variation(equations);
+    Expansion expansion(equations, at, variation);
     const MatrixXcd matrix = expansion.closed_by(1);
     const Fold fold(expansion, matrix);
     MatrixXcd with_right;
@@ -251,7 +259,8 @@ std::optional<double> torus_coefficient(const OrbitEquations& equations, const O
     const auto multiplier = pair_on_circle(CyclicMatrix(at.system, 1, ones, ones).multipliers());
     if (!multiplier)
         return std::nullopt;
-    const auto cubic = cubic_coefficient(equations, at, *multiplier);
+    SecondVariation variation(equations);
+    const auto cubic = cubic_coefficient(equations, at, *multiplier, variation);
     return cubic ? std::optional((std::conj(*multiplier) * *cubic).real() / 2) : std::nullopt;
 }
 

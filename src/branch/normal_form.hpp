@@ -1,6 +1,7 @@
 #pragma once
 
 #include "orbit/orbit_equations.hpp"
+#include "orbit/second_variation.hpp"
 
 #include <complex>
 #include <optional>
@@ -20,6 +21,10 @@ namespace graze {
 /// leaves had no other unstable direction (supercritical). Of the half of a symmetric orbit: an orbit without symmetry.
 /// @param at evaluation at an orbit with a multiplier -1. @return none where it cannot be computed
 std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at);
+/// The same with second derivatives of these equations that have been compiled before, which takes far longer than to
+/// evaluate them.
+std::optional<double> flip_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                       SecondVariation& variation);
 
 /// Coefficient d of the torus, |w| -> |w| (1 + d |w|^2): it is stable for d < 0 (supercritical), likewise.
 /// @param at evaluation at an orbit with two multipliers on the unit circle

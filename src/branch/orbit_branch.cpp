@@ -101,6 +101,10 @@ public:
             point = before;
             return end(BranchOutcome::stopped, "this way the two multipliers are real");
         }
+        if (point.step == 1 && has_no_contact(before)) {
+            point = before;
+            return end(BranchOutcome::stopped, "this way the contact that begins there has a negative speed");
+        }
         found = locator_.locate_all(before, tests_before);
         drop_origin(point.arclength - before.arclength);
         judge(before.solution.certificate.admissible);
@@ -275,7 +279,8 @@ private:
                    : "";
     }
     /// The touch that has come to an edge of its segment, in the one beside it: there the event's function has another
-    /// second rate, but no other value or speed.
+    /// second rate, but no other value or speed. Beyond the ends of a half orbit is its image, which touches the image
+    /// of the event.
     bool go_on_in_next_segment() {
         constexpr double distances[] = {1e-4, 1e-3, 1e-2}; // in units of the scales
         constexpr double first_step = 1e-3;
@@ -285,8 +290,10 @@ private:
         OrbitProblem& problem = state_.problem();
         const std::size_t steps = point.step, old = state_.settings().kept->segment;
         const double share = state_.settings().kept->time / point.solution.orbit.durations[old];
-        const std::vector<double> u = problem.unknowns_of(point.solution.orbit);
-        if (!problem.evaluate(u))
+        const Orbit& here = point.solution.orbit;
+        const bool closes = share < 0.5 ? old == 0 : old + 1 == here.segments();
+        const std::vector<double> u = problem.unknowns_of(here);
+        if (!problem.evaluate(u) || (here.symmetry && closes && !state_.keep_image_of_touch(here)))
             return false;
         const std::vector<double> tangent = problem.unknowns_of(point.tangent);
         const double rise = point.tangent.parameters.front(), arclength = point.arclength;
@@ -379,6 +386,19 @@ private:
         const bool from_one =
             std::abs(value(at_start, PointType::resonance_1)) < std::abs(value(at_start, PointType::resonance_2));
         return from_one ? value(tests_, PointType::resonance_1) > 0 : value(tests_, PointType::resonance_2) < 0;
+    }
+
+    /// From a contact without speed, which is about to begin, a curve leads one way only.
+    bool has_no_contact(const BranchPoint& before) const {
+        constexpr double without_speed = 1e-6; // of what it has got with the first step
+        if (!state_.settings().kept || !state_.settings().stop_when_unphysical)
+            return false;
+        const auto& first = before.solution.certificate.approach_speeds;
+        const auto& here = point.solution.certificate.approach_speeds;
+        for (std::size_t s = 0; s < std::min(first.size(), here.size()); ++s)
+            if (here[s] < 0 && std::abs(first[s]) < without_speed * std::abs(here[s]))
+                return true;
+        return false;
     }
 
     /// A torus leaves the orbit as long as the pair is complex.

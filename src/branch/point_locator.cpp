@@ -38,6 +38,7 @@ std::vector<SpecialPoint> PointLocator::locate_all(const BranchPoint& before, co
     merge(found, length);
     drop_crossings_of_nothing(*state_, found, length);
     drop_multipliers_of_resonances(found, length);
+    drop_parts_of_sensitivity(found, length);
     drop_folds_of_return(*state_, found, length);
     state_->problem().evaluate(state_->continuation().point().u);
     return found;

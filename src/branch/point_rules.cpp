@@ -107,6 +107,27 @@ void drop_multipliers_of_resonances(std::vector<SpecialPoint>& found, double len
     });
 }
 
+void drop_parts_of_sensitivity(std::vector<SpecialPoint>& found, double length) {
+    constexpr double same_place = 1e-6;
+    const auto is_part = [](const SpecialPoint& one) {
+        return one.type == PointType::fold_degenerate || one.type == PointType::flip_degenerate;
+    };
+    for (SpecialPoint& whole : found) {
+        if (whole.type != PointType::sensitivity)
+            continue;
+        for (const SpecialPoint& one : found)
+            if (is_part(one) && std::abs(one.arclength - whole.arclength) <= same_place * length)
+                whole.detail += "; " + one.detail;
+    }
+    const std::vector<SpecialPoint> all = found;
+    std::erase_if(found, [&](const SpecialPoint& one) {
+        return is_part(one) && std::any_of(all.begin(), all.end(), [&](const SpecialPoint& whole) {
+                   return whole.type == PointType::sensitivity &&
+                          std::abs(one.arclength - whole.arclength) <= same_place * length;
+               });
+    });
+}
+
 void drop_folds_of_return(BranchState& state, std::vector<SpecialPoint>& found, double length) {
     constexpr double near = 0.05; // share of the step: both are located where they are ill-conditioned
     for (std::size_t i = 0; i < found.size(); ++i) {

@@ -28,6 +28,10 @@ void drop_crossings_of_nothing(BranchState& state, std::vector<SpecialPoint>& fo
 /// Where the pair that a curve keeps on the unit circle becomes real it is 1 or -1 twice: no fold or flip besides.
 void drop_multipliers_of_resonances(std::vector<SpecialPoint>& found, double length);
 
+/// With two multipliers folds and flips of impacting orbits end where impacts do not act on the next pass, which is one
+/// point then.
+void drop_parts_of_sensitivity(std::vector<SpecialPoint>& found, double length);
+
 /// Where a branch comes back to the one that it left, the parameter turns: no fold of its own.
 void drop_folds_of_return(BranchState& state, std::vector<SpecialPoint>& found, double length);
 

@@ -133,7 +133,7 @@ std::vector<Degeneracy> SingularCondition::degeneracies(const OrbitEquations& eq
     if (multiplier_ > 0)
         return {{PointType::cusp, along_}, {PointType::resonance_1, simplicity_}};
     const double nothing = std::numeric_limits<double>::quiet_NaN();
-    return {{PointType::generalised, flip_coefficient(equations, at).value_or(nothing)},
+    return {{PointType::generalised, flip_coefficient(equations, at, variation()).value_or(nothing)},
             {PointType::resonance_2, simplicity_}};
 }
 

@@ -29,6 +29,7 @@ protected:
     /// Derivatives of left^T A right for vectors in these units: one row for each left vector, by all unknowns.
     bool contract(const OrbitEquations& equations, const OrbitEvaluation& at, const Eigen::MatrixXd& left,
                   const Eigen::VectorXd& right, Eigen::MatrixXd& gradients);
+    SecondVariation& variation() { return variation_; }
 
 private:
     SecondVariation variation_;

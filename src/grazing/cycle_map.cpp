@@ -305,4 +305,21 @@ std::vector<double> CycleMap::projections(std::size_t count) const {
     return result;
 }
 
+/// Less the determinant of (1 - sign P, P B; g, 0), with rows and columns in units of the scales.
+double CycleMap::sum_of_projections(int sign) const {
+    if (!exists() || active.empty())
+        return 0;
+    const Eigen::Index n = index(active.size());
+    const Eigen::Map<const Eigen::VectorXd> units(scales.data(), n);
+    const Eigen::MatrixXd once = units.cwiseInverse().asDiagonal() * matrix_of(*this) * units.asDiagonal();
+    const Eigen::VectorXd gained = once * Eigen::Map<const Eigen::VectorXd>(impact.data(), n).cwiseQuotient(units),
+                          row = Eigen::Map<const Eigen::VectorXd>(gradient.data(), n).cwiseProduct(units);
+    const double size = gained.norm(), steepness = row.norm();
+    if (!(size > 0) || !(steepness > 0))
+        return 0;
+    Eigen::MatrixXd bordered(n + 1, n + 1);
+    bordered << Eigen::MatrixXd::Identity(n, n) - sign * once, gained / size, row.transpose() / steepness, 0.0;
+    return -bordered.fullPivLu().determinant() * size * steepness;
+}
+
 } // namespace graze

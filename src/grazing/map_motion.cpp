@@ -25,8 +25,7 @@ namespace {
 /// The map with states measured in their sizes.
 class ScaledMap {
 public:
-    ScaledMap(const CycleMap& map, double clearance)
-        : map_(map), clearance_(clearance) {
+    ScaledMap(const CycleMap& map, double clearance) : map_(map), clearance_(clearance) {
         const Eigen::Index n = index(map.active.size());
         const Eigen::Map<const Eigen::VectorXd> scales(map.scales.data(), n), impact(map.impact.data(), n),
             gradient(map.gradient.data(), n);

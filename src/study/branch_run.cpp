@@ -1,6 +1,7 @@
 #include "study/branch_run.hpp"
 
 #include "graze/branch/curve_start.hpp"
+#include "graze/branch/impacting_curve.hpp"
 #include "graze/branch/switching.hpp"
 #include "graze/orbit/orbit_file.hpp"
 #include "study/branch_part.hpp"
@@ -105,9 +106,13 @@ Orbit twin_of(const StudyRun& run, const System& system, const Orbit& orbit) {
 }
 
 /// What one must say of a point through which several curves lead, or none.
-std::string which_curves(const SpecialPoint& point) {
+std::string which_curves(const System& system, const SpecialPoint& point) {
     std::vector<std::string> ways;
-    for (const PointType type : curves_at(point))
+    std::vector<PointType> types = curves_at(point);
+    for (const PointType type : impacting_curves_at(system, point))
+        if (std::find(types.begin(), types.end(), type) == types.end())
+            types.push_back(type);
+    for (const PointType type : types)
         ways.push_back(fmt::format("onto = \"{}\"", short_name(type)));
     return ways.empty() ? "choose another point, or hold a monitor: fixed = true"
                         : fmt::format("say which curve through it is meant: {}", fmt::join(ways, " or "));
@@ -125,30 +130,37 @@ SpecialPoint touch_to_keep(const StudyRun& run, const SpecialPoint& point) {
 }
 
 /// The point as that whose curve is asked for.
-SpecialPoint point_to_keep(const StudyRun& run, const SpecialPoint& point) {
+SpecialPoint point_to_keep(const StudyRun& run, const System& system, const SpecialPoint& point) {
     const PointType asked = point_type(run.start->onto).value_or(point.type);
     if (!kind_of(asked).may_be_kept)
         throw InputError(run.start->place,
                          fmt::format("points of type {} ({}) cannot be followed as a curve", short_name(point.type),
                                      name_of(point.type)),
-                         which_curves(point) +
+                         which_curves(system, point) +
                              (asked == PointType::sensitivity
                                   ? "; the curve of such points needs a third parameter: free = { PARAMETER = [..] }"
                                   : ""));
-    return at_place(run.start->place, run, [&] { return as_type(point, asked); });
+    return at_place(run.start->place, run, [&] {
+        const std::vector<PointType> impacting = impacting_curves_at(system, point);
+        return std::find(impacting.begin(), impacting.end(), asked) != impacting.end()
+                   ? on_impacting_curve(system, point, asked, run.branch.settings)
+                   : as_type(point, asked);
+    });
 }
 
 /// Both ways along the curve through a point. From a resonance a curve of torus points leads one way, which is not
-/// known before.
-std::vector<BranchPart> parts_of_curve(const StudyRun& run, const SpecialPoint& point) {
-    const Orbit orbit = taken_over(run, point.solution.orbit);
+/// known before, and so does one of folds or flips from a contact without speed.
+std::vector<BranchPart> parts_of_curve(const StudyRun& run, const System& system, const SpecialPoint& point) {
     if (!run.branch.keeps_point())
-        return both_directions(run, orbit);
+        return both_directions(run, taken_over(run, point.solution.orbit));
     const bool twice = run.branch.kept_conditions() == 2;
-    const SpecialPoint kept = twice ? touch_to_keep(run, point) : point_to_keep(run, point);
+    const SpecialPoint kept = twice ? touch_to_keep(run, point) : point_to_keep(run, system, point);
+    const Orbit orbit = taken_over(run, kept.solution.orbit);
     const bool resonant = point.type == PointType::resonance_1 || point.type == PointType::resonance_2;
-    std::vector<BranchPart> parts =
-        resonant && kept.type == PointType::torus ? in_directions({"up", "down"}, orbit) : both_directions(run, orbit);
+    const bool begins_contact = kept.solution.orbit.signature != point.solution.orbit.signature;
+    std::vector<BranchPart> parts = begins_contact || (resonant && kept.type == PointType::torus)
+                                        ? in_directions({"up", "down"}, orbit)
+                                        : both_directions(run, orbit);
     for (BranchPart& part : parts) {
         part.kept = kept;
         if (twice)
@@ -165,7 +177,7 @@ std::vector<BranchPart> parts_from_orbit(const StudyRun& run, const System& syst
         throw InputError(start.place, "contacts accumulate at an onset of chatter: no orbit begins there",
                          "start from a grazing of the ladder, or follow the onset with kind = \"curve\"");
     if (run.kind == RunKind::curve)
-        return parts_of_curve(run, point);
+        return parts_of_curve(run, system, point);
     const bool same_parameter = (parent.kind == RunKind::follow || parent.kind == RunKind::ladder) &&
                                 parent.branch.settings.parameter == run.branch.settings.parameter;
     std::string onto = start.onto;

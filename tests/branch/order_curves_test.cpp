@@ -305,5 +305,71 @@ mode = "free"
     }
 }
 
+TEST(OrderCurves, of_touches_pass_the_ends_of_a_half_orbit) {
+    // Between two stops: the one is touched at the phase of the linear response, which is that of the section where
+    // omega is 1.5, and the other half a period later.
+    const double at = std::atan2(0.3, 1 - 1.5 * 1.5);
+    const Model model = model_from(fmt::format(R"toml(
+[parameters]
+F = 0.3
+omega = 1.3
+[states]
+x = 0
+v = 0
+theta = {{ initial = 0, period = "2*pi" }}
+[modes.free]
+rates = {{ x = "v", v = "F*cos(theta) - 0.2*v - x", theta = "omega" }}
+watch = ["right", "left"]
+[events.right]
+function = "1 - x"
+[events.left]
+function = "1 + x"
+[jumps.impact]
+v = "-0.8*v"
+[[transitions]]
+mode = "free"
+event = "right"
+jump = "impact"
+next = "free"
+[[transitions]]
+mode = "free"
+event = "left"
+jump = "impact"
+next = "free"
+[sections.phase]
+state = "theta"
+value = {:.17g}
+[symmetries.reflection]
+map = {{ x = "-x", v = "-v", theta = "theta + pi" }}
+[initial]
+mode = "free"
+)toml",
+                                               at));
+    BranchSettings settings = in_parameter(model, "F", 0.1, 5);
+    const OrbitSolution start = settled(model, "phase");
+    ASSERT_TRUE(start.orbit.symmetry);
+    const Branch branch = follow_branch(model, start.orbit, settings);
+    ASSERT_EQ(names(branch), "GR");
+    const std::string first = branch.special[0].detail;
+    const Branch curve = curve_of(model, branch.special[0], settings, "omega", 0.9, 2.2, 1);
+    EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
+    EXPECT_NEAR(value_of(model, curve.points.back().solution, "omega"), 2.2, 1e-12);
+    std::size_t before = 0, after = 0;
+    for (const BranchPoint& one : curve.points) {
+        const double omega = value_of(model, one.solution, "omega");
+        EXPECT_NEAR(one.parameter, std::hypot(1 - omega * omega, 0.2 * omega), 1e-10);
+        EXPECT_TRUE(one.solution.certificate.admissible) << one.solution.certificate.reason;
+        ++(omega < 1.5 ? before : after);
+        // Of the half orbit each event is touched on one side of that frequency only.
+        for (const OrbitMinimum& minimum : one.solution.certificate.minima) {
+            if (std::abs(minimum.value) > 1e-9 || std::abs(omega - 1.5) < 1e-2)
+                continue;
+            EXPECT_EQ(model.events[minimum.event].name == first, omega < 1.5) << omega;
+        }
+    }
+    EXPECT_GT(before, 3U);
+    EXPECT_GT(after, 3U);
+}
+
 } // namespace
 } // namespace graze

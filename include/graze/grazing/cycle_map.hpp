@@ -39,8 +39,9 @@ std::vector<OrbitTouch> touches_of(const System& system, const Orbit& orbit, con
 /// (or B (-h)^(3/2) or B (-h) in place of B s), where C is the clearance of that orbit. The orbit may have contacts of
 /// its own; the cycle of a half orbit ends at its image.
 ///
-/// States that are as small as h are off by s^2 (h^2, of the two others). With the next order, of an impact `second`
-/// s^2 more, they are off by s^3 only; of sliding it is `second` (-h)^(3/2), with an error of h^2.
+/// States that are as small as h are off by s^2 (h^2 of a compliant contact, h^(3/2) of sliding). With the next order,
+/// of an impact `second` s^2 more, they are off by s^3 only; of sliding it is `second` (-h)^(3/2), with an error of
+/// h^2.
 struct CycleMap {
     std::string reason; ///< why there is none, in one line; empty if there is one
     OrbitTouch touch;
@@ -75,6 +76,12 @@ struct CycleMap {
     /// @param state of as many, before; @param clearance of the orbit without contact (C)
     /// @throws InputError for a map that does not exist, and numbers that do not fit it
     std::vector<double> image(std::span<const double> state, double clearance) const;
+    /// What impacts in all cycles before do to the clearance of one, by their approach speed, if all are alike (sign 1)
+    /// or each is as much harder as the next is softer (sign -1): the sum of sign^(k-1) g P^k B over all k, times the
+    /// determinant of 1 - sign P. So it is g adj(1 - sign P) P B, which is smooth where a multiplier is 1 or -1 as
+    /// well, and is there without any limit. Folds (sign 1) and flips (sign -1) of orbits with an impact in each cycle
+    /// begin on those that graze where it vanishes; with two multipliers it is the first projection, for both signs.
+    double sum_of_projections(int sign) const;
 };
 
 /// The map of the cycle at one touch.

@@ -1,0 +1,355 @@
+// Where curves of folds and flips of impacting orbits end on curves of touches: found on the touches, against closed
+// forms, by coming along the other curves, and gone on from.
+
+#include "impact_oscillator.hpp"
+#include "maps.hpp"
+
+#include "graze/branch/curve_start.hpp"
+#include "graze/branch/impacting_curve.hpp"
+#include "graze/grazing/trial.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+constexpr double pi = std::numbers::pi;
+
+/// Two equal masses, springs to the walls and of stiffness k between them, damping in proportion to stiffness; the
+/// first is forced by cos(omega t) and has a stop. Coordinates (x + y)/2 and (x - y)/2 are two single oscillators.
+struct TwoMasses {
+    double c = 0.2, k = 0.6, e = 0.8;
+
+    Model model(double omega, double sigma) const {
+        return model_from(fmt::format(R"toml(
+[parameters]
+omega = {}
+sigma = {}
+[states]
+x = 0
+v = 0
+y = 0
+w = 0
+theta = {{ initial = 0, period = "2*pi" }}
+[definitions]
+pull = "{}*(x - y) + {}*(v - w)"
+[modes.free]
+rates = {{ x = "v", v = "cos(theta) - x - {}*v - pull", y = "w", w = "-y - {}*w + pull", theta = "omega" }}
+watch = ["stop"]
+[events.stop]
+function = "sigma - x"
+[jumps.impact]
+v = "-{}*v"
+[[transitions]]
+mode = "free"
+event = "stop"
+jump = "impact"
+next = "free"
+label = "impact"
+[sections.phase0]
+state = "theta"
+value = 0
+[initial]
+mode = "free"
+)toml",
+                                      omega, sigma, k, c * k, c, c, e));
+    }
+    double square_of(std::size_t mode) const { return mode == 0 ? 1 : 1 + 2 * k; }
+    /// The reach of the first mass without impacts.
+    double reach(double omega) const {
+        std::complex<double> sum = 0;
+        for (const std::size_t mode : {0U, 1U})
+            sum += 0.5 / std::complex(square_of(mode) - omega * omega, c * square_of(mode) * omega);
+        return std::abs(sum);
+    }
+    enum class Sum { first, all, alternating };
+    /// Of what an impact of unit change of speed does to x one period later, or impacts of all periods before do, each
+    /// as the last, or of the other sign in turn: a geometric series for each mode.
+    double effect(Sum which, double omega, double* size = nullptr) const {
+        double sum = 0, sizes = 0;
+        for (const std::size_t mode : {0U, 1U}) {
+            const double decay = 0.5 * c * square_of(mode), own = std::sqrt(square_of(mode) - decay * decay);
+            const auto z = std::exp(std::complex(-decay, own) * 2.0 * pi / omega);
+            const auto all = which == Sum::first ? z : which == Sum::all ? z / (1.0 - z) : z / (1.0 + z);
+            sum += all.imag() / own;
+            sizes += std::abs(all) / own;
+        }
+        if (size)
+            *size = sizes;
+        return sum;
+    }
+    std::size_t sign_changes(Sum which, double from, double to) const {
+        constexpr int parts = 20000;
+        std::size_t count = 0;
+        for (int i = 0; i < parts; ++i)
+            count +=
+                effect(which, from + (to - from) * i / parts) * effect(which, from + (to - from) * (i + 1) / parts) < 0
+                    ? 1U
+                    : 0U;
+        return count;
+    }
+};
+
+/// The touches of the motion without impacts between two frequencies.
+struct Touches {
+    Model model;
+    SpecialPoint first;
+    BranchSettings settings; ///< in sigma, with omega free
+    std::vector<SpecialPoint> special;
+
+    std::vector<SpecialPoint> of(PointType type) const {
+        std::vector<SpecialPoint> result;
+        std::copy_if(special.begin(), special.end(), std::back_inserter(result),
+                     [&](const SpecialPoint& one) { return one.type == type; });
+        return result;
+    }
+};
+
+Touches touches(const Model& model, double from, double to) {
+    Touches result{model, {}, in_parameter(model, "sigma", 1e-3, 1e3), {}};
+    BranchSettings down = result.settings;
+    down.direction = -1;
+    const Branch branch = follow_branch(model, settled(model, "phase0", 400).orbit, down);
+    EXPECT_EQ(names(branch), "GR");
+    result.first = branch.special.at(0);
+    for (const int way : {-1, 1}) {
+        const Branch curve = curve_of(model, result.first, result.settings, "omega", from, to, way);
+        EXPECT_EQ(curve.outcome, BranchOutcome::bound) << curve.detail;
+        result.special.insert(result.special.end(), curve.special.begin(), curve.special.end());
+    }
+    return result;
+}
+
+/// The curve from where its contact has no speed: of both ways the one that exists.
+Branch onward(const Touches& from, const SpecialPoint& point, PointType type, double least, double greatest) {
+    const SpecialPoint start = on_impacting_curve(System(from.model), point, type, from.settings);
+    Branch result;
+    for (const int way : {1, -1}) {
+        Branch curve = curve_of(from.model, start, from.settings, "omega", least, greatest, way);
+        if (curve.points.size() < 2) {
+            EXPECT_EQ(curve.outcome, BranchOutcome::stopped) << curve.detail;
+            EXPECT_EQ(curve.detail, "this way the contact that begins there has a negative speed");
+            continue;
+        }
+        EXPECT_TRUE(result.points.empty());
+        result = std::move(curve);
+    }
+    EXPECT_GT(result.points.size(), 2U) << short_name(type);
+    return result;
+}
+
+TEST(DegenerateGrazing, of_one_mass_is_where_curves_of_folds_and_of_flips_end) {
+    const Oscillator known(1.7);
+    const Touches all = touches(oscillator_model(known, 3), 0.6, 3);
+    const auto found = all.of(PointType::sensitivity);
+    ASSERT_EQ(found.size(), 3U); // omega = 2 omega_d/k
+    EXPECT_TRUE(all.of(PointType::fold_degenerate).empty());
+    EXPECT_TRUE(all.of(PointType::flip_degenerate).empty());
+    const System system(all.model);
+    for (const SpecialPoint& point : found) {
+        EXPECT_EQ(impacting_curves_at(system, point), (std::vector{PointType::fold, PointType::flip}));
+        for (const PointType type : {PointType::fold, PointType::flip}) {
+            const Branch curve = onward(all, point, type, 0.6, 3);
+            ASSERT_FALSE(curve.points.empty());
+            // It begins at the point itself.
+            EXPECT_NEAR(curve.points[0].parameter, point.parameter, 1e-10 * point.parameter);
+            EXPECT_NEAR(value_of(all.model, curve.points[0].solution, "omega"),
+                        value_of(all.model, point.solution, "omega"), 1e-10);
+            for (std::size_t i = 1; i < curve.points.size(); ++i) {
+                const BranchPoint& one = curve.points[i];
+                const double omega = value_of(all.model, one.solution, "omega"), sigma = one.parameter;
+                Oscillator there(omega);
+                // The mass starts after the impact.
+                const double after = one.solution.orbit.starts[0][1];
+                const bool upper =
+                    std::abs(there.sigma(after, true) - sigma) < std::abs(there.sigma(after, false) - sigma);
+                EXPECT_NEAR(there.sigma(after, upper), sigma, 1e-9 * there.radius) << omega;
+                if (type == PointType::fold)
+                    EXPECT_NEAR(sigma, there.fold(upper), 1e-10 * there.radius) << omega;
+                else
+                    EXPECT_NEAR(there.trace(after, there.phase(after, sigma), sigma), -1 - there.product(),
+                                1e-8 * std::max(1.0, std::abs(there.radius / after)))
+                        << omega;
+            }
+        }
+    }
+}
+
+TEST(DegenerateGrazing, of_two_masses_has_its_closed_form) {
+    const TwoMasses known;
+    constexpr double from = 0.35, to = 3.2;
+    const Touches all = touches(known.model(1.2, 5), from, to);
+    const std::pair<PointType, TwoMasses::Sum> kinds[] = {{PointType::sensitivity, TwoMasses::Sum::first},
+                                                          {PointType::fold_degenerate, TwoMasses::Sum::all},
+                                                          {PointType::flip_degenerate, TwoMasses::Sum::alternating}};
+    for (const auto& [type, sum] : kinds) {
+        const auto found = all.of(type);
+        EXPECT_EQ(found.size(), known.sign_changes(sum, from, to)) << short_name(type);
+        EXPECT_GE(found.size(), 2U);
+        for (const SpecialPoint& one : found) {
+            const double omega = value_of(all.model, one.solution, "omega");
+            double size = 0;
+            const double effect = known.effect(sum, omega, &size);
+            // Located to 1e-13 of a step; terms are followed to 1e-13 of their size.
+            EXPECT_NEAR(effect, 0, 1e-12 * size) << short_name(type) << ' ' << omega;
+            EXPECT_NEAR(one.parameter, known.reach(omega), 1e-11 * one.parameter);
+        }
+    }
+}
+
+/// The touch at another frequency.
+SpecialPoint touch_at(const Touches& all, double omega) {
+    BranchSettings along = in_parameter(all.model, "omega", std::min(omega, 1.2), std::max(omega, 1.2));
+    const Branch curve = curve_of(all.model, all.first, along, "sigma", 1e-3, 1e3, omega < 1.2 ? -1 : 1);
+    EXPECT_NEAR(curve.points.back().parameter, omega, 1e-12);
+    SpecialPoint touch = all.first;
+    touch.solution = curve.points.back().solution;
+    touch.parameter = value_of(all.model, touch.solution, "sigma");
+    for (const OrbitMinimum& one : touch.solution.certificate.minima)
+        if (std::abs(one.value) < 1e-9 * one.size)
+            touch.time = one.time;
+    return touch;
+}
+
+TEST(DegenerateGrazing, of_two_masses_is_come_to_along_curves_of_folds_and_of_flips) {
+    const TwoMasses known;
+    const Touches all = touches(known.model(1.2, 5), 0.9, 3.2);
+    const System system(all.model);
+    for (const PointType type : {PointType::fold, PointType::flip}) {
+        const auto ends = all.of(type == PointType::fold ? PointType::fold_degenerate : PointType::flip_degenerate);
+        ASSERT_FALSE(ends.empty());
+        for (const SpecialPoint& end : ends) {
+            const double omega = value_of(all.model, end.solution, "omega");
+            const Branch away = onward(all, end, type, omega - 0.02, omega + 0.02);
+            ASSERT_FALSE(away.points.empty());
+            for (std::size_t i = 1; i < away.points.size(); ++i)
+                EXPECT_LT(nearest_multiplier(away.points[i].solution, type == PointType::fold ? 1 : -1), 1e-5);
+            // Branches of orbits with an impact, from the touch at the frequency to which the curve has led.
+            const double there = value_of(all.model, away.points.back().solution, "omega");
+            const SpecialPoint touch = touch_at(all, there);
+            const Branch impacting = follow(all.model, branches_at(system, touch, all.settings).at(0), all.settings);
+            const auto points = of_type(impacting, type);
+            const auto point = std::find_if(points.begin(), points.end(), [&](const SpecialPoint& one) {
+                return std::abs(one.parameter - away.points.back().parameter) < 1e-9;
+            });
+            ASSERT_NE(point, points.end()) << short_name(type) << ' ' << there << ": " << names(impacting);
+            const Branch back = curve_of(all.model, *point, in_parameter(all.model, "omega", omega - 0.1, omega + 0.1),
+                                         "sigma", 1e-3, 1e3, there > omega ? -1 : 1);
+            ASSERT_EQ(back.outcome, BranchOutcome::unphysical) << back.detail;
+            const SpecialPoint& last = back.special.back();
+            EXPECT_EQ(last.type, PointType::grazing);
+            EXPECT_TRUE(last.at_end);
+            EXPECT_NEAR(last.parameter, omega, 1e-10);
+            EXPECT_NEAR(value_of(all.model, last.solution, "sigma"), end.parameter, 1e-10 * end.parameter);
+        }
+    }
+}
+
+TEST(DegenerateGrazing, of_two_masses_is_where_impacting_orbits_change_their_side) {
+    // Beside it, where the clearance without impacts is -(sum of projections) s, to first order in the speed s.
+    const TwoMasses known;
+    const Touches all = touches(known.model(1.2, 5), 0.9, 3.2);
+    const System system(all.model);
+    for (const SpecialPoint& end : all.of(PointType::fold_degenerate)) {
+        const double omega = value_of(all.model, end.solution, "omega");
+        for (const double side : {-1e-2, 1e-2}) {
+            const SpecialPoint touch = touch_at(all, omega + side);
+            const BranchStart start = branches_at(system, touch, all.settings).at(0);
+            const double moved = start.orbit.parameters[all.settings.parameter.place()] - touch.parameter;
+            EXPECT_EQ(moved<0, known.effect(TwoMasses::Sum::all, omega + side)> 0) << omega + side;
+        }
+    }
+}
+
+TEST(DegenerateGrazing, parts_touches_that_trip_from_others_as_simulation_says) {
+    const TwoMasses known;
+    const Touches all = touches(known.model(1.2, 5), 0.9, 3.2);
+    const System system(all.model);
+    std::size_t decided = 0;
+    for (const SpecialPoint& end : all.of(PointType::sensitivity)) {
+        const double omega = value_of(all.model, end.solution, "omega");
+        for (const double side : {-2e-2, 2e-2}) {
+            const SpecialPoint touch = touch_at(all, omega + side);
+            CycleMapOptions options;
+            options.parameter = all.settings.parameter;
+            const CycleMap map =
+                cycle_map(system, touch.solution.orbit, {touch.segment, touch.event, touch.time, false}, options);
+            const Verdict verdict = verdict_of(map);
+            if (verdict.outcome == GrazingOutcome::undecided)
+                continue;
+            // The next pass is hit where an impact brings it nearer.
+            EXPECT_EQ(verdict.outcome == GrazingOutcome::lost && verdict.next_contact == 1,
+                      known.effect(TwoMasses::Sum::first, omega + side) < 0);
+            const Trial trial = try_verdict(system, map, verdict, *options.parameter);
+            // Contacts of a reach that is too small for numbers to tell show nothing.
+            EXPECT_NE(trial.outcome, TrialOutcome::contradicted) << omega + side << ": " << trial.reason;
+            decided += trial.outcome == TrialOutcome::agreed ? 1 : 0;
+        }
+    }
+    EXPECT_GE(decided, 2U);
+}
+
+TEST(DegenerateGrazing, of_the_testbed_is_where_its_folds_end) {
+    Model model = load_model("electromagnetic-testbed");
+    model.set_parameter("f", 8);
+    model.set_parameter("V0", 1);
+    BranchSettings settings = in_parameter(model, "V0", 0.5, 8);
+    settings.stop_at = {PointType::grazing, PointType::fold};
+    const Branch free = follow_branch(model, settled(model, "phase0", 600).orbit, settings);
+    ASSERT_EQ(names(free), "GR");
+    const System system(model);
+    const Branch impacting = follow(model, branches_at(system, free.special[0], settings).at(0), settings);
+    const auto folds = of_type(impacting, PointType::fold);
+    ASSERT_FALSE(folds.empty());
+    settings.stop_at.clear();
+    const Branch touching = curve_of(model, free.special[0], settings, "f", 7.5, 9, -1);
+    const auto ends = of_type(touching, PointType::fold_degenerate);
+    ASSERT_EQ(ends.size(), 1U) << names(touching);
+    const auto next = of_type(touching, PointType::sensitivity);
+    ASSERT_EQ(next.size(), 1U);
+    const double f = value_of(model, ends[0].solution, "f");
+    EXPECT_NEAR(f, 7.5947, 5e-5);
+    EXPECT_NEAR(value_of(model, next[0].solution, "f"), 7.5942, 5e-5);
+    EXPECT_TRUE(of_type(touching, PointType::flip_degenerate).empty() ||
+                of_type(touching, PointType::flip_degenerate)[0].detail.starts_with("losses of symmetry"));
+    // Along the folds from 8 Hz.
+    bool reached = false;
+    for (const int way : {1, -1}) {
+        const Branch curve = curve_of(model, folds.back(), settings, "f", 7.5, 9, way);
+        if (curve.special.empty() || !curve.special.back().at_end)
+            continue;
+        reached = true;
+        EXPECT_NEAR(value_of(model, curve.special.back().solution, "f"), f, 1e-9);
+        EXPECT_NEAR(curve.special.back().parameter, ends[0].parameter, 1e-9);
+    }
+    EXPECT_TRUE(reached);
+    // And on from the point.
+    const Touches all{model, free.special[0], settings, {}};
+    SpecialPoint start = on_impacting_curve(system, ends[0], PointType::fold, settings);
+    std::size_t followed = 0;
+    for (const int way : {1, -1}) {
+        settings.steps = 20;
+        const Branch curve = curve_of(model, start, settings, "f", 7.5, 9, way);
+        followed += curve.points.size() > 10 ? 1 : 0;
+        for (std::size_t i = 1; i < curve.points.size(); ++i)
+            EXPECT_LT(nearest_multiplier(curve.points[i].solution, 1), 1e-5);
+    }
+    EXPECT_EQ(followed, 1U);
+}
+
+TEST(DegenerateGrazing, says_where_no_impacting_curve_ends) {
+    const Oscillator known(1.7);
+    const Touches all = touches(oscillator_model(known, 3), 1.6, 1.8);
+    const System system(all.model);
+    EXPECT_TRUE(impacting_curves_at(system, all.first).empty());
+    EXPECT_THROW(on_impacting_curve(system, all.first, PointType::fold, all.settings), InputError);
+}
+
+} // namespace
+} // namespace graze
