@@ -14,13 +14,15 @@ namespace graze {
 
 namespace {
 
+constexpr double last_joint = 1e5;
+
 /// Pieces join more and more.
 std::vector<FitStage> stages_of(const FitRows& rows, const FitSettings& settings) {
     constexpr int few = 30;
     const bool joined = std::any_of(rows.layout.pieces.begin(), rows.layout.pieces.end(),
                                     [](const FitPiece& piece) { return piece.leads; });
     FitStage last;
-    last.joint = 1e5;
+    last.joint = last_joint;
     last.most_iterations = settings.most_iterations;
     if (!joined)
         return {last};
@@ -53,11 +55,36 @@ public:
     }
 
     Fit run() {
-        const std::vector<FitStage> stages = stages_of(rows_, *settings_);
         Fit fit;
+        StageReport report = pass(fit);
+        // What is left is no noise: contacts may be missing, which the parameters that were found let appear.
+        constexpr int most_passes = 4;
+        constexpr double better = 0.95;
+        for (int round = 1; round < most_passes && !report.interrupted && leaves_more_than_noise(); ++round) {
+            const FitLayout layout = rows_.layout;
+            const std::vector<double> noise = rows_.noise;
+            const FitPoint point = point_;
+            const double before = squares_at(rows_, point_);
+            report = pass(fit);
+            if (const double after = squares_at(rows_, point_); after < better * before)
+                continue;
+            else if (!(after <= before) && !report.interrupted)
+                restore(layout, noise, point);
+            break;
+        }
+        describe(rows_, point_, last_joint, fit);
+        judge(report, check_point(rows_, point_, last_joint), fit);
+        return fit;
+    }
+
+private:
+    /// From the first pieces to all of them, and until they join.
+    StageReport pass(Fit& fit) {
+        const std::vector<FitStage> stages = stages_of(rows_, *settings_);
+        const int count = static_cast<int>(stages.size());
         StageReport report = begin(fit);
-        for (std::size_t s = 0; s + 1 < stages.size() && !report.interrupted; ++s) {
-            report = make(stages[s], static_cast<int>(s) + 1, static_cast<int>(stages.size()) + 1, fit);
+        for (int s = 0; s + 1 < count && !report.interrupted; ++s) {
+            report = make(stages[static_cast<std::size_t>(s)], s + 1, count + 1, fit);
             merge_bound(rows_, point_);
             update_modes(rows_, point_);
             if (!report.interrupted)
@@ -66,7 +93,7 @@ public:
         // Once more where weights or modes have changed by what was found.
         constexpr int most_rounds = 8;
         for (int round = 0; round < most_rounds && !report.interrupted; ++round) {
-            report = make(stages.back(), static_cast<int>(stages.size()), static_cast<int>(stages.size()) + 1, fit);
+            report = make(stages.back(), count, count + 1, fit);
             const std::vector<double> before = rows_.noise;
             if (report.interrupted || report.failed)
                 break;
@@ -76,18 +103,31 @@ public:
                 break;
             rows_.noise = noise;
         }
-        describe(rows_, point_, stages.back().joint, fit);
-        judge(report, check_point(rows_, point_, stages.back().joint), fit);
-        return fit;
+        return report;
     }
 
-private:
+    bool leaves_more_than_noise() {
+        constexpr double round_off = 1e-9;
+        Fit trial;
+        describe(rows_, point_, last_joint, trial);
+        for (std::size_t o = 0; o < trial.outputs.size(); ++o)
+            if (!trial.outputs[o].independent && trial.outputs[o].deviation > round_off * rows_.range(o))
+                return true;
+        return false;
+    }
+
+    void restore(const FitLayout& layout, const std::vector<double>& noise, const FitPoint& point) {
+        rows_.layout = layout;
+        rows_.noise = noise;
+        point_ = point;
+    }
+
     /// The first pieces of records alone, then twice as many, and so on: each begins where what is known by then leads
     /// to, so that a wrong frequency, say, does not add up to a wrong phase.
     StageReport begin(Fit& fit) {
         StageReport report;
         std::size_t done = 0;
-        for (std::size_t count = 1; done < most_pieces() && most_pieces() > 1 && !report.interrupted; count *= 2) {
+        for (std::size_t count = 1; done < most_pieces() && !report.interrupted; count *= 2) {
             for (std::size_t k = 0; k < pieces().size(); ++k) {
                 if (ordinal(k) < done || ordinal(k) >= count)
                     continue;
@@ -102,7 +142,7 @@ private:
                 alone.active[k] = true;
                 alone.states_only = true;
                 alone.prior = 0.03;
-                report = make(alone, 0, 5, fit);
+                report = best_opening(alone, k, fit);
             }
             FitStage together = soft_stage();
             for (std::size_t k = 0; k < pieces().size(); ++k)
@@ -113,6 +153,26 @@ private:
             done = count;
         }
         return report;
+    }
+
+    /// From each of the states in which a piece might begin: the one that meets its readings best.
+    StageReport best_opening(const FitStage& stage, std::size_t piece, Fit& fit) {
+        StageReport best = make(stage, 0, 5, fit);
+        const std::vector<Eigen::VectorXd> others =
+            pieces()[piece].opening ? other_openings(rows_, point_, piece) : std::vector<Eigen::VectorXd>{};
+        Eigen::VectorXd found = point_.states[piece];
+        for (const Eigen::VectorXd& other : others) {
+            point_.states[piece] = other;
+            const StageReport report = make(stage, 0, 5, fit);
+            if (report.interrupted)
+                return report;
+            if (!report.failed && (report.cost < best.cost || best.failed)) {
+                best = report;
+                found = point_.states[piece];
+            }
+        }
+        point_.states[piece] = found;
+        return best;
     }
 
     static FitStage soft_stage() {

@@ -17,6 +17,9 @@ struct FitChecks {
 };
 FitChecks check_point(FitRows& rows, const FitPoint& point, double joint);
 
+/// What is left of all readings: the sum of squares, by their ranges.
+double squares_at(FitRows& rows, const FitPoint& point);
+
 /// Standard deviations of what is left of each output.
 std::vector<double> noise_at(FitRows& rows, const FitPoint& point);
 

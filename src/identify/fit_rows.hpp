@@ -40,6 +40,9 @@ public:
     double range(std::size_t output) const { return ranges_[output]; }
     FitLoss loss() const { return robust ? loss_ : FitLoss::squares; }
 
+    double gain(std::size_t output, const Eigen::VectorXd& shared) const;
+    double offset(std::size_t output, const Eigen::VectorXd& shared) const;
+
     const PieceRows& evaluate(const FitPiece& piece, const Eigen::VectorXd& shared, const Eigen::VectorXd& states);
     /// The gap between a state at the end of a piece and the first of the next, in scales; of cyclic states the
     /// shorter way round.
@@ -62,9 +65,6 @@ private:
     void add_time(const FitPiece& piece, std::size_t sample, const Eigen::VectorXd& shared, Eigen::Index row);
     void add_ends(const FitPiece& piece, const PredictedMotion& predicted);
     double scale_of(const FitPiece& piece, Eigen::Index column) const;
-    double gain(std::size_t output, const Eigen::VectorXd& shared) const;
-    double offset(std::size_t output, const Eigen::VectorXd& shared) const;
-
     System system_;
     const FitTask* task_;
     FitLoss loss_;

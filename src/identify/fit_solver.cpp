@@ -202,6 +202,7 @@ StageReport minimise(FitRows& rows, FitPoint& point, const FitStage& stage, cons
     report.converged = summary.termination_type == ceres::CONVERGENCE;
     report.interrupted = summary.termination_type == ceres::USER_FAILURE;
     report.failed = summary.termination_type == ceres::FAILURE;
+    report.cost = summary.final_cost;
     report.iterations = static_cast<int>(summary.iterations.size());
     return report;
 }

@@ -21,6 +21,7 @@ struct StageReport {
     bool converged = false, interrupted = false;
     bool failed = false; ///< nothing could be evaluated at the point itself
     int iterations = 0;
+    double cost = 0; ///< half the sum of squares that is left
 };
 
 /// What is told after each iteration: its number, and half the sum of squares. @return false to end

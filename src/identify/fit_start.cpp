@@ -30,8 +30,9 @@ public:
     }
 
     /// Replaces states that are read directly, as long as the mode admits it.
-    void take_readings(const FitPiece& piece, std::size_t time, std::span<const double> parameters,
+    void take_readings(const FitPiece& piece, std::size_t time, const Eigen::VectorXd& shared,
                        std::vector<double>& state) {
+        const std::vector<double> parameters = rows_->parameters(piece.record, shared);
         const FitTask& task = rows_->task();
         const FitRecord& record = task.records[piece.record];
         for (const FitRecord::Readings& readings : record.readings) {
@@ -46,7 +47,8 @@ public:
                 continue;
             const double before = state[*index];
             const bool well = is_admissible(piece.mode, state, parameters);
-            state[*index] = (readings.values[time] - output.offset) / output.gain;
+            state[*index] =
+                (readings.values[time] - rows_->offset(readings.output, shared)) / rows_->gain(readings.output, shared);
             if (well && !is_admissible(piece.mode, state, parameters))
                 state[*index] = before;
         }
@@ -141,7 +143,6 @@ FitPoint starting_point(FitRows& rows) {
     for (std::size_t k = 0; k < layout.pieces.size(); ++k) {
         FitPiece& piece = layout.pieces[k];
         const FitRecord& record = task.records[piece.record];
-        const std::vector<double> parameters = rows.parameters(piece.record, point.shared);
         const auto unknown = static_cast<Eigen::Index>(piece.opening ? record.unknown_states.size() : layout.states);
         Eigen::VectorXd states(unknown);
         if (piece.opening) {
@@ -152,7 +153,7 @@ FitPoint starting_point(FitRows& rows) {
                 state[i] = record.start.empty() ? usual[i] : record.start[i];
         }
         if (!piece.opening || record.start.empty())
-            starter.take_readings(piece, piece.opening ? piece.first : piece.first - 1, parameters, state);
+            starter.take_readings(piece, piece.opening ? piece.first : piece.first - 1, point.shared, state);
         for (Eigen::Index c = 0; c < unknown; ++c)
             states[c] =
                 state[piece.opening ? record.unknown_states[static_cast<std::size_t>(c)] : static_cast<std::size_t>(c)];
@@ -188,9 +189,42 @@ void continue_from(FitRows& rows, FitPoint& point, std::size_t piece) {
     std::vector<double> state = motion.end_state;
     if (motion.complete)
         next.mode = motion.end_mode;
-    Starter(rows, rows.system()).take_readings(next, next.first - 1, rows.parameters(next.record, point.shared), state);
+    Starter(rows, rows.system()).take_readings(next, next.first - 1, point.shared, state);
     for (Eigen::Index i = 0; i < point.states[piece].size(); ++i)
         point.states[piece][i] = state[static_cast<std::size_t>(i)] / rows.layout.state_scale[i];
+}
+
+std::vector<Eigen::VectorXd> other_openings(FitRows& rows, const FitPoint& point, std::size_t piece) {
+    constexpr int phases = 8;
+    constexpr double seen = 0.2;
+    const FitTask& task = rows.task();
+    const FitRecord& record = task.records[rows.layout.pieces[piece].record];
+    const Model& model = rows.system().model();
+    const std::vector<double> parameters = rows.parameters(rows.layout.pieces[piece].record, point.shared);
+    const std::vector<double> periods = rows.system().periods()(parameters);
+    std::vector<Eigen::VectorXd> openings;
+    for (std::size_t c = 0; c < record.unknown_states.size(); ++c) {
+        const std::size_t state = record.unknown_states[c];
+        const bool read =
+            !record.start.empty() ||
+            std::any_of(record.readings.begin(), record.readings.end(), [&](const FitRecord::Readings& readings) {
+                const Expression& value = task.outputs[readings.output].value;
+                return value.is_symbol() && value.name() == model.states[state].name;
+            });
+        if (read || !(periods[state] > 0))
+            continue;
+        const auto place = static_cast<Eigen::Index>(c);
+        const double part = periods[state] / phases / rows.layout.state_scale[static_cast<Eigen::Index>(state)];
+        const PieceRows& known = rows.evaluate(rows.layout.pieces[piece], point.shared, point.states[piece]);
+        if (!known.finite ||
+            !(part * known.readings.col(place).norm() > seen * known.readings.col(known.readings.cols() - 1).norm()))
+            continue;
+        for (int k = 1; k < phases; ++k) {
+            openings.push_back(point.states[piece]);
+            openings.back()[place] += k * part;
+        }
+    }
+    return openings;
 }
 
 bool ends_bound(FitRows& rows, const FitPoint& point, std::size_t piece) {

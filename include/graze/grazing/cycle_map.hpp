@@ -72,16 +72,16 @@ struct CycleMap {
     /// g P^k B for k = 1, 2, ...: what a contact does to the clearance k cycles later, by its approach speed (or by the
     /// power 3/2 of its depth). Negative where it leads to another contact.
     std::vector<double> projections(std::size_t count) const;
-    /// One cycle: the active states after it. With the next order where it is known.
-    /// @param state of as many, before; @param clearance of the orbit without contact (C)
-    /// @throws InputError for a map that does not exist, and numbers that do not fit it
-    std::vector<double> image(std::span<const double> state, double clearance) const;
     /// What impacts in all cycles before do to the clearance of one, by their approach speed, if all are alike (sign 1)
     /// or each is as much harder as the next is softer (sign -1): the sum of sign^(k-1) g P^k B over all k, times the
     /// determinant of 1 - sign P. So it is g adj(1 - sign P) P B, which is smooth where a multiplier is 1 or -1 as
     /// well, and is there without any limit. Folds (sign 1) and flips (sign -1) of orbits with an impact in each cycle
     /// begin on those that graze where it vanishes; with two multipliers it is the first projection, for both signs.
     double sum_of_projections(int sign) const;
+    /// One cycle: the active states after it. With the next order where it is known.
+    /// @param state of as many, before; @param clearance of the orbit without contact (C)
+    /// @throws InputError for a map that does not exist, and numbers that do not fit it
+    std::vector<double> image(std::span<const double> state, double clearance) const;
 };
 
 /// The map of the cycle at one touch.
