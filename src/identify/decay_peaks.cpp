@@ -97,7 +97,13 @@ std::vector<Period> periods_of(const Samples& samples, const RecordHeader& heade
 /// Where an oscillation comes to rest, and the noise about it.
 struct Rest {
     double value = 0, error = 0;
-    double noise = 0; ///< standard deviation of a sample
+    double noise = 0;              ///< standard deviation of a sample
+    double peak = 0, distance = 1; ///< time of one of the oscillation's peaks, and from one to the next
+
+    double peak_in(const Period& period) const {
+        const double middle = 0.5 * (period.begin + period.end);
+        return peak + distance * std::round((middle - peak) / distance);
+    }
 };
 
 /// c + exp(-decay s) (a cos(turn s) + b sin(turn s)) through the samples of whole periods by least squares, with s from
@@ -112,6 +118,8 @@ public:
                 places_.push_back((samples.times[i] - begin) / (end - begin));
                 values_.push_back(samples.values[channel][i] - level);
             }
+        begin_ = begin;
+        length_ = end - begin;
         turn_ = 2 * std::numbers::pi * static_cast<double>(periods.size());
         decay_ = 0;
         if (periods.size() > 1)
@@ -170,10 +178,12 @@ private:
         const double variance = left.squaredNorm() / static_cast<double>(left.size() - slopes.cols());
         const Eigen::MatrixXd normal = slopes.transpose() * slopes;
         const double of_rest = normal.ldlt().solve(Eigen::VectorXd::Unit(slopes.cols(), 0))[0];
-        return {level_ + linear[0], std::sqrt(variance * std::max(0.0, of_rest)), std::sqrt(variance)};
+        const double top = std::atan2(linear[2], linear[1]) - std::atan(decay_ / turn_); // of the phase
+        return {level_ + linear[0], std::sqrt(variance * std::max(0.0, of_rest)), std::sqrt(variance),
+                begin_ + top / turn_ * length_, 2 * std::numbers::pi / turn_ * length_};
     }
 
-    double level_, turn_ = 0, decay_ = 0;
+    double level_, begin_ = 0, length_ = 1, turn_ = 0, decay_ = 0;
     std::vector<double> places_, values_;
 };
 
@@ -200,7 +210,7 @@ std::size_t powers_for(double noise_by_height) {
     };
     // Of a cosine over 0.15 of its period on each side of its top, by Chebyshev's polynomial of the next even degree.
     constexpr Left left[] = {{2, 4e-3}, {4, 3e-5}, {6, 1.2e-7}};
-    constexpr double share = 0.1;
+    constexpr double share = 0.5; // what is left is the same part of all heights
     for (const Left& one : left)
         if (one.size < share * noise_by_height)
             return one.degree;
@@ -225,7 +235,10 @@ bool fit_peak(const Period& period, std::size_t channel, const Rest& rest, PeakF
         --first;
     while (last + 1 < values.size() && values[last + 1] > nearly)
         ++last;
-    const double middle = 0.5 * (times[first] + times[last]), width = reach * period.duration();
+    constexpr double noisy = 0.02; // of the height: the highest sample says little of where the top is
+    const double middle =
+        rest.noise > noisy * (values[highest] - rest.value) ? rest.peak_in(period) : 0.5 * (times[first] + times[last]);
+    const double width = reach * rest.distance;
     std::vector<double> places, heights;
     for (std::size_t i = 0; i < times.size(); ++i)
         if (std::abs(times[i] - middle) <= width) {

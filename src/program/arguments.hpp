@@ -157,6 +157,9 @@ struct IdentifyArguments {
     double gap_error = 0, stiffness_error = 0, clamped = 0;
     std::vector<double> noise; ///< of displacement and current; empty: not given
     std::string beta1, beta2;
+    // Of fits: NAME=VALUE and the like, still to be split.
+    std::vector<std::string> free, set, start, known, meanings, gains, offsets, noises, own;
+    std::string mode, loss = "squares", piece, table = "numbers", save;
 };
 
 /// Lists are of NAME=VALUE, still to be split.
