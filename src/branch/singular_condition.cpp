@@ -175,11 +175,18 @@ void TorusCondition::renew(const OrbitEquations&, const OrbitEvaluation&) {
     kept_product_ = product_;
 }
 
-std::vector<Degeneracy> TorusCondition::degeneracies(const OrbitEquations&, const OrbitEvaluation&) {
+std::vector<Degeneracy> TorusCondition::degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    constexpr double digits =
+        1e-5; // of third derivatives: where the model is conservative the real part is all round-off
+    const auto form = torus_form(equations, at, variation());
+    const Degeneracy generalised =
+        form ? Degeneracy{PointType::generalised_torus, form->real(), digits * std::abs(*form)}
+             : Degeneracy{PointType::generalised_torus, std::numeric_limits<double>::quiet_NaN()};
     return {{PointType::resonance_1, sum_ - 2},
             {PointType::resonance_2, sum_ + 2},
             {PointType::resonance_3, sum_ + 1},
-            {PointType::resonance_4, sum_}};
+            {PointType::resonance_4, sum_},
+            generalised};
 }
 
 } // namespace graze
