@@ -1,11 +1,13 @@
 # One folder per word of the architecture; each may use only those before it. Each is compiled once, as objects of which
 # the library consists and on which its tests are linked together with the folders before it.
-set(GRAZE_FOLDERS symbolic model tape flow trajectory record identify sweep orbit grazing branch results study design)
+set(GRAZE_FOLDERS symbolic model tape flow trajectory record bench acquire identify sweep orbit grazing branch results study design)
 
 # What a folder needs besides.
 set(GRAZE_NEEDS_sweep Threads::Threads)
 set(GRAZE_NEEDS_record graze_hdf5)
+set(GRAZE_NEEDS_acquire Boost::headers Threads::Threads)
 set(GRAZE_NEEDS_results SQLite::SQLite3 graze_hdf5)
+set(GRAZE_NEEDS_identify Ceres::ceres)
 set(GRAZE_NEEDS_design NLopt::nlopt)
 
 add_library(graze)
@@ -40,7 +42,7 @@ target_include_directories(
     graze PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
 )
 target_link_libraries(
-    graze PRIVATE $<BUILD_INTERFACE:graze_options> fmt::fmt Threads::Threads SQLite::SQLite3 NLopt::nlopt
+    graze PRIVATE $<BUILD_INTERFACE:graze_options> fmt::fmt Threads::Threads SQLite::SQLite3 NLopt::nlopt Ceres::ceres
                   $<BUILD_INTERFACE:graze_hdf5>
 )
 set_target_properties(

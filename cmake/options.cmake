@@ -22,6 +22,9 @@ find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(NLopt REQUIRED)
+# Asio, of which headers alone are used.
+find_package(Boost 1.74 REQUIRED)
+find_package(Ceres REQUIRED)
 find_package(Threads REQUIRED)
 include(cmake/hdf5.cmake)
 

@@ -1,9 +1,9 @@
-#include "branch/random_number.hpp"
 #include "graze/branch/disturbed_trip.hpp"
 #include "graze/model/driven_parameter.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/trajectory/ensemble.hpp"
 #include "grazing/end_watch.hpp"
+#include "symbolic/random_number.hpp"
 
 #include <fmt/format.h>
 
@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -39,7 +40,8 @@ private:
 enum class Fate { not_made, rests, trips, fails };
 struct Motion {
     Fate fate = Fate::not_made;
-    double cycles = 0; ///< until it has tripped
+    double cycles = 0;                ///< until it has tripped
+    Ending ending = Ending::end_time; ///< of its simulation
 };
 
 /// All motions at one level of the noise.
@@ -132,9 +134,9 @@ private:
         Motion& motion = motions_[slot.motion];
         const TripTime trip = slot.watch.trip(outcome);
         if (trip.ended) {
-            motion = {Fate::trips, trip.time / origin_.cycle};
+            motion = {Fate::trips, trip.time / origin_.cycle, outcome.ending};
         } else if (outcome.ending != Ending::end_time) {
-            motion.fate = Fate::fails;
+            motion = {Fate::fails, 0, outcome.ending};
         } else if (++slot.cycle == settings_.cycles) {
             motion.fate = Fate::rests;
         } else {
@@ -209,12 +211,16 @@ NoisyTrips noisy_trips(const System& system, const TripOrigin& origin, double le
     NoisyTrips result;
     result.interrupted = work.stopped();
     std::vector<double> cycles;
+    std::map<std::string, std::size_t> failures;
     for (const Motion& one : motions) {
         result.motions += one.fate != Fate::not_made ? 1 : 0;
         result.failed += one.fate == Fate::fails ? 1 : 0;
+        if (one.fate == Fate::fails)
+            ++failures[std::string(name_of(one.ending))];
         if (one.fate == Fate::trips)
             cycles.push_back(one.cycles);
     }
+    result.failures.assign(failures.begin(), failures.end());
     result.trips = cycles.size();
     result.beyond = count_beyond(origin, level, settings);
     const std::size_t decided = result.motions - result.failed;

@@ -1,8 +1,8 @@
 #include "graze/branch/yield.hpp"
 
-#include "branch/random_number.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
+#include "symbolic/random_number.hpp"
 
 #include <fmt/format.h>
 

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 namespace graze {
 
@@ -40,7 +39,7 @@ std::optional<std::size_t> Design::find_dimension(std::string_view dimension) co
 }
 
 Design parse_design(std::string_view text, const std::string& file) {
-    const toml::table root = parse_toml(text, file);
+    const toml::table root = parse_toml(text, file, "docs/design.md shows how a design is written");
     return DesignReader(file).read(root);
 }
 
@@ -56,14 +55,7 @@ std::vector<std::string> shipped_designs() {
 }
 
 std::string shipped_design_text(const std::string& name) {
-    for (const EmbeddedModel& design : embedded_designs())
-        if (design.name == name)
-            return std::string(design.text);
-    std::error_code error;
-    if (const std::string file = name + ".toml"; std::filesystem::exists(file, error))
-        throw InputError(fmt::format("there is no design '{}'", name), fmt::format("the file is called {}", file));
-    throw InputError(fmt::format("there is no design '{}'", name),
-                     study_name_remedy(name, shipped_designs()) + " (the name of a file ends in .toml)");
+    return embedded_text(embedded_designs(), "design", name);
 }
 
 Design load_design(const std::string& name_or_path) {

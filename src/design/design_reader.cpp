@@ -179,8 +179,10 @@ void DesignReader::read_branch() {
     Approach& approach = design_.approach;
     Mistakes mistakes;
     const auto with = [&](const char* name, auto work) { with_key(mistakes, approach_, name, work); };
-    with("range",
-         [&](const TomlEntry& e) { std::tie(approach.least, approach.greatest) = reader_.range(design_.model, e); });
+    with("range", [&](const TomlEntry& e) {
+        approach.range_place = e.place;
+        std::tie(approach.least, approach.greatest) = reader_.range(design_.model, e);
+    });
     with("event", [&](const TomlEntry& e) {
         if (!design_.model.find_event(approach.event))
             reader_.fail(e, fmt::format("model '{}' has no event '{}'", design_.model.name, approach.event),
@@ -230,17 +232,31 @@ void DesignReader::read_trip(const TomlEntry& entry) {
     });
 }
 
-/// A number in the parameter's unit, "2%", or either with " uniform" behind it.
+/// A number in the parameter's unit, "2%", or either with " uniform" or " normal" behind it.
 DesignTolerance DesignReader::tolerance_of(const TomlEntry& entry) const {
     DesignTolerance result;
     if (!entry.node->is_string()) {
         result.size = number(entry);
     } else {
         std::string text = reader_.toml().line(entry);
-        if (const std::size_t word = text.find(" uniform"); word != std::string::npos && word + 8 == text.size()) {
+        const auto ends_with = [&](std::string_view word) {
+            const bool does = text.ends_with(word);
+            if (does)
+                text.resize(text.size() - word.size());
+            return does;
+        };
+        if (ends_with(" uniform"))
             result.spread = Spread::uniform;
-            text.resize(word);
-        }
+        else
+            ends_with(" normal");
+        if (const std::size_t word = text.find_last_of("% "); word + 1 < text.size() && word != std::string::npos &&
+                                                              is_valid_name(text.substr(word + 1)) &&
+                                                              !design_.model.find_parameter(text.substr(word + 1)))
+            reader_.fail(entry, fmt::format("'{}' is no way in which devices differ", text.substr(word + 1)),
+                         "write \"1%\" for a standard deviation of one percent, \"1% uniform\" for the largest "
+                         "departure");
+        while (text.ends_with(' '))
+            text.pop_back();
         result.share = !text.empty() && text.back() == '%';
         if (result.share)
             text.pop_back();
@@ -288,15 +304,20 @@ void DesignReader::read_dimensions() {
     if (entries.empty() || entries.size() > most_dimensions)
         reader_.fail(*entry, fmt::format("the design has {} dimensions", entries.size()),
                      fmt::format("give from 1 to {}", most_dimensions));
+    for (const TomlEntry& one : entries)
+        dimension_names_.insert(one.name);
     StudyReader::each(entries, [&](const TomlEntry& one) { read_dimension(one); });
 }
 
-std::size_t DesignReader::dimension_named(const TomlEntry& entry) const {
+/// @return none of one that could not be read, which has been told
+std::optional<std::size_t> DesignReader::dimension_named(const TomlEntry& entry) const {
     const std::string name = reader_.toml().line(entry);
     if (const auto place = design_.find_dimension(name))
-        return *place;
+        return place;
+    if (dimension_names_.empty() || dimension_names_.contains(name))
+        return std::nullopt;
     reader_.fail(entry, fmt::format("the design has no dimension '{}'", name),
-                 study_name_remedy(name, names_of(design_.dimensions)));
+                 study_name_remedy(name, {dimension_names_.begin(), dimension_names_.end()}));
 }
 
 /// What is chosen among the dimensions.
@@ -317,10 +338,12 @@ void DesignReader::read_choices() {
             if (pair.size() != 2)
                 reader_.fail(item, fmt::format("{} has {} dimensions", item.path, pair.size()),
                              "name two: [\"A\", \"B\"]");
-            const std::size_t x = dimension_named(pair[0]), y = dimension_named(pair[1]);
-            if (x == y)
+            const std::optional<std::size_t> x = dimension_named(pair[0]), y = dimension_named(pair[1]);
+            if (!x || !y)
+                return;
+            if (*x == *y)
                 reader_.fail(item, fmt::format("{} has one dimension twice", item.path), "name two");
-            design_.planes.emplace_back(x, y);
+            design_.planes.emplace_back(*x, *y);
         });
     }
     if (design_.planes.empty() && design_.dimensions.size() > 1)

@@ -4,6 +4,8 @@
 #include "study/study_reader.hpp"
 
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 
 namespace graze {
@@ -27,7 +29,7 @@ private:
     void read_dimension(const TomlEntry& entry);
     void read_dimensions();
     DesignTolerance tolerance_of(const TomlEntry& entry) const;
-    std::size_t dimension_named(const TomlEntry& entry) const;
+    std::optional<std::size_t> dimension_named(const TomlEntry& entry) const;
     void read_choices();
     void read_yield(const TomlEntry& entry);
     void read_wanted(const TomlEntry& entry);
@@ -41,7 +43,8 @@ private:
     Mistakes mistakes_;
     std::map<std::string, TomlEntry> keys_;
     std::map<std::string, TomlEntry> approach_;
-    bool whole_ = true; ///< whether all that it begins with could be read
+    std::set<std::string> dimension_names_; ///< also of those that could not be read
+    bool whole_ = true;                     ///< whether all that it begins with could be read
 };
 
 } // namespace graze

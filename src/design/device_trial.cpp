@@ -116,19 +116,53 @@ void try_below(DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, co
                 : fmt::format("{} contacts in {} periods", count.contacts(), options.cycles);
 }
 
+/// The motion that begins on the orbit of the trip point, above it, until an end.
+TripTime tripping(const DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, const TripEnd& end,
+                  double cycles, const DeviceTrialOptions& options) {
+    TripOptions numbers;
+    numbers.cycles = cycles;
+    numbers.interrupted = options.interrupted;
+    std::vector<double> parameters = orbit.parameters;
+    parameters[trip.control.place()] = trial.above;
+    return simulate_until(trip.system, parameters, orbit.starts.front(), orbit.signature.front().mode, orbit.period(),
+                          end, numbers);
+}
+
 void try_above(DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, const TripRequest& request,
                const DeviceTrialOptions& options) {
-    TripOptions numbers;
-    numbers.cycles = request.cycles;
-    numbers.interrupted = options.interrupted;
-    Orbit moved = orbit;
-    moved.parameters[trip.control.place()] = trial.above;
-    trial.trip = simulate_until(trip.system, moved.parameters, orbit.starts.front(), orbit.signature.front().mode,
-                                orbit.period(), request.end, numbers);
+    trial.trip = tripping(trial, trip, orbit, request.end, request.cycles, options);
     trial.trips_above = trial.trip.ended;
     trial.seen_above = trial.trip.ended
                            ? fmt::format("{} after {:.6g} periods", trial.trip.ending, trial.trip.cycles)
                            : fmt::format("no trip within {:.6g} periods ({})", trial.trip.cycles, trial.trip.ending);
+}
+
+/// Whether a motion that has not come to the end that counts as tripped tells nothing of the class.
+/// @return why, and what to do; empty where it does tell
+std::string undecided_above(const DeviceTrial& trial, const TripPoint& trip, const Orbit& orbit, const TripClass& found,
+                            const TripRequest& request, const DeviceTrialOptions& options) {
+    if (trial.trip.ending != name_of(Ending::end_time))
+        return trial.trip.detail.empty() ? "the simulation ended by " + trial.trip.ending : trial.trip.detail;
+    const std::string longer =
+        fmt::format("give more trip.cycles than {:g}, or another end by trip.until", request.cycles);
+    if (!trip.is_touch())
+        return "no orbit is left beyond the fold, but the end that counts as tripped has not come in time; " + longer;
+    if (!found.map || !found.map->exists() || !found.map->clearance_rate || *found.map->clearance_rate == 0)
+        return "";
+    PredictionOptions prediction;
+    prediction.level = level_of_map(*found.map, found.verdict);
+    const PredictedTrip predicted = predicted_trip(*found.map, found.verdict, trial.above - trip.value(), prediction);
+    constexpr double enough = 2; // times what the map predicts
+    const double wait = enough * predicted.cycles + 1;
+    if (predicted.ended && wait > request.cycles)
+        return fmt::format("by the map contacts become hard after {:.6g} cycles only; {}", predicted.cycles, longer);
+    const TripTime grown =
+        tripping(trial, trip, orbit, {.speed = prediction.level, .quantity = {}, .level = 0}, request.cycles, options);
+    if (grown.ended)
+        return fmt::format("contacts have become harder than the map can tell of, {:.6g}, after {:.6g} cycles, but the "
+                           "end that counts as tripped has not come in time; {}",
+                           prediction.level, grown.cycles, longer);
+    return "";
 }
 
 } // namespace
@@ -146,10 +180,17 @@ DeviceTrial try_device(const TripPoint& trip, const Orbit& orbit, const TripClas
     try_above(trial, trip, orbit, request, options);
     if (found.outcome == GrazingOutcome::undecided) {
         trial.outcome = TrialOutcome::undecided;
+        trial.reason = "there is no class to compare with";
         return trial;
     }
     const bool fold = !trip.is_touch() && found.outcome == GrazingOutcome::folds;
     const bool expected = found.outcome == GrazingOutcome::lost || fold;
+    if (trial.rests_below && expected && !trial.trips_above)
+        trial.reason = undecided_above(trial, trip, orbit, found, request, options);
+    if (!trial.reason.empty()) {
+        trial.outcome = TrialOutcome::undecided;
+        return trial;
+    }
     trial.outcome =
         trial.rests_below && trial.trips_above == expected ? TrialOutcome::agreed : TrialOutcome::contradicted;
     return trial;

@@ -302,7 +302,8 @@ Table facts_of(const Design& design, const TripPoint& trip, const DesignReport& 
         facts.add("tuning", "none", report.no_tuning);
     }
     add_yield(facts, report, design, unit);
-    facts.add("trial", name_of(report.trial.outcome), "simulation on both sides of the trip value");
+    facts.add("trial", name_of(report.trial.outcome),
+              report.trial.reason.empty() ? "simulation on both sides of the trip value" : report.trial.reason);
     facts.add("trial_below", report.trial.below, unit, report.trial.seen_below);
     facts.add("trial_above", report.trial.above, unit, report.trial.seen_above);
     return facts.take();

@@ -105,6 +105,32 @@ int fold_side(const SpecialPoint& point) {
     return middle > point.parameter ? -1 : 1;
 }
 
+/// Of the design's own runs the text is no file that a user could look into.
+[[noreturn]] void refuse_run(const Design& design, const std::string& name, std::string failure) {
+    const Approach& approach = design.approach;
+    if (!approach.study.empty())
+        throw InputError(approach.place, fmt::format("run '{}' failed: {}", name, failure), "look at the study's run");
+    for (const std::string& start : {design.file + ":", fmt::format("run '{}'", name)})
+        if (const std::size_t end = failure.find(": "); failure.starts_with(start) && end != std::string::npos)
+            failure.erase(0, end + 2);
+    throw InputError(approach.range_place,
+                     name == settled_run ? fmt::format("at {} = {:g}, where the range begins, there is no orbit: {}",
+                                                       design.control, approach.least, failure)
+                                         : fmt::format("the branch of the approach cannot be followed: {}", failure),
+                     "begin elsewhere, by `range` or `from`");
+}
+
+/// On the way up contacts must begin at a touch: those of a motion that comes from beyond another one end there.
+void require_onset(const Design& design, const TripPoint& trip) {
+    if (!trip.is_touch() || class_at(trip).verdict.side >= 0)
+        return;
+    throw InputError(design.approach.range_place,
+                     fmt::format("at {} = {:g}, where the range begins, the motion has contacts that end at {:.9g}, "
+                                 "instead of beginning there",
+                                 design.control, design.approach.least, trip.value()),
+                     "begin the range where the motion touches nothing");
+}
+
 } // namespace
 
 Study approach_study(const Design& design) {
@@ -127,8 +153,7 @@ TripPoint find_trip_point(const Design& design, const Study& study, const Result
         const StudyRun& planned = *study.find_run(name);
         const StoredRun run(file, name, approach.place);
         if (run.record.status == RunStatus::failed)
-            throw InputError(approach.place, fmt::format("run '{}' failed: {}", name, run.record.failure),
-                             "begin elsewhere, by `from` or `range`");
+            refuse_run(design, name, run.record.failure);
         if (planned.kind != RunKind::follow && name != last)
             continue;
         // Of a run from which another one starts, what comes before that.
@@ -139,13 +164,16 @@ TripPoint find_trip_point(const Design& design, const Study& study, const Result
             const OrbitRecord record = orbit_of_run(file, run.record, label, approach.place);
             if (name == last && is_wanted(design, run.model, record.point, label)) {
                 require_first(design, record.point.solution.orbit);
-                return {System(run.model),
-                        with_condition(record.point, approach.place, label),
-                        design.control_parameter,
-                        name,
-                        label,
-                        std::move(earlier),
-                        fold_side(record.point)};
+                TripPoint trip{System(run.model),
+                               with_condition(record.point, approach.place, label),
+                               design.control_parameter,
+                               name,
+                               label,
+                               std::move(earlier),
+                               fold_side(record.point)};
+                if (approach.study.empty())
+                    require_onset(design, trip);
+                return trip;
             }
             if (record.point.type != PointType::end)
                 earlier.push_back(earlier_of(record, name, design.control_parameter));

@@ -50,13 +50,7 @@ std::vector<double> overshoots_of(const TripRequest& request, double value, int 
     std::vector<double> result;
     for (const double one : request.overshoots)
         result.push_back(sign * one);
-    if (!result.empty())
-        return result;
-    const int size = value != 0 ? static_cast<int>(std::floor(std::log10(std::abs(value)))) : 0;
-    constexpr int least = 20;
-    for (int digits = 2; digits <= least; digits += 2)
-        result.push_back(std::stod(fmt::format("{}1e{}", sign < 0 ? "-" : "", size - digits)));
-    return result;
+    return result.empty() ? usual_overshoots(value, side) : result;
 }
 
 TripTime simulate_until(const System& system, std::span<const double> parameters, std::span<const double> state,

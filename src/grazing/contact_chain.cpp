@@ -138,7 +138,7 @@ private:
         if (!sizes_.is_zero_gain(lift, geometry_.gradient))
             return set_reason(fmt::format("the jump '{}' moves states off the surface of event '{}'", name,
                                           model_.events[touch_.event].name));
-        if (gained.cwiseAbs().maxCoeff() > 0)
+        if (!sizes_.is_zero_gain(gained))
             chain_.only_changes_modes = false;
         chain_.gain += gained;
         return true;
@@ -271,7 +271,12 @@ private:
         const double value = gradient.dot(gain());
         const bool on_surface = sizes_.is_zero_gain(value, gradient);
         if (sizes_.is_zero_rate(rate, gradient, field_)) {
-            set_reason(fmt::format("event '{}' is touched as well", model_.events[event].name));
+            set_reason(
+                is_slid_along(event)
+                    ? fmt::format("the motion slides along the surface of event '{}', which it would leave for a "
+                                  "moment: the orbit goes on as it is, since that counts by a higher power only",
+                                  model_.events[event].name)
+                    : fmt::format("event '{}' is touched as well", model_.events[event].name));
             return never;
         }
         if (rate > 0)
@@ -281,6 +286,17 @@ private:
             return never;
         }
         return -value / rate;
+    }
+
+    /// Whether the touching mode itself keeps an event's function at zero.
+    bool is_slid_along(std::size_t event) const {
+        constexpr double small = 1e-9;
+        const TouchGeometry here = TouchFunctions(system_, touch_.mode, event).at(touch_.state, touch_.parameters);
+        const Eigen::VectorXd &units = sizes_.scales(), own = here.gradient.head(n_).cwiseProduct(units),
+                              rates = here.rate_gradient.head(n_).cwiseProduct(units) * sizes_.time();
+        const Eigen::VectorXd beside = rates - own * (own.dot(rates) / own.squaredNorm());
+        return beside.norm() <= small * own.norm() &&
+               std::abs(here.acceleration) * sizes_.time() * sizes_.time() <= small * own.norm();
     }
 
     static constexpr double small_depth = 1e-12, small_speed = 1e-9; // of 1: speeds are in units of s

@@ -4,6 +4,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
 #include "grazing/return_map.hpp"
+#include "grazing/second_return.hpp"
 #include "orbit/certify.hpp"
 #include "orbit/eigen_index.hpp"
 #include "orbit/newton.hpp"
@@ -79,6 +80,22 @@ void add_parameter(CycleMap& map, const ReturnMap& back, double explicit_rate) {
     map.steady = list_of(steady);
     map.clearance_rate =
         Eigen::Map<const Eigen::VectorXd>(map.gradient.data(), steady.size()).dot(steady) + explicit_rate;
+}
+
+/// Of an impact the states that go around are of the order s, and their squares count; of sliding they do not.
+void add_next_order(CycleMap& map, const OrbitEquations& equations, const OrbitEvaluation& at, const ReturnMap& back,
+                    const TouchFunctions& functions) {
+    const Eigen::Index n = back.matrix.rows();
+    const Eigen::Map<const Eigen::VectorXd> first(map.contact.direction.data(), n),
+        second(map.contact.second.data(), n);
+    if (map.contact.order == MapOrder::linear) {
+        const Eigen::VectorXd gained = back.matrix * second;
+        map.second = list_of(chosen(map.active, gained));
+        map.second_clearance = back.geometry.gradient.head(n).dot(gained);
+    } else if (const auto gain = second_return(equations, at, back, functions, first, second)) {
+        map.second = list_of(chosen(map.active, gain->second));
+        map.second_clearance = gain->value;
+    }
 }
 
 bool is_same_place(const std::vector<double>& one, const std::vector<double>& other, const OrbitEquations& equations,
@@ -189,13 +206,14 @@ std::vector<OrbitTouch> touches_of(const System& system, const Orbit& orbit, con
 }
 
 CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
-                      std::optional<std::size_t> free, AskedContacts asked) {
+                      std::optional<std::size_t> free, AskedContacts asked, bool next_order) {
     const TouchFunctions functions(equations.system(), equations.signature()[touch.segment].mode, touch.event);
-    return cycle_map_of(equations, at, touch, functions, free, asked);
+    return cycle_map_of(equations, at, touch, functions, free, asked, next_order);
 }
 
 CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
-                      const TouchFunctions& functions, std::optional<std::size_t> free, AskedContacts asked) {
+                      const TouchFunctions& functions, std::optional<std::size_t> free, AskedContacts asked,
+                      bool next_order) {
     const System& system = equations.system();
     CycleMap map;
     map.touch = touch;
@@ -225,6 +243,8 @@ CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at
     const TouchGeometry& here = back.geometry;
     const Eigen::VectorXd shift = here.field * (here.rate_gradient.head(n).dot(gained) / here.acceleration);
     map.impact = list_of(chosen(map.active, gained - shift));
+    if (next_order && !map.contact.second.empty() && !touch.at_end)
+        add_next_order(map, equations, at, back, functions);
     return map;
 }
 
@@ -246,11 +266,29 @@ CycleMap cycle_map(const System& system, const Orbit& orbit, const OrbitTouch& t
         map.reason = at.problem.empty() ? "the orbit cannot be followed" : at.problem;
         return map;
     }
-    CycleMap map = cycle_map_of(shooting, at, touch, options.parameter ? std::optional<std::size_t>(0) : std::nullopt);
+    CycleMap map = cycle_map_of(shooting, at, touch, options.parameter ? std::optional<std::size_t>(0) : std::nullopt,
+                                AskedContacts::all, options.next_order);
     map.touches = std::max<std::size_t>(1, touches_in(shooting, at, orbit).size());
     if (map.exists() || map.contact.ends)
         add_times(map, system, orbit);
     return map;
+}
+
+std::vector<double> CycleMap::image(std::span<const double> state, double clearance) const {
+    if (!exists())
+        throw InputError("there is no map of the cycle: " + (reason.empty() ? contact.reason : reason),
+                         "ask whether it exists");
+    if (state.size() != active.size() || !std::isfinite(clearance) ||
+        !std::all_of(state.begin(), state.end(), [](double one) { return std::isfinite(one); }))
+        throw InputError(fmt::format("{} states and the clearance {} do not fit the map", state.size(), clearance),
+                         fmt::format("give {} finite numbers and one", active.size()));
+    const Eigen::Index n = index(active.size());
+    const Eigen::Map<const Eigen::VectorXd> x(state.data(), n), g(gradient.data(), n), b(impact.data(), n);
+    const double depth = std::max(0.0, -(clearance + g.dot(x)));
+    Eigen::VectorXd after = matrix_of(*this) * (x + b * contact.by_depth(depth));
+    if (!second.empty())
+        after += Eigen::Map<const Eigen::VectorXd>(second.data(), n) * contact.second_by_depth(depth);
+    return list_of(after);
 }
 
 std::vector<double> CycleMap::projections(std::size_t count) const {

@@ -6,6 +6,7 @@
 #include "grazing/contact_chain.hpp"
 #include "grazing/local_map.hpp"
 #include "grazing/next_order.hpp"
+#include "grazing/sliding_contact.hpp"
 #include "grazing/touch_geometry.hpp"
 #include "orbit/eigen_index.hpp"
 
@@ -103,10 +104,39 @@ std::string_view name_of(MapOrder order) {
         return "square-root";
     case MapOrder::three_halves:
         return "three-halves";
+    case MapOrder::linear:
+        return "linear";
     case MapOrder::none:
         break;
     }
     return "none";
+}
+
+double DiscontinuityMap::by_depth(double depth) const {
+    switch (order) {
+    case MapOrder::square_root:
+        return std::sqrt(2 * acceleration * depth);
+    case MapOrder::three_halves:
+        return depth * std::sqrt(depth);
+    case MapOrder::linear:
+        return depth;
+    case MapOrder::none:
+        break;
+    }
+    return 0;
+}
+
+double DiscontinuityMap::second_by_depth(double depth) const {
+    switch (order) {
+    case MapOrder::square_root:
+        return 2 * acceleration * depth;
+    case MapOrder::linear:
+        return depth * std::sqrt(depth);
+    case MapOrder::three_halves:
+    case MapOrder::none:
+        break;
+    }
+    return 0;
 }
 
 DiscontinuityMap discontinuity_map(const System& system, const TouchState& touch) {
@@ -151,13 +181,19 @@ DiscontinuityMap local_map(const TouchFunctions& functions, const TouchState& to
         map.reason = "to first order the contact changes nothing";
         return map;
     }
-    if (!chain.leaves_by_surface) {
-        map.reason = fmt::format("mode '{}' is not left at the surface at which it is entered",
-                                 system.model().modes[chain.modes.front()].name);
-        return map;
-    }
     if (asked != AskedContacts::all) {
         map.reason = "the contact is not rigid";
+        return map;
+    }
+    if (!chain.leaves_by_surface) {
+        const SlidingContact contact =
+            sliding_contact(functions, map.touch, geometry, sizes, chain.modes.front(), chain.contacts);
+        map.reason = contact.reason;
+        if (!map.reason.empty())
+            return map;
+        map.order = MapOrder::linear;
+        map.direction = without_remnants(contact.gain, sizes.scales());
+        map.second = without_remnants(contact.next, sizes.scales());
         return map;
     }
     const CompliantContact contact = compliant_contact(functions, map.touch, geometry, sizes, chain.modes.front());

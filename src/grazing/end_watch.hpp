@@ -44,6 +44,8 @@ public:
         trip.time = ending_.empty() ? outcome.time : time_;
         trip.contacts = contacts_;
         trip.speed = speed_;
+        if (!trip.ended)
+            trip.detail = outcome.detail;
         return trip;
     }
 

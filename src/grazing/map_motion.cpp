@@ -25,9 +25,7 @@ namespace {
 /// The map with states measured in their sizes.
 class ScaledMap {
 public:
-    ScaledMap(const CycleMap& map, double clearance)
-        : rigid_(map.contact.order == MapOrder::square_root), clearance_(clearance),
-          acceleration_(map.contact.acceleration) {
+    ScaledMap(const CycleMap& map, double clearance) : map_(map), clearance_(clearance) {
         const Eigen::Index n = index(map.active.size());
         const Eigen::Map<const Eigen::VectorXd> scales(map.scales.data(), n), impact(map.impact.data(), n),
             gradient(map.gradient.data(), n);
@@ -44,15 +42,14 @@ public:
     /// One cycle. @return speed or depth of its contact, 0 without one
     double step() {
         const double depth = std::max(0.0, -(clearance_ + gradient_.dot(state_)));
-        const double speed = rigid_ ? std::sqrt(2 * acceleration_ * depth) : depth;
-        state_ += impact_ * (rigid_ ? speed : depth * std::sqrt(depth));
+        state_ += impact_ * map_.contact.by_depth(depth);
         state_ = (matrix_ * state_).eval();
-        return speed;
+        return map_.contact.order == MapOrder::three_halves ? depth : std::sqrt(2 * map_.contact.acceleration * depth);
     }
 
 private:
-    bool rigid_;
-    double clearance_, acceleration_;
+    const CycleMap& map_;
+    double clearance_;
     Eigen::MatrixXd matrix_;
     Eigen::VectorXd impact_, gradient_, state_;
 };

@@ -57,15 +57,6 @@ Derivatives derivatives_at(const System& system, const TouchState& touch, std::s
     return result;
 }
 
-/// A direction along which the function grows by 1 and its rate does not.
-Eigen::VectorXd off_surface(const TouchGeometry& geometry, const TouchSizes& sizes) {
-    const Eigen::Index n = sizes.scales().size();
-    const Eigen::VectorXd h = geometry.gradient.head(n).cwiseProduct(sizes.scales()),
-                          v = geometry.rate_gradient.head(n).cwiseProduct(sizes.scales());
-    const Eigen::VectorXd along = h - v * (h.dot(v) / v.squaredNorm());
-    return along.cwiseProduct(sizes.scales()) / along.dot(h);
-}
-
 } // namespace
 
 /// The motion meets the surface at the time -s/a - j s^2/(6 a^3), with j the function's third rate; is there moved by
@@ -80,7 +71,7 @@ std::optional<Eigen::VectorXd> next_order_of_impact(const TouchFunctions& functi
     const Eigen::VectorXd bent = (at.second_jump - at.curve) / 2; // K twice along the motion, by half its time^2
     const Eigen::VectorXd carried = at.of_field * first;
     const Eigen::VectorXd result = -first * (at.jerk / (6 * a * a * a)) + (bent - carried) / (a * a) -
-                                   at.of_jump * off_surface(geometry, sizes) / (2 * a);
+                                   at.of_jump * sizes.off_surface(geometry) / (2 * a);
     return result.allFinite() ? std::optional(result) : std::nullopt;
 }
 

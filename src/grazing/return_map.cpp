@@ -79,6 +79,8 @@ private:
             result_.touch.scales.push_back(at_.scales[i]);
         if (run(flow_, functions_.mode(), result_.touch.state, time_, before_) != ModeFlow::Ending::done)
             return refuse("the motion to the touch is not defined");
+        result_.piece = piece_;
+        result_.time = time_;
         result_.geometry = functions_.at(result_.touch.state, at_.parameters);
         return true;
     }

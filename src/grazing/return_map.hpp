@@ -19,6 +19,8 @@ struct ReturnMap {
     std::string reason; ///< why there is none; empty if there is one
     TouchState touch;
     TouchGeometry geometry;
+    std::size_t piece = 0;     ///< in which it is
+    double time = 0;           ///< since that one's start
     Eigen::MatrixXd matrix;    ///< states x states
     Eigen::VectorXd parameter; ///< the same with respect to a free parameter; empty without one
 };
@@ -30,9 +32,11 @@ ReturnMap return_map(const OrbitEquations& equations, const OrbitEvaluation& at,
 
 /// The map of the cycle from it. @param free as above
 CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
-                      std::optional<std::size_t> free, AskedContacts asked = AskedContacts::all);
+                      std::optional<std::size_t> free, AskedContacts asked = AskedContacts::all,
+                      bool next_order = false);
 /// The same with the touched function compiled already.
 CycleMap cycle_map_of(const OrbitEquations& equations, const OrbitEvaluation& at, const OrbitTouch& touch,
-                      const TouchFunctions& functions, std::optional<std::size_t> free, AskedContacts asked);
+                      const TouchFunctions& functions, std::optional<std::size_t> free, AskedContacts asked,
+                      bool next_order = false);
 
 } // namespace graze

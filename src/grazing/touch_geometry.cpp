@@ -70,6 +70,13 @@ bool TouchSizes::is_zero_gain(double gain, const Eigen::VectorXd& gradient) cons
     return std::abs(gain) * speed_ <= small_gain * gradient.head(scales_.size()).cwiseAbs().dot(scales_);
 }
 
+Eigen::VectorXd TouchSizes::off_surface(const TouchGeometry& geometry) const {
+    const Eigen::VectorXd h = geometry.gradient.head(scales_.size()).cwiseProduct(scales_),
+                          v = geometry.rate_gradient.head(scales_.size()).cwiseProduct(scales_);
+    const Eigen::VectorXd along = h - v * (h.dot(v) / v.squaredNorm());
+    return along.cwiseProduct(scales_) / along.dot(h);
+}
+
 bool TouchSizes::is_zero_gain(const Eigen::VectorXd& gain) const {
     return (gain.cwiseQuotient(scales_) * speed_).cwiseAbs().maxCoeff() <= small_gain;
 }

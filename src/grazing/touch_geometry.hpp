@@ -45,6 +45,8 @@ public:
     bool is_zero_gain(double gain, const Eigen::VectorXd& gradient) const;
     /// What the states gain.
     bool is_zero_gain(const Eigen::VectorXd& gain) const;
+    /// A direction along which the function grows by 1 and its rate does not: the least one, in the states' sizes.
+    Eigen::VectorXd off_surface(const TouchGeometry& geometry) const;
     const Eigen::VectorXd& scales() const { return scales_; }
     double time() const { return time_; }
 

@@ -81,14 +81,14 @@ class Experiment {
 public:
     Experiment(const System& system, const CycleMap& map, ParameterId parameter, const TrialOptions& options)
         : simulation_(system, {}, {}, integration(options.tolerance)), map_(map), parameter_(parameter),
-          options_(options), rigid_(map.contact.order == MapOrder::square_root) {
+          options_(options), compliant_(map.contact.order == MapOrder::three_halves) {
         for (std::size_t i = 0; i < map.contact.touch.state.size(); ++i)
             size_ += std::abs(map.contact.gradient[i]) * map.contact.touch.scales[i];
     }
 
     /// Of the event's function.
     double size() const { return size_; }
-    bool is_rigid() const { return rigid_; }
+    bool is_compliant() const { return compliant_; }
     double speed_at(double clearance) const { return std::sqrt(-2 * map_.contact.acceleration * clearance); }
     /// The parameter is a number with so many digits: clearances must be far larger than what they leave open.
     double least_clearance() const {
@@ -123,7 +123,7 @@ public:
         motion.ended = ending == Ending::singular || ending == Ending::terminal;
         motion.followed = motion.ended || ending == Ending::end_time;
         motion.contacts = greatest.contacts();
-        motion.largest = rigid_ ? greatest.speed() : greatest.depth();
+        motion.largest = compliant_ ? greatest.depth() : greatest.speed();
         if (!map_.exists())
             return motion;
         MapMotionOptions map_options;
@@ -138,7 +138,7 @@ private:
     const CycleMap& map_;
     ParameterId parameter_;
     const TrialOptions& options_;
-    bool rigid_;
+    bool compliant_;
     double size_ = 0;
 };
 
@@ -167,8 +167,10 @@ Trial try_ending(const Experiment& experiment) {
 Trial try_loss(const Experiment& experiment, const Verdict& verdict, const TrialOptions& options) {
     Trial trial;
     const double least = experiment.least_clearance();
-    // Contacts go on growing only as long as they are slower than the reach of the growth.
-    const double room = *verdict.reach / experiment.speed_at(-least);
+    // Contacts go on growing only as long as they are slower than the reach of the growth. That of sliding is not
+    // known: what goes as deep as the function is large is no neighbour any more.
+    const double reach = verdict.reach ? *verdict.reach : 0.1 * experiment.speed_at(-experiment.size());
+    const double room = reach / experiment.speed_at(-least);
     if (!(room > growth))
         return with_reason(trial, TrialOutcome::undecided,
                            fmt::format("speeds would grow by a factor of {:.3g} only from the softest contacts that "
@@ -212,7 +214,7 @@ Trial try_persistence(const Experiment& experiment) {
     if (!near.ended && !near.followed)
         return with_reason(trial, TrialOutcome::undecided, "the motion could not be followed to its end");
     // Speeds by the root of the distance, depths of compliant contacts by the distance itself.
-    const double shrunk = experiment.is_rigid() ? std::sqrt(nearer) : nearer;
+    const double shrunk = experiment.is_compliant() ? nearer : std::sqrt(nearer);
     const bool shrinks = is_near(far.largest, shrunk * near.largest, alike);
     if (!far.ended && !near.ended && near.contacts > 0 && shrinks && is_near(near.largest, near.predicted, alike))
         return with_reason(trial, TrialOutcome::agreed, "contacts are as soft as the map has them");

@@ -155,6 +155,16 @@ bool hand_over(PredictedTrip& trip, const Passes& passes, bool half) {
 
 } // namespace
 
+std::vector<double> usual_overshoots(double value, int side) {
+    const int size = value != 0 ? static_cast<int>(std::floor(std::log10(std::abs(value)))) : 0;
+    const char* sign = side < 0 ? "-" : "";
+    constexpr int least = 20;
+    std::vector<double> result;
+    for (int digits = 2; digits <= least; digits += 2)
+        result.push_back(std::stod(fmt::format("{}1e{}", sign, size - digits)));
+    return result;
+}
+
 TouchMeeting meeting_of(const CycleMap& map, double overshoot, std::span<const double> disturbance) {
     TouchMeeting meeting;
     meeting.gap = explicit_rate(map) * overshoot;
@@ -172,6 +182,9 @@ TouchMeeting meeting_of(const CycleMap& map, double overshoot, std::span<const d
 constexpr double trusted_share = 0.1;
 
 double level_of_map(const CycleMap& map, const Verdict& verdict) {
+    if (verdict.outcome == GrazingOutcome::lost && map.contact.order == MapOrder::linear)
+        throw InputError("the times of trips are those of rigid contacts, and here the motion slides",
+                         "simulate it instead, with the parameter beyond the touch");
     if (verdict.outcome != GrazingOutcome::lost || !verdict.reach)
         throw InputError(fmt::format("the verdict is {}{}: there is no trip", name_of(verdict.outcome),
                                      verdict.reason.empty() ? "" : " (" + verdict.reason + ")"),

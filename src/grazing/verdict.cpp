@@ -1,5 +1,6 @@
 #include "graze/grazing/verdict.hpp"
 
+#include "graze/grazing/map_motion.hpp"
 #include "orbit/eigen_index.hpp"
 
 #include <Eigen/Dense>
@@ -240,6 +241,53 @@ void judge_compliant(const CycleMap& map, Verdict& verdict) {
     verdict.outcome = chi < 0 && !lost && near ? GrazingOutcome::folds : GrazingOutcome::persists;
 }
 
+/// Real multipliers beyond 1 on one side. @param sign of the side
+std::size_t count_beyond(const Eigen::VectorXcd& multipliers, double sign) {
+    return static_cast<std::size_t>(std::count_if(
+        multipliers.begin(), multipliers.end(), [&](Complex one) { return one.imag() == 0 && sign * one.real() > 1; }));
+}
+
+void judge_sliding(const CycleMap& map, Verdict& verdict) {
+    const Scaled scaled(map);
+    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(scaled.matrix.rows(), scaled.matrix.cols());
+    const Eigen::VectorXcd multipliers =
+        Eigen::MatrixXd(scaled.matrix * (identity - scaled.impact * scaled.gradient.transpose())).eigenvalues();
+    if (map.clearance_rate)
+        verdict.first_speed = std::sqrt(2 * map.contact.acceleration * std::abs(*map.clearance_rate));
+    const double leading = multipliers.cwiseAbs().maxCoeff();
+    verdict.leading = leading;
+    if ((multipliers.cwiseAbs().array() - 1).abs().minCoeff() <= vanishing) {
+        verdict.reason = "the orbit that slides has a multiplier on the unit circle";
+        return;
+    }
+    // The orbit that touches is stable: it has no multipliers beyond.
+    verdict.border = count_beyond(multipliers, 1) % 2 == 0 ? BorderCollision::persistence : BorderCollision::fold;
+    verdict.doubles = count_beyond(multipliers, -1) % 2 == 1;
+    if (leading < 1) {
+        verdict.outcome = GrazingOutcome::persists;
+        verdict.attractor = AttractorKind::periodic;
+        verdict.slides = verdict.in = 1;
+        return;
+    }
+    // All is in proportion to the clearance. What grows does so by the leading multiplier, if slowly.
+    constexpr double clearance = 1e-8, far = 1e6, slow = 1.01;
+    const double size = clearance * scaled.gradient.cwiseAbs().sum();
+    const MapMotion motion = map_motion(map, -size);
+    const double depth = motion.largest * motion.largest / (2 * map.contact.acceleration);
+    if (!motion.bounded || depth > far * size) {
+        verdict.outcome = GrazingOutcome::lost;
+        return;
+    }
+    if (motion.period == 0 && leading < slow) {
+        verdict.reason = "motions leave the orbit that slides too slowly to tell what becomes of them";
+        return;
+    }
+    verdict.outcome = GrazingOutcome::persists;
+    verdict.attractor = motion.period > 0 ? AttractorKind::periodic : AttractorKind::chaotic;
+    verdict.slides = motion.contacts;
+    verdict.in = motion.period;
+}
+
 } // namespace
 
 std::string_view name_of(GrazingOutcome outcome) {
@@ -264,7 +312,21 @@ std::string_view name_of(AttractorKind kind) {
         return "periodic-windows";
     case AttractorKind::chaotic:
         return "chaotic";
+    case AttractorKind::periodic:
+        return "periodic";
     case AttractorKind::none:
+        break;
+    }
+    return "none";
+}
+
+std::string_view name_of(BorderCollision collision) {
+    switch (collision) {
+    case BorderCollision::persistence:
+        return "persistence";
+    case BorderCollision::fold:
+        return "fold";
+    case BorderCollision::none:
         break;
     }
     return "none";
@@ -293,6 +355,8 @@ Verdict verdict_of(const CycleMap& map, std::size_t shown) {
     }
     if (map.contact.order == MapOrder::square_root)
         judge_rigid(map, verdict);
+    else if (map.contact.order == MapOrder::linear)
+        judge_sliding(map, verdict);
     else
         judge_compliant(map, verdict);
     return verdict;

@@ -12,15 +12,14 @@
 
 namespace graze {
 
-toml::table parse_toml(std::string_view text, const std::string& file) {
+toml::table parse_toml(std::string_view text, const std::string& file, const char* remedy) {
     guard_toml(text, SourceText(text, file));
     try {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
         const toml::source_position at = error.source().begin;
         throw InputError({file, static_cast<int>(at.line), static_cast<int>(at.column)},
-                         fmt::format("this is not TOML: {}", error.description()),
-                         "docs/model-format.md shows how a model is written");
+                         fmt::format("this is not TOML: {}", error.description()), remedy);
     }
 }
 

@@ -24,8 +24,10 @@ struct TomlEntry {
     const toml::node* node = nullptr;
 };
 
-/// Parses TOML text. @throws InputError with the place, also for nesting that would exhaust the stack
-toml::table parse_toml(std::string_view text, const std::string& file);
+/// Parses TOML text. @param remedy where it is shown how such a file is written
+/// @throws InputError with the place, also for nesting that would exhaust the stack
+toml::table parse_toml(std::string_view text, const std::string& file,
+                       const char* remedy = "docs/model-format.md shows how a model is written");
 
 /// Reads typed values from nodes of a file; every mistake is an InputError with the place of the node.
 class TomlReader {

@@ -21,9 +21,31 @@ void StateScales::note(std::span<const double> state) {
     }
 }
 
+bool StateScales::rests(std::size_t i) const {
+    constexpr double at_rest = 1e-14;
+    return !(greatest_[i] - least_[i] > at_rest * sizes_[i]);
+}
+
+/// A velocity at an equilibrium is nought but for round-off, and is measured by what it does to displacements. At a
+/// fold that is all there is: they do not act on it.
+/// @return 0 for states that are of a size of their own, or act on others that do not rest
+double StateScales::scale_by_effect(std::size_t i, std::span<const double> own, std::span<const double> periods,
+                                    const Eigen::MatrixXd& coupling) const {
+    constexpr double no_effect = 1e-10, share = 1e-3;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 0; j < own.size(); ++j) {
+        const double acts = coupling(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(i));
+        if (j == i || periods[j] > 0 || !(acts > 0) || !(own[j] > 0))
+            continue;
+        if (!rests(j) || !(own[i] * acts < no_effect * own[j]))
+            return 0;
+        least = std::min(least, own[j] / acts);
+    }
+    return periods[i] == 0 && std::isfinite(least) ? share * least : 0;
+}
+
 std::vector<double> StateScales::choose(std::span<const double> periods, const Eigen::MatrixXd& coupling) {
     constexpr double smallest_share = 1e-3; // of the size, for what hardly moves
-    constexpr double at_rest = 1e-14;
     constexpr double smallest_scale = 1e-2; // of the largest so far
     // What is smaller than the others by this is zero, by a symmetry, but for what has not decayed yet.
     constexpr double negligible = 1e-25;
@@ -35,7 +57,7 @@ std::vector<double> StateScales::choose(std::span<const double> periods, const E
         double& scale = own[i];
         scale = periods[i] > 0 ? periods[i] : greatest_[i] - least_[i];
         // Of what rests all along the orbit, as between the jumps of a map, nothing but its size is known.
-        if (!(scale > at_rest * sizes_[i]))
+        if (periods[i] == 0 && rests(i))
             scale = sizes_[i];
         else if (!(scale > smallest_share * sizes_[i]))
             scale = smallest_share * sizes_[i];
@@ -55,6 +77,7 @@ std::vector<double> StateScales::choose(std::span<const double> periods, const E
             scales[i] =
                 std::max(scales[i], round_off_share *
                                         coupling(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * own[j]);
+        scales[i] = std::max(scales[i], scale_by_effect(i, own, periods, coupling));
         largest_[i] = std::max(largest_[i], scales[i]);
         scales[i] = std::max(scales[i], smallest_scale * largest_[i]);
     }

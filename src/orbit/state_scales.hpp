@@ -22,6 +22,10 @@ public:
     std::vector<double> choose(std::span<const double> periods, const Eigen::MatrixXd& coupling);
 
 private:
+    bool rests(std::size_t i) const;
+    double scale_by_effect(std::size_t i, std::span<const double> own, std::span<const double> periods,
+                           const Eigen::MatrixXd& coupling) const;
+
     std::vector<double> least_, greatest_, sizes_, largest_;
 };
 

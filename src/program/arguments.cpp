@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/parser.hpp"
 #include "program/branch_arguments.hpp"
+#include "program/declared_option.hpp"
 #include "program/design_arguments.hpp"
 #include "program/help_arguments.hpp"
 #include "program/identify_arguments.hpp"
@@ -19,6 +20,8 @@
 #include <map>
 #include <memory>
 #include <sstream>
+#include <string>
+#include <thread>
 #include <type_traits>
 
 namespace graze {
@@ -71,27 +74,6 @@ constexpr const char* simulate_examples = R"(Examples:
   graze simulate mems-switch --contacts --event stop --format csv
   graze simulate impact-oscillator --skip 100 --periods 5 --quantity energy --samples 1000 --output run.csv)";
 
-const std::map<std::string, TableFormat> formats{
-    {"table", TableFormat::table}, {"csv", TableFormat::csv}, {"json", TableFormat::json}};
-
-void declare_output(CLI::App& command, OutputArguments& output, const std::string& file_option) {
-    command.add_option("--format", output.format, "table (default), csv or json")
-        ->type_name("FORMAT")
-        ->transform(CLI::Transformer(formats).description(""))
-        ->group("Output");
-    command
-        .add_option("--digits", output.digits,
-                    "Significant digits of numbers (8; 17 of csv and json, which lose nothing)")
-        ->type_name("N")
-        ->check(whole_number(1, 17))
-        ->group("Output");
-    if (!file_option.empty())
-        command.add_option(file_option, output.file, "Write the table there instead of to standard output")
-            ->type_name("FILE")
-            ->check(not_empty())
-            ->group("Output");
-}
-
 void declare_check(CLI::App& app, CheckArguments& arguments) {
     CLI::App& command = *app.add_subcommand("check", check_text);
     command.footer(check_examples);
@@ -101,7 +83,7 @@ void declare_check(CLI::App& app, CheckArguments& arguments) {
                     "Draw the modes and the transitions between them (svg, png or pdf by Graphviz; dot without it)")
         ->type_name("FILE")
         ->check(not_empty());
-    declare_output(command, arguments.output, "--output");
+    declare_output(command, arguments.output);
 }
 
 void declare_models(CLI::App& app, ModelsArguments& arguments) {
@@ -121,7 +103,7 @@ void declare_models(CLI::App& app, ModelsArguments& arguments) {
     command.add_option("--points", arguments.points, "Simpson's intervals (even) or Gauss's nodes (20)")
         ->type_name("N")
         ->group("Microbeam");
-    declare_output(command, arguments.output, "");
+    declare_digits(command, arguments.output);
 }
 
 /// In the list of commands only the first line of each one's description is shown.
@@ -135,61 +117,61 @@ public:
     }
 };
 
-template <typename Target>
-CLI::Option* add(CLI::App& command, const char* group, const char* name, Target& target, const char* type,
-                 const char* text) {
-    CLI::Option* option = command.add_option(name, target, text)->type_name(type)->group(group);
-    return std::is_same_v<Target, std::string> || std::is_same_v<Target, std::vector<std::string>>
-               ? option->check(not_empty())
-               : option;
-}
-
 void declare_length(CLI::App& command, SimulateArguments& arguments) {
     const char* group = "How long (20 periods unless told)";
-    add(command, group, "--time", arguments.time, "T", "For this time");
-    add(command, group, "--periods", arguments.periods, "N", "For so many periods of the cyclic state");
-    add(command, group, "--contacts", arguments.contact_count, "[N]",
-        "With a number: until so many contacts; without: the table of contacts");
-    add(command, group, "--phase", arguments.phase, "STATE",
-        "The cyclic state whose periods count, if there are several");
-    add(command, group, "--skip", arguments.skip, "N", "First let pass so many periods, of which nothing is shown");
-    add(command, group, "--after", arguments.after, "T", "First let pass this time, of which nothing is shown");
+    declare_option(command, group, "--time", arguments.time, "T", "For this time");
+    declare_option(command, group, "--periods", arguments.periods, "N", "For so many periods of the cyclic state");
+    declare_option(command, group, "--contacts", arguments.contact_count, "[N]",
+                   "With a number: until so many contacts; without: the table of contacts");
+    declare_option(command, group, "--phase", arguments.phase, "STATE",
+                   "The cyclic state whose periods count, if there are several");
+    declare_option(command, group, "--skip", arguments.skip, "N",
+                   "First let pass so many periods, of which nothing is shown");
+    declare_option(command, group, "--after", arguments.after, "T",
+                   "First let pass this time, of which nothing is shown");
 }
 
 void declare_tables(CLI::App& command, SimulateArguments& arguments) {
     const char* group = "What to show";
-    add(command, group, "--section", arguments.sections, "NAME", "States whenever these sections are passed");
-    add(command, group, "--extrema", arguments.extrema, "EXPR", "States at maxima and minima of these expressions");
-    add(command, group, "--event", arguments.events, "NAME", "Of all contacts, show and count only these events'");
-    add(command, group, "--quantity", arguments.quantities, "EXPR",
-        "More columns: quantities of the model, or any expressions in its names");
+    declare_option(command, group, "--section", arguments.sections, "NAME",
+                   "States whenever these sections are passed");
+    declare_option(command, group, "--extrema", arguments.extrema, "EXPR",
+                   "States at maxima and minima of these expressions");
+    declare_option(command, group, "--event", arguments.events, "NAME",
+                   "Of all contacts, show and count only these events'");
+    declare_option(command, group, "--quantity", arguments.quantities, "EXPR",
+                   "More columns: quantities of the model, or any expressions in its names");
     command
         .add_flag("--minima", arguments.minima, "Guaranteed least values of the watched event functions in each arc")
         ->group(group);
-    add(command, group, "--derivatives", arguments.derivatives, "NAME",
-        "Derivatives of the final state with respect to initial states and parameters, or `all`");
-    add(command, group, "--samples", arguments.samples, "N", "Number of rows at equal distances of time (500)");
-    add(command, group, "--every", arguments.every, "DT", "Distance of these rows in time, instead of their number");
-    add(command, group, "--table", arguments.table, "TABLE",
-        "samples, contacts, sections, extrema, minima, derivatives or summary, if the above leaves it open");
+    declare_option(command, group, "--derivatives", arguments.derivatives, "NAME",
+                   "Derivatives of the final state with respect to initial states and parameters, or `all`");
+    declare_option(command, group, "--samples", arguments.samples, "N",
+                   "Number of rows at equal distances of time (500)");
+    declare_option(command, group, "--every", arguments.every, "DT",
+                   "Distance of these rows in time, instead of their number");
+    declare_option(command, group, "--table", arguments.table, "TABLE",
+                   "samples, contacts, sections, extrema, minima, derivatives or summary, if the above leaves it open");
 }
 
 void declare_plot(CLI::App& command, SimulateArguments& arguments) {
     const char* group = "Picture";
-    add(command, group, "--plot", arguments.plot, "FILE",
+    declare_option(
+        command, group, "--plot", arguments.plot, "FILE",
         "Time histories and phase portrait as svg, png or pdf, by gnuplot. --quantity chooses what is shown");
-    add(command, group, "--portrait", arguments.portraits, "X,Y", "Phase portraits of these (a state and its velocity)")
+    declare_option(command, group, "--portrait", arguments.portraits, "X,Y",
+                   "Phase portraits of these (a state and its velocity)")
         ->expected(1, -1);
-    add(command, group, "--data,--plot-data", arguments.plot_data, "FILE",
-        "Keep data and commands of the picture, to be changed and drawn by `gnuplot FILE`");
+    declare_option(command, group, "--data,--plot-data", arguments.plot_data, "FILE",
+                   "Keep data and commands of the picture, to be changed and drawn by `gnuplot FILE`");
 }
 
 void declare_method(CLI::App& command, SimulateArguments& arguments) {
     const char* group = "Method";
-    add(command, group, "--tolerance", arguments.tolerance, "TOL", "Relative error of each step (1e-12)");
-    add(command, group, "--order", arguments.order, "N", "Of the Taylor polynomials (chosen by tolerance)");
-    add(command, group, "--largest-step", arguments.largest_step, "T", "Bound on steps (none)");
-    add(command, group, "--steps", arguments.steps, "N", "End after so many steps (100 million)")
+    declare_option(command, group, "--tolerance", arguments.tolerance, "TOL", "Relative error of each step (1e-12)");
+    declare_option(command, group, "--order", arguments.order, "N", "Of the Taylor polynomials (chosen by tolerance)");
+    declare_option(command, group, "--largest-step", arguments.largest_step, "T", "Bound on steps (none)");
+    declare_option(command, group, "--steps", arguments.steps, "N", "End after so many steps (100 million)")
         ->check(whole_number(1, 1'000'000'000'000));
     command.add_flag("--progress", arguments.progress, "Show progress even if standard error is no terminal")
         ->group(group);
@@ -201,14 +183,14 @@ void declare_simulate(CLI::App& app, SimulateArguments& arguments) {
     command.footer(simulate_examples);
     command.add_option("MODEL", arguments.model, "Name of a shipped model, or a file")->type_name("")->required();
     const char* group = "Where from";
-    add(command, group, "--set", arguments.set, "NAME=VALUE", "Values of parameters");
-    add(command, group, "--from", arguments.from, "NAME=VALUE", "Initial values of states");
-    add(command, group, "--mode", arguments.mode, "NAME", "Initial mode");
+    declare_option(command, group, "--set", arguments.set, "NAME=VALUE", "Values of parameters");
+    declare_option(command, group, "--from", arguments.from, "NAME=VALUE", "Initial values of states");
+    declare_option(command, group, "--mode", arguments.mode, "NAME", "Initial mode");
     declare_length(command, arguments);
     command.add_flag("--contact-table", arguments.contacts)->group(""); // see with_joined_counts
     declare_tables(command, arguments);
     declare_plot(command, arguments);
-    declare_output(command, arguments.output, "--output");
+    declare_output(command, arguments.output);
     command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal")
         ->group("Output");
     declare_method(command, arguments);
@@ -319,6 +301,10 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
 
 CLI::Validator not_empty() {
     return CLI::Validator([](std::string& text) { return text.empty() ? "its value is empty" : std::string(); }, "");
+}
+
+int threads_for(int jobs) {
+    return jobs > 0 ? jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
 void declare_arguments(CLI::App& app, Arguments& arguments) {

@@ -202,6 +202,9 @@ CLI::Validator one_of(const std::vector<std::string>& words);
 /// Refuses what an unset variable of a script leaves: it would silently count as if the option were not there.
 CLI::Validator not_empty();
 
+/// Threads of an option `--jobs`: as many as there are cores if it is 0.
+int threads_for(int jobs);
+
 /// Declares the command line: one sub-command each for the members of `arguments`.
 void declare_arguments(CLI::App& app, Arguments& arguments);
 

@@ -1,10 +1,9 @@
 #include "program/branch_arguments.hpp"
 
 #include "graze/branch/special_point.hpp"
+#include "program/declared_option.hpp"
 
 #include <fmt/format.h>
-
-#include <map>
 
 namespace graze {
 
@@ -86,35 +85,6 @@ constexpr const char* tolerance_examples = R"(Examples:
   graze tolerance results GR1 --vary delta=1%,zeta=0.002
   graze tolerance results GR1 --vary delta=0.01:uniform --within 0.19:0.21 --plot yield.svg)";
 
-template <class Value>
-CLI::Option* add(CLI::App& command, const char* group, const char* name, Value& value, const char* type,
-                 const char* text) {
-    return command.add_option(name, value, text)->type_name(type)->group(group);
-}
-
-void declare_output(CLI::App& command, OutputArguments& output) {
-    static const std::map<std::string, TableFormat> formats{
-        {"table", TableFormat::table}, {"csv", TableFormat::csv}, {"json", TableFormat::json}};
-    add(command, "Output", "--format", output.format, "FORMAT", "table (default), csv or json")
-        ->transform(CLI::Transformer(formats).description(""));
-    add(command, "Output", "--digits", output.digits, "N",
-        "Significant digits of numbers (8; 17 of csv and json, which lose nothing)")
-        ->check(whole_number(1, 17));
-    add(command, "Output", "--output", output.file, "FILE", "Write the table there instead of to standard output");
-}
-
-/// Output of tables that may be too wide for a terminal.
-void declare_table(CLI::App& command, OutputArguments& output) {
-    declare_output(command, output);
-    command.add_flag("--all", output.all, "All columns of a table, also those that do not fit a terminal")
-        ->group("Output");
-}
-
-void declare_data(CLI::App& command, std::string& data) {
-    add(command, "Picture", "--data", data, "FILE",
-        "Keep data and commands, to be changed and drawn by `gnuplot FILE`");
-}
-
 /// A command about one point of a branch.
 template <class PointArguments>
 CLI::App& declare_of_point(CLI::App& app, const char* name, const char* text, const char* examples,
@@ -131,8 +101,8 @@ void declare_points(CLI::App& app, PointsArguments& arguments) {
     command.footer(points_examples);
     command.add_option("FILE", arguments.file, "Result file, or the folder of a study")->type_name("")->required();
     const char* group = "What to show";
-    add(command, group, "--run", arguments.runs, "RUN", "Only these runs (all branches)");
-    add(command, group, "--type", arguments.types, "TYPE", "Only points of these types, such as GR,SN");
+    declare_option(command, group, "--run", arguments.runs, "RUN", "Only these runs (all branches)");
+    declare_option(command, group, "--type", arguments.types, "TYPE", "Only points of these types, such as GR,SN");
     command.add_flag("--all", arguments.output.all, "The regular points between them too (type RG), and all columns")
         ->group(group);
     declare_output(command, arguments.output);
@@ -141,107 +111,115 @@ void declare_points(CLI::App& app, PointsArguments& arguments) {
 void declare_orbit(CLI::App& app, OrbitArguments& arguments) {
     CLI::App& command = declare_of_point(app, "orbit", orbit_text, orbit_examples, arguments);
     const char* group = "What to show";
-    add(command, group, "--quantity", arguments.quantities, "EXPR",
-        "More columns: quantities of the model, or any expressions in its names");
-    add(command, group, "--samples", arguments.samples, "N", "About so many rows of the whole period (200)")
+    declare_option(command, group, "--quantity", arguments.quantities, "EXPR",
+                   "More columns: quantities of the model, or any expressions in its names");
+    declare_option(command, group, "--samples", arguments.samples, "N", "About so many rows of the whole period (200)")
         ->check(whole_number(1, 1'000'000));
     declare_table(command, arguments.output);
     group = "Picture";
-    add(command, group, "--plot", arguments.plot, "FILE", "Draw it instead, as svg, png or pdf");
-    add(command, group, "--x", arguments.x, "NAME", "Horizontal axis: a value, or t for histories (a state)");
-    add(command, group, "--y", arguments.y, "NAME",
-        "Vertical axes, one panel each (its velocity; of histories all states)");
+    declare_option(command, group, "--plot", arguments.plot, "FILE", "Draw it instead, as svg, png or pdf");
+    declare_option(command, group, "--x", arguments.x, "NAME",
+                   "Horizontal axis: a value, or t for histories (a state)");
+    declare_option(command, group, "--y", arguments.y, "NAME",
+                   "Vertical axes, one panel each (its velocity; of histories all states)");
     declare_data(command, arguments.data);
 }
 
 void declare_grazing(CLI::App& app, GrazingArguments& arguments) {
     CLI::App& command = declare_of_point(app, "grazing", grazing_text, grazing_examples, arguments);
     const char* group = "What to show";
-    add(command, group, "--parameter", arguments.parameter, "NAME",
-        "That moves the orbit from its touch (the one that its run follows)");
+    declare_option(command, group, "--parameter", arguments.parameter, "NAME",
+                   "That moves the orbit from its touch (the one that its run follows)");
     command.add_flag("--verify", arguments.verify, "Check the verdict by simulation beside the touch")->group(group);
     declare_table(command, arguments.output);
 }
 
 void declare_disturbances(CLI::App& command, TripArguments& arguments) {
     const char* group = "Parameter that changes in time";
-    add(command, group, "--ramp", arguments.ramps, "RATES",
-        "It rises or falls steadily: rates by time, as a list or by decades");
-    add(command, group, "--wave", arguments.waves, "AMPLITUDES", "It swings about the value of --at");
-    add(command, group, "--wave-period", arguments.wave_period, "CYCLES", "Period of the wave (100)")
+    declare_option(command, group, "--ramp", arguments.ramps, "RATES",
+                   "It rises or falls steadily: rates by time, as a list or by decades");
+    declare_option(command, group, "--wave", arguments.waves, "AMPLITUDES", "It swings about the value of --at");
+    declare_option(command, group, "--wave-period", arguments.wave_period, "CYCLES", "Period of the wave (100)")
         ->check(CLI::PositiveNumber);
-    add(command, group, "--noise", arguments.noises, "LEVELS",
-        "It is the value of --at plus noise of these standard deviations, constant in each cycle");
-    add(command, group, "--memory", arguments.memory, "CYCLES",
-        "After which the noise has forgotten all but 1/e of itself (0: at once)")
+    declare_option(command, group, "--noise", arguments.noises, "LEVELS",
+                   "It is the value of --at plus noise of these standard deviations, constant in each cycle");
+    declare_option(command, group, "--memory", arguments.memory, "CYCLES",
+                   "After which the noise has forgotten all but 1/e of itself (0: at once)")
         ->check(CLI::NonNegativeNumber);
-    add(command, group, "--at", arguments.at, "VALUE",
-        "Of the parameter at rest, before the point; of a ramp, where it begins");
-    add(command, group, "--motions", arguments.motions, "N", "How many under noise (1000)")
+    declare_option(command, group, "--at", arguments.at, "VALUE",
+                   "Of the parameter at rest, before the point; of a ramp, where it begins");
+    declare_option(command, group, "--motions", arguments.motions, "N", "How many under noise (1000)")
         ->check(whole_number(1, 100'000'000));
-    add(command, group, "--seed", arguments.seed, "N", "Of the noise (1)")->check(whole_number(0, 1'000'000'000));
-    add(command, group, "--jobs", arguments.jobs, "N", "Threads (one for each core); results do not depend on them")
+    declare_option(command, group, "--seed", arguments.seed, "N", "Of the noise (1)")
+        ->check(whole_number(0, 1'000'000'000));
+    declare_option(command, group, "--jobs", arguments.jobs, "N",
+                   "Threads (one for each core); results do not depend on them")
         ->check(whole_number(1, 1024));
 }
 
 void declare_trip(CLI::App& app, TripArguments& arguments) {
     CLI::App& command = declare_of_point(app, "trip", trip_text, trip_examples, arguments);
     const char* group = "What to compute";
-    add(command, group, "--parameter", arguments.parameter, "NAME",
-        "That moves the orbit from the point (the one that its run follows)");
-    add(command, group, "--beside", arguments.beside, "POINT",
-        "The same at another point, with overshoots of the same size");
-    add(command, group, "--overshoot", arguments.overshoots, "VALUES",
-        "Of the parameter beyond the point, with sign: a list, or FIRST:LAST for each decade");
-    add(command, group, "--disturbance", arguments.disturbances, "STATE=VALUE",
-        "Added to the state of the touch in which the motion begins (none)");
-    auto* until = add(command, group, "--until", arguments.until, "EXPR=LEVEL",
-                      "End there, or where the motion ends by itself: end (contacts as hard as the map can tell; the "
-                      "fold is passed)");
-    add(command, group, "--greatest-speed", arguments.greatest_speed, "SPEED",
-        "End at a contact of this approach speed")
+    declare_option(command, group, "--parameter", arguments.parameter, "NAME",
+                   "That moves the orbit from the point (the one that its run follows)");
+    declare_option(command, group, "--beside", arguments.beside, "POINT",
+                   "The same at another point, with overshoots of the same size");
+    declare_option(command, group, "--overshoot", arguments.overshoots, "VALUES",
+                   "Of the parameter beyond the point, with sign: a list, or FIRST:LAST for each decade");
+    declare_option(command, group, "--disturbance", arguments.disturbances, "STATE=VALUE",
+                   "Added to the state of the touch in which the motion begins (none)");
+    auto* until =
+        declare_option(command, group, "--until", arguments.until, "EXPR=LEVEL",
+                       "End there, or where the motion ends by itself: end (contacts as hard as the map can tell; the "
+                       "fold is passed)");
+    declare_option(command, group, "--greatest-speed", arguments.greatest_speed, "SPEED",
+                   "End at a contact of this approach speed")
         ->check(CLI::PositiveNumber)
         ->excludes(until);
-    add(command, group, "--cycles", arguments.cycles, "N",
-        "Cycles that are simulated at most (2000; 100 under noise; of a ramp those beyond the point)")
+    declare_option(command, group, "--cycles", arguments.cycles, "N",
+                   "Cycles that are simulated at most (2000; 100 under noise; of a ramp those beyond the point)")
         ->check(whole_number(1, 1'000'000));
     declare_disturbances(command, arguments);
     declare_table(command, arguments.output);
     group = "Picture";
-    add(command, group, "--plot", arguments.plot, "FILE", "Draw the table instead, as svg, png or pdf");
+    declare_option(command, group, "--plot", arguments.plot, "FILE", "Draw the table instead, as svg, png or pdf");
     declare_data(command, arguments.data);
 }
 
 void declare_ladder(CLI::App& app, LadderArguments& arguments) {
     CLI::App& command = declare_of_point(app, "ladder", ladder_text, ladder_examples, arguments);
     const char* group = "How far";
-    add(command, group, "--rungs", arguments.rungs, "N", "Grazings at most, that one included (8)")
+    declare_option(command, group, "--rungs", arguments.rungs, "N", "Grazings at most, that one included (8)")
         ->check(whole_number(2, 1000));
-    add(command, group, "--parameter", arguments.parameter, "NAME",
-        "That varies (the one that its run follows, within its bounds)");
+    declare_option(command, group, "--parameter", arguments.parameter, "NAME",
+                   "That varies (the one that its run follows, within its bounds)");
     declare_table(command, arguments.output);
 }
 
 void declare_tolerance(CLI::App& app, ToleranceArguments& arguments) {
     CLI::App& command = declare_of_point(app, "tolerance", tolerance_text, tolerance_examples, arguments);
     const char* group = "What to find";
-    add(command, group, "--parameter", arguments.parameter, "NAME",
-        "Whose value follows from the others (the one that the run follows)");
-    add(command, group, "--vary", arguments.vary, "NAME=SIZE",
+    declare_option(command, group, "--parameter", arguments.parameter, "NAME",
+                   "Whose value follows from the others (the one that the run follows)");
+    declare_option(
+        command, group, "--vary", arguments.vary, "NAME=SIZE",
         "Parameters that differ from device to device: standard deviation, as a number or in percent of the value; "
         "with "
         ":uniform behind it the largest departure");
-    add(command, group, "--within", arguments.within, "LOW:HIGH", "Values that are wanted; one side may be left out")
+    declare_option(command, group, "--within", arguments.within, "LOW:HIGH",
+                   "Values that are wanted; one side may be left out")
         ->check(not_empty());
-    add(command, group, "--devices", arguments.devices, "N", "How many are made (10000)")
+    declare_option(command, group, "--devices", arguments.devices, "N", "How many are made (10000)")
         ->check(whole_number(1, 100'000'000));
-    add(command, group, "--seed", arguments.seed, "N", "Of what is drawn (1)")->check(whole_number(0, 1'000'000'000));
-    add(command, group, "--jobs", arguments.jobs, "N", "Threads (one for each core); results do not depend on them")
+    declare_option(command, group, "--seed", arguments.seed, "N", "Of what is drawn (1)")
+        ->check(whole_number(0, 1'000'000'000));
+    declare_option(command, group, "--jobs", arguments.jobs, "N",
+                   "Threads (one for each core); results do not depend on them")
         ->check(whole_number(1, 1024));
     declare_table(command, arguments.output);
     group = "Picture";
-    add(command, group, "--plot", arguments.plot, "FILE", "Draw how the devices are distributed, too: svg, png or pdf")
-        ->check(not_empty());
+    declare_option(command, group, "--plot", arguments.plot, "FILE",
+                   "Draw how the devices are distributed, too: svg, png or pdf");
     declare_data(command, arguments.data);
 }
 

@@ -1,6 +1,6 @@
 #include "program/design_arguments.hpp"
 
-#include <map>
+#include "program/declared_option.hpp"
 
 namespace graze {
 
@@ -25,27 +25,19 @@ void declare_design_command(CLI::App& app, Arguments& arguments) {
     CLI::App& command = *app.add_subcommand("design", design_text);
     command.footer(design_examples);
     command.add_option("DESIGN", design.design, "Name of one that comes with graze, or a file")->type_name("");
-    const auto add = [&](const char* group, const char* name, auto& value, const char* type, const char* text) {
-        return command.add_option(name, value, text)->type_name(type)->group(group);
-    };
     const auto flag = [&](const char* group, const char* name, bool& value, const char* text) {
         return command.add_flag(name, value, text)->group(group);
     };
-    add("Where results go", "--output", design.folder, "FOLDER", "Folder, made if need be (the design's name)")
-        ->check(not_empty());
+    declare_option(command, "Where results go", "--output", design.folder, "FOLDER",
+                   "Folder, made if need be (the design's name)");
     flag("Where results go", "--no-pictures", design.no_pictures, "Draw no page");
     flag("Instead of a design", "--list", design.list, "List the designs that come with graze");
     flag("Instead of a design", "--show", design.show, "Print the file of one, to begin one's own");
-    add("How it is done", "--jobs", design.jobs, "N", "Threads (one for each core); results do not depend on them")
+    declare_option(command, "How it is done", "--jobs", design.jobs, "N",
+                   "Threads (one for each core); results do not depend on them")
         ->check(whole_number(1, 1024));
     flag("How it is done", "--quiet", design.quiet, "Print no table");
-    static const std::map<std::string, TableFormat> formats{
-        {"table", TableFormat::table}, {"csv", TableFormat::csv}, {"json", TableFormat::json}};
-    add("Output", "--format", design.output.format, "FORMAT", "table (default), csv or json")
-        ->transform(CLI::Transformer(formats).description(""));
-    add("Output", "--digits", design.output.digits, "N",
-        "Significant digits of numbers (8; 17 of csv and json, which lose nothing)")
-        ->check(whole_number(1, 17));
+    declare_digits(command, design.output);
 }
 
 } // namespace graze

@@ -15,21 +15,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <optional>
-#include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace graze {
 
 namespace {
-
-std::string csv_of(const Table& table) {
-    std::ostringstream text;
-    write_table(text, table, TableFormat::csv, 17, {});
-    return text.str();
-}
 
 std::vector<JsonObject> rows_of(const Table& table) {
     std::vector<JsonObject> rows;
@@ -82,6 +75,22 @@ bool follow(const Study& study, ResultFile& file, const DesignReportOptions& opt
                         [](const RunReport& report) { return report.outcome == RunOutcome::interrupted; });
 }
 
+/// Whether a file has the name and the first line of a table, or the name of a page, of which a run writes one or not:
+/// as dimensions, planes and wants are.
+bool is_of_a_run(const std::filesystem::path& path) {
+    const std::string name = path.filename().string();
+    if (name == "page.svg" || name == "page.pdf")
+        return true;
+    const auto table_of = [&](const char* stem) { return name.starts_with(stem) && name.ends_with(".csv"); };
+    std::string first;
+    std::getline(std::ifstream(path), first);
+    return (table_of("curve-") && first.ends_with(",class,problem")) ||
+           (table_of("plane-") && first.ends_with(",class,problem")) ||
+           (name == "tuning.csv" && first.ends_with(",usable,problem")) ||
+           (name == "devices.csv" && first.starts_with("device,")) ||
+           (name == "wishes.csv" && first.starts_with("what,"));
+}
+
 class Workplace {
 public:
     Workplace(const Design& design, std::string folder) : design_(design), folder_(std::move(folder)) {}
@@ -99,6 +108,17 @@ public:
     void draw(const Figure& figure, const std::string& name) {
         draw_figure(figure, path(name), "");
         written_.push_back(path(name));
+    }
+    /// What an earlier run has left there and this one has not written says nothing of this design.
+    void remove_others() const {
+        std::error_code error;
+        for (const auto& entry : std::filesystem::directory_iterator(folder_, error)) {
+            if (entry.is_regular_file(error) && is_of_a_run(entry.path()) &&
+                std::none_of(written_.begin(), written_.end(), [&](const std::string& one) {
+                    return std::filesystem::path(one).filename() == entry.path().filename();
+                }))
+                std::filesystem::remove(entry.path(), error);
+        }
     }
     const std::vector<std::string>& written() const { return written_; }
 
@@ -120,17 +140,30 @@ void write_all(Workplace& place, const Design& design, const TripPoint& trip, co
                const DesignArguments& arguments, const Console& console) {
     const std::vector<NamedTable> tables = tables_of(design, trip, report);
     for (const NamedTable& table : tables)
-        place.write(table.name + ".csv", csv_of(table.table));
+        place.write(table.name + ".csv", csv_text(table.table));
     place.write("report.json", json_of(design, tables));
     place.write("device.toml", write_model(model_of_device(trip)));
-    if (arguments.no_pictures)
-        return;
+    if (!arguments.no_pictures) {
+        try {
+            const Figure page = design_page(design, trip, report);
+            place.draw(page, "page.svg");
+            place.draw(page, "page.pdf");
+        } catch (const InputError& error) {
+            console.err << fmt::format("graze: warning: the page was not drawn: {}\n", error.what());
+        }
+    }
+    place.remove_others();
+}
+
+/// What is wrong with the device that a design file asks for, and has no place of its own, is said of that file.
+template <class Work>
+auto said_of(const Design& design, const Work& work) {
     try {
-        const Figure page = design_page(design, trip, report);
-        place.draw(page, "page.svg");
-        place.draw(page, "page.pdf");
+        return work();
     } catch (const InputError& error) {
-        console.err << fmt::format("graze: warning: the page was not drawn: {}\n", error.what());
+        if (!error.place().file.empty())
+            throw;
+        throw InputError(design.approach.place, error.problem(), error.remedy());
     }
 }
 
@@ -140,7 +173,7 @@ std::optional<TripPoint> locate(const Design& design, const std::string& path, c
     ResultFile file(path, ResultFile::Access::write);
     if (!follow(study, file, options))
         return std::nullopt;
-    return find_trip_point(design, study, file);
+    return said_of(design, [&] { return find_trip_point(design, study, file); });
 }
 
 MetWishes wished(const Design& design, const TripPoint& trip, const DesignReportOptions& options) {
@@ -190,8 +223,7 @@ int design_command(const DesignArguments& arguments, const Console& console) {
     const InterruptGuard guard;
     StatusLine line(console, console.terminal);
     DesignReportOptions options;
-    options.jobs =
-        arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    options.jobs = threads_for(arguments.jobs);
     options.interrupted = [] { return InterruptGuard::requested(); };
     options.progress = [&](const std::string& what) {
         if (line.is_due())
@@ -203,7 +235,7 @@ int design_command(const DesignArguments& arguments, const Console& console) {
     std::optional<MetWishes> wishes;
     Design design = first;
     if (!first.wanted.is_empty()) {
-        wishes = wished(first, *trip, options);
+        wishes = said_of(first, [&] { return wished(first, *trip, options); });
         if (wishes->found.outcome == WishOutcome::interrupted)
             return interrupted(console);
         if (wishes->found.outcome != WishOutcome::nowhere) {
@@ -214,7 +246,7 @@ int design_command(const DesignArguments& arguments, const Console& console) {
                 return interrupted(console);
         }
     }
-    DesignReport report = report_of(design, *trip, options);
+    DesignReport report = said_of(design, [&] { return report_of(design, *trip, options); });
     report.wishes = std::move(wishes);
     if (report.interrupted)
         return interrupted(console);
@@ -227,13 +259,17 @@ int design_command(const DesignArguments& arguments, const Console& console) {
     }
     if (report.yield)
         tell(*report.yield, console);
+    const bool untried =
+        report.trial.outcome == TrialOutcome::undecided && report.found.outcome != GrazingOutcome::undecided;
+    if (untried)
+        console.err << fmt::format("graze: the class is not checked by simulation: {}\n", report.trial.reason);
     const bool elsewhere = trips_elsewhere(*trip, report);
     if (elsewhere)
         console.err << fmt::format(
             "graze: the device was made to trip at {:.6g}, but on its way there it comes first to the "
             "trip point at {:.6g}: change approach.range, approach.from or what is wanted\n",
             *report.wishes->trip_value, trip->value());
-    return elsewhere || is_irregular(design, report) ? exit_irregular : exit_success;
+    return untried || elsewhere || is_irregular(design, report) ? exit_irregular : exit_success;
 }
 
 } // namespace graze

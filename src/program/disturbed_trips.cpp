@@ -16,7 +16,6 @@
 #include <functional>
 #include <limits>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -34,7 +33,8 @@ struct Asked {
     AskedEnd end;
     Table table{};
     Figure figure{};
-    bool irregular = false, interrupted = false;
+    std::vector<std::string> lacks{}; ///< what has not come to an end that says something
+    bool interrupted = false;
     std::size_t done = 0, wanted = 0;
 
     std::string option(const char* name) const { return std::string("--") + name; }
@@ -51,6 +51,10 @@ TripOrigin origin_at(const Asked& asked, double value) {
             return trip_origin(point.system, *point.fold, value);
         return trip_origin(point.system, point.stored.record.point.solution.orbit, point.map, point.parameter, value);
     } catch (const InputError& error) {
+        if (asked.arguments.at.empty()) // a ramp begins as far before the point as its rate says
+            throw InputError(Place{"--ramp", 0, 0},
+                             fmt::format("the ramp would begin at {} = {:.6g}: {}", point.name, value, error.problem()),
+                             "give a slower one, or say where it begins: --at VALUE");
         throw InputError(Place{"--at", 0, 0}, error.problem(), error.remedy());
     }
 }
@@ -80,14 +84,6 @@ FigurePanel panel_of(const std::string& x, const std::string& x_unit, const std:
     panel.logarithmic_x = true;
     panel.roomy_x = panel.roomy_y = true;
     return panel;
-}
-
-FigureSeries series_of(const std::string& title, FigureSeries::Style style, std::size_t colour) {
-    FigureSeries series;
-    series.title = title;
-    series.style = style;
-    series.colour = colour;
-    return series;
 }
 
 /// One row after another, until Ctrl-C. @param row is not added when interrupted: it then says false
@@ -148,7 +144,9 @@ void ramp(Asked& asked) {
         if (InterruptGuard::requested())
             return false;
         const double delay = ramped.trip.ended ? ramped.value - point.value : nothing;
-        asked.irregular = asked.irregular || !ramped.trip.ended;
+        if (!ramped.trip.ended)
+            asked.lacks.push_back(fmt::format("the ramp of {:g} has not come to its end: {}", rate,
+                                              why_not(ramped.trip, "give more --cycles, or another end by --until")));
         asked.table.add(rate);
         asked.table.add(from);
         asked.table.add(ramped.trip.ended ? ramped.value : nothing);
@@ -184,7 +182,10 @@ void wave(Asked& asked) {
             const TripTime trip = swung_trip(point.system, origin, amplitude, period, asked.end.end, options_of(asked));
             if (InterruptGuard::requested())
                 return false;
-            asked.irregular = asked.irregular || !(trip.ended || trip.ending == "end-time");
+            if (!(trip.ended || trip.ending == "end-time"))
+                asked.lacks.push_back(
+                    fmt::format("the wave of {:g} has not been simulated to its end: {}", amplitude,
+                                why_not(trip, "look at whether the parameter has a meaning as far as it swings")));
             asked.table.add(amplitude);
             asked.table.add(trip.ended ? "yes" : "no");
             asked.table.add(trip.ended ? trip.cycles : nothing);
@@ -206,8 +207,7 @@ NoiseSettings settings_of(const Asked& asked) {
     settings.memory = asked.arguments.memory.value_or(0);
     settings.motions = asked.arguments.motions;
     settings.seed = asked.arguments.seed;
-    settings.jobs = asked.arguments.jobs > 0 ? asked.arguments.jobs
-                                             : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    settings.jobs = threads_for(asked.arguments.jobs);
     settings.interrupted = [] { return InterruptGuard::requested(); };
     return settings;
 }
@@ -244,7 +244,11 @@ void noise(Asked& asked) {
         if (trips.interrupted)
             return false;
         const double share = static_cast<double>(trips.beyond) / static_cast<double>(trips.motions);
-        asked.irregular = asked.irregular || trips.failed > 0;
+        for (const auto& [ending, count] : trips.failures)
+            asked.lacks.push_back(fmt::format("{} of {} motions under the noise {:g} are not counted: they ended by "
+                                              "{}; look at whether the parameter "
+                                              "has a meaning as far as the noise takes it",
+                                              count, trips.motions, level, ending));
         asked.table.add(level);
         asked.table.add(static_cast<double>(trips.motions));
         asked.table.add(static_cast<double>(trips.trips));
@@ -298,6 +302,14 @@ void require_together(const TripArguments& arguments) {
 
 } // namespace
 
+FigureSeries series_of(const std::string& title, FigureSeries::Style style, std::size_t colour) {
+    FigureSeries series;
+    series.title = title;
+    series.style = style;
+    series.colour = colour;
+    return series;
+}
+
 bool is_disturbed(const TripArguments& arguments) {
     return !(arguments.ramps.empty() && arguments.waves.empty() && arguments.noises.empty());
 }
@@ -327,7 +339,8 @@ int disturbed_trips(const ResultFile& file, const TripArguments& arguments, cons
         console.err << fmt::format("graze: interrupted; {} of {} rows are done\n", asked.done, asked.wanted);
         return InterruptGuard::exit_code();
     }
-    return asked.irregular ? exit_irregular : exit_success;
+    tell_lacks(asked.lacks, console);
+    return asked.lacks.empty() ? exit_success : exit_irregular;
 }
 
 } // namespace graze

@@ -58,6 +58,22 @@ std::string contacts_text(const Model& model, const std::vector<std::size_t>& co
     return fmt::format("{}", fmt::join(labels, " "));
 }
 
+struct OrderTexts {
+    const char *contact, *gain, *next;
+};
+OrderTexts texts_of(MapOrder order) {
+    switch (order) {
+    case MapOrder::square_root:
+        return {"a rigid contact", "what it gains by approach speed", "the next order: by its square"};
+    case MapOrder::linear:
+        return {"sliding or sticking for a moment", "what it gains by depth", "the next order: by depth^(3/2)"};
+    case MapOrder::three_halves:
+    case MapOrder::none:
+        break;
+    }
+    return {"a compliant contact", "what it gains by depth^(3/2)", ""};
+}
+
 /// Where and how the orbit touches.
 void add_contact(Facts& facts, const Model& model, const CycleMap& map) {
     const DiscontinuityMap& contact = map.contact;
@@ -66,19 +82,18 @@ void add_contact(Facts& facts, const Model& model, const CycleMap& map) {
         facts.add("map", name_of(MapOrder::none), map.reason);
         return;
     }
-    const bool rigid = contact.order == MapOrder::square_root;
-    facts.add("map", name_of(contact.order), rigid ? "a rigid contact" : "a compliant contact");
+    const OrderTexts texts = texts_of(contact.order);
+    facts.add("map", name_of(contact.order), texts.contact);
     facts.add("contacts", contacts_text(model, contact.contacts), "transitions that a soft contact makes");
     facts.add("acceleration", contact.acceleration, "second rate of the gap (the event's function)");
-    if (rigid)
+    if (contact.order == MapOrder::square_root)
         facts.add("restitution", contact.restitution, "rate of the gap after by that before");
     for (std::size_t i = 0; i < contact.direction.size(); ++i)
         if (contact.direction[i] != 0)
-            facts.add("direction_" + model.states[i].name, contact.direction[i],
-                      rigid ? "what it gains by approach speed" : "what it gains by depth^(3/2)");
+            facts.add("direction_" + model.states[i].name, contact.direction[i], texts.gain);
     for (std::size_t i = 0; i < contact.second.size(); ++i)
         if (contact.second[i] != 0)
-            facts.add("second_" + model.states[i].name, contact.second[i], "the next order: by its square");
+            facts.add("second_" + model.states[i].name, contact.second[i], texts.next);
 }
 
 void add_cycle(Facts& facts, const Findings& found) {
@@ -91,6 +106,10 @@ void add_cycle(Facts& facts, const Findings& found) {
     for (std::size_t k = 0; k < found.verdict.projections.size(); ++k)
         facts.add(fmt::format("projection_{}", k + 1), found.verdict.projections[k],
                   k == 0 ? "effect on the gap one cycle later" : fmt::format("{} cycles later", k + 1));
+    if (!map.second.empty())
+        facts.add("projection_1_next", map.second_clearance,
+                  map.contact.order == MapOrder::linear ? "the next order of the first: by depth^(3/2)"
+                                                        : "the next order of the first: by speed^2");
     if (map.touches > 1)
         facts.add("touches", static_cast<double>(map.touches), "places in which the orbit touches");
     if (!found.parameter)
@@ -122,6 +141,19 @@ void add_attractors(Facts& facts, const Findings& found) {
     }
 }
 
+/// What becomes of an orbit that begins to slide.
+void add_border(Facts& facts, const Verdict& verdict) {
+    if (verdict.border == BorderCollision::none)
+        return;
+    facts.add("border", name_of(verdict.border),
+              verdict.border == BorderCollision::fold ? "the orbit that slides is on the same side as the touching one"
+                                                      : "beyond the touch the orbit slides");
+    if (verdict.doubles)
+        facts.add("doubles", "yes", "an orbit of twice the period begins here");
+    if (verdict.in > 0)
+        facts.add("beyond", fmt::format("{} in {}", verdict.slides, verdict.in), "times it slides in cycles");
+}
+
 void add_verdict(Facts& facts, const Findings& found) {
     const Verdict& verdict = found.verdict;
     const auto logarithm = [](const std::optional<double>& value) {
@@ -143,7 +175,10 @@ void add_verdict(Facts& facts, const Findings& found) {
     facts.add("verdict", name_of(verdict.outcome), meaning);
     if (verdict.attractor != AttractorKind::none)
         facts.add("attractors", name_of(verdict.attractor), "that remain");
-    facts.add("leading", verdict.leading, "multiplier that decides which");
+    facts.add("leading", verdict.leading,
+              verdict.border == BorderCollision::none ? "multiplier that decides which"
+                                                      : "largest multiplier, in modulus, of the orbit that slides");
+    add_border(facts, verdict);
     add_attractors(facts, found);
     if (verdict.next_contact > 0)
         facts.add("next_contact", static_cast<double>(verdict.next_contact), "n: cycles from one contact to the next");

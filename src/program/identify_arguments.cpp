@@ -1,6 +1,8 @@
 #include "program/identify_arguments.hpp"
 
-#include <map>
+#include "program/declared_option.hpp"
+#include "program/record_arguments.hpp"
+
 #include <string>
 #include <vector>
 
@@ -23,66 +25,53 @@ constexpr const char* identify_examples = R"(Examples:
   graze identify coupling static.csv --gap 4.79e-3 --stiffness 5948
   graze identify impedance clamped.csv --voltage V --current I --format json)";
 
-template <class Value>
-CLI::Option* add(CLI::App& command, const char* group, const char* name, Value& value, const char* type,
-                 const char* text) {
-    return command.add_option(name, value, text)->type_name(type)->group(group);
-}
-
 void declare_channels(CLI::App& command, IdentifyArguments& arguments) {
     const char* group = "Channels";
-    add(command, group, "--channel", arguments.channel, "NAME", "Decrement, restitution: the velocity (v)")
+    declare_option(command, group, "--channel", arguments.channel, "NAME", "Decrement, restitution: the velocity (v)");
+    declare_option(command, group, "--displacement", arguments.displacement, "NAME",
+                   "Coupling: the displacement (q). Restitution: a channel whose corners tell the times of impacts");
+    declare_option(command, group, "--voltage", arguments.voltage, "NAME", "Impedance: the voltage (V)")
         ->check(not_empty());
-    add(command, group, "--displacement", arguments.displacement, "NAME",
-        "Coupling: the displacement (q). Restitution: a channel whose corners tell the times of impacts")
-        ->check(not_empty());
-    add(command, group, "--voltage", arguments.voltage, "NAME", "Impedance: the voltage (V)")->check(not_empty());
-    add(command, group, "--current", arguments.current, "NAME", "Coupling, impedance: the current (I)")
-        ->check(not_empty());
-    RecordArguments& reading = arguments.reading;
-    group = "What is read";
-    add(command, group, "--columns", reading.columns, "NAMES",
-        "Names and units of the columns of texts without a first line that says it: 't [s], V [V]'")
-        ->check(not_empty());
-    add(command, group, "--group", reading.group, "NAME", "Of HDF5: the group whose datasets are the channels")
-        ->check(not_empty());
-    add(command, group, "--scale", reading.scales, "NAME=FACTOR[+OFFSET][:UNIT]",
-        "What readings of a channel mean, such as q=2.011:mm");
-    add(command, group, "--from", reading.from, "T", "Rows from this time on");
-    add(command, group, "--to", reading.to, "T", "Rows up to this time");
+    declare_option(command, group, "--current", arguments.current, "NAME", "Coupling, impedance: the current (I)");
+    declare_reading(command, arguments.reading);
 }
 
 void declare_known(CLI::App& command, IdentifyArguments& arguments) {
     const char* group = "Of each kind";
-    add(command, group, "--peaks", arguments.peaks, "N", "Decrement: the first peaks of each release (10)")
+    declare_option(command, group, "--peaks", arguments.peaks, "N", "Decrement: the first peaks of each release (10)")
         ->check(whole_number(2, 100'000));
-    add(command, group, "--window", arguments.window, "N",
-        "Restitution: samples on each side of an impact that tell velocities (12)")
+    declare_option(command, group, "--window", arguments.window, "N",
+                   "Restitution: samples on each side of an impact that tell velocities (12)")
         ->check(whole_number(5, 100'000));
-    add(command, group, "--transition", arguments.transition, "N",
-        "Restitution: samples on each side that the impact itself disturbs (0)")
+    declare_option(command, group, "--transition", arguments.transition, "N",
+                   "Restitution: samples on each side that the impact itself disturbs (0)")
         ->check(whole_number(0, 100'000));
-    add(command, group, "--least-jump", arguments.least_jump, "VALUE", "Restitution: smaller jumps are no impacts (0)")
+    declare_option(command, group, "--least-jump", arguments.least_jump, "VALUE",
+                   "Restitution: smaller jumps are no impacts (0)")
         ->check(CLI::NonNegativeNumber);
-    add(command, group, "--gap", arguments.gap, "D", "Coupling, impedance: gap at rest")->check(CLI::PositiveNumber);
-    add(command, group, "--stiffness", arguments.stiffness, "K", "Coupling: mass times square of natural frequency")
+    declare_option(command, group, "--gap", arguments.gap, "D", "Coupling, impedance: gap at rest")
         ->check(CLI::PositiveNumber);
-    add(command, group, "--gap-error", arguments.gap_error, "D", "Coupling: its standard error (0)")
+    declare_option(command, group, "--stiffness", arguments.stiffness, "K",
+                   "Coupling: mass times square of natural frequency")
+        ->check(CLI::PositiveNumber);
+    declare_option(command, group, "--gap-error", arguments.gap_error, "D", "Coupling: its standard error (0)")
         ->check(CLI::NonNegativeNumber);
-    add(command, group, "--stiffness-error", arguments.stiffness_error, "K", "Coupling: its standard error (0)")
+    declare_option(command, group, "--stiffness-error", arguments.stiffness_error, "K",
+                   "Coupling: its standard error (0)")
         ->check(CLI::NonNegativeNumber);
-    add(command, group, "--noise", arguments.noise, "Q,I",
-        "Coupling: noise of displacement and current, or their ratio (that of the largest ones)")
+    declare_option(command, group, "--noise", arguments.noise, "Q,I",
+                   "Coupling: noise of displacement and current, or their ratio (that of the largest ones)")
         ->delimiter(',')
         ->expected(2);
-    add(command, group, "--frequency", arguments.frequency, "F",
-        "Impedance: about the frequency of the voltage (that of its largest wave)")
+    declare_option(command, group, "--frequency", arguments.frequency, "F",
+                   "Impedance: about the frequency of the voltage (that of its largest wave)")
         ->check(CLI::PositiveNumber);
-    add(command, group, "--beta1", arguments.beta1, "VALUE[+-ERROR]",
-        "Impedance: with these the leakage inductance too, L - beta1/(beta2 + gap - q)")
+    declare_option(command, group, "--beta1", arguments.beta1, "VALUE[+-ERROR]",
+                   "Impedance: with these the leakage inductance too, L - beta1/(beta2 + gap - q)");
+    declare_option(command, group, "--beta2", arguments.beta2, "VALUE[+-ERROR]", "Impedance: likewise")
         ->check(not_empty());
-    add(command, group, "--beta2", arguments.beta2, "VALUE[+-ERROR]", "Impedance: likewise")->check(not_empty());
-    add(command, group, "--clamped", arguments.clamped, "Q", "Impedance: displacement at which the mass is held (0)");
+    declare_option(command, group, "--clamped", arguments.clamped, "Q",
+                   "Impedance: displacement at which the mass is held (0)");
 }
 
 } // namespace
@@ -92,8 +81,6 @@ std::vector<std::string> identify_kinds() {
 }
 
 void declare_identify_command(CLI::App& app, Arguments& all) {
-    static const std::map<std::string, TableFormat> formats{
-        {"table", TableFormat::table}, {"csv", TableFormat::csv}, {"json", TableFormat::json}};
     IdentifyArguments& arguments = all.identify;
     CLI::App& command = *app.add_subcommand("identify", identify_text);
     command.footer(identify_examples);
@@ -104,22 +91,10 @@ void declare_identify_command(CLI::App& app, Arguments& all) {
     command.add_option("FILE", arguments.reading.files, "Records")->type_name("")->required();
     declare_channels(command, arguments);
     declare_known(command, arguments);
-    const char* group = "Output";
-    OutputArguments& output = arguments.reading.output;
-    add(command, group, "--format", output.format, "FORMAT", "table (default), csv or json")
-        ->transform(CLI::Transformer(formats).description(""));
-    add(command, group, "--digits", output.digits, "N",
-        "Significant digits of numbers (8; 17 of csv and json, which lose nothing)")
-        ->check(whole_number(1, 17));
-    add(command, group, "--output", output.file, "FILE", "Write the table there instead of to standard output")
-        ->check(not_empty());
-    command.add_flag("--all", output.all, "All columns of a table, also those that do not fit a terminal")
-        ->group(group);
-    group = "Picture";
-    add(command, group, "--plot", arguments.reading.plot, "FILE", "Draw what was fitted, too, as svg, png or pdf")
-        ->check(not_empty());
-    add(command, group, "--data", arguments.reading.data, "FILE",
-        "Keep data and commands, to be changed and drawn by `gnuplot FILE`");
+    declare_table(command, arguments.reading.output);
+    declare_option(command, "Picture", "--plot", arguments.reading.plot, "FILE",
+                   "Draw what was fitted, too, as svg, png or pdf");
+    declare_data(command, arguments.reading.data);
 }
 
 } // namespace graze

@@ -4,6 +4,8 @@
 #include "program/identify_kinds.hpp"
 #include "program/picture.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 namespace graze {
@@ -36,7 +38,9 @@ int identify_command(const IdentifyArguments& arguments, const Console& console)
     if (!plot.empty())
         draw_figure(found.figure, plot, arguments.reading.data);
     deliver(table, arguments.reading.output, heading, console);
-    return exit_success;
+    for (const std::string& warning : found.warnings)
+        console.err << fmt::format("graze: warning: {}\n", warning);
+    return found.warnings.empty() ? exit_success : exit_irregular;
 }
 
 } // namespace graze

@@ -98,6 +98,10 @@ Identified identify_decrement(const IdentifyArguments& arguments) {
                      {"damping_ratio", "", found.damping},
                      {"natural_frequency_of_pairs", per(header.time.unit), {found.pair_frequency, 0, 0}},
                      {"damping_ratio_of_pairs", "", {found.pair_damping, 0, 0}}};
+    std::vector<Estimate> rests;
+    for (const DecayPeaks& peaks : releases)
+        rests.push_back({peaks.rest, peaks.rest_error, found.damping.freedom});
+    result.values.push_back({"rest_position", header.channels[channel].unit, combine(rests).mean});
     FigurePanel panel = panel_of({header.time.name + " since the first peak", header.time.unit},
                                  {"peaks of " + header.channels[channel].name, header.channels[channel].unit});
     FigureSeries measured{"measured", Style::circles, 0, {}}, fitted{"fitted decay", Style::line, 1, {}};
@@ -216,10 +220,11 @@ Identified identify_impedance(const IdentifyArguments& arguments) {
     if (arguments.beta1.empty() != arguments.beta2.empty() || (!arguments.beta1.empty() && !arguments.gap))
         throw InputError("a leakage inductance needs beta1, beta2 and the gap",
                          "give --beta1, --beta2 and --gap, or none");
-    std::vector<Estimate> resistances, inductances, leakages;
+    std::vector<Estimate> frequencies, resistances, inductances, leakages;
+    Identified result;
     std::vector<PlanePoint> left;
     FigurePanel panel;
-    std::string ohm, henry;
+    std::string ohm, henry, hertz;
     for_each_file(arguments, [&](const std::string& file, RecordStages& stages) {
         const RecordHeader header = stages.header();
         const std::size_t v = header.channel(name_or(arguments.voltage, "V"), "--voltage"),
@@ -227,12 +232,23 @@ Identified identify_impedance(const IdentifyArguments& arguments) {
         const Samples all = read_all(stages.source(), most_samples);
         const Impedance found = impedance(all.times, all.values[v], all.values[c],
                                           arguments.frequency ? 2 * std::numbers::pi * *arguments.frequency : 0);
+        frequencies.push_back({found.frequency / (2 * std::numbers::pi), 0, 0});
         resistances.push_back(found.resistance);
         inductances.push_back(found.inductance);
+        const auto warn = [&](const char* what, const Estimate& one, const char* remedy) {
+            if (one.value < 0)
+                result.warnings.push_back(
+                    fmt::format("{}: the {} comes out below zero, as none of a coil does; {}", file, what, remedy));
+        };
+        warn("resistance", found.resistance, "look at the sign of the current or the voltage (--scale NAME=-1)");
+        warn("inductance", found.inductance,
+             "the current leads the voltage: look at which channel is which, at the frequency, and at filters that "
+             "delay one of them");
         if (!arguments.beta1.empty())
             leakages.push_back(leakage_inductance(found.inductance, known_value(arguments.beta1, "--beta1"),
                                                   known_value(arguments.beta2, "--beta2"), *arguments.gap,
                                                   arguments.clamped));
+        hertz = header.time.unit == "s" ? "Hz" : header.time.unit.empty() ? "" : "1/" + header.time.unit;
         if (header.channels[v].unit == "V" && header.channels[c].unit == "A") {
             ohm = "ohm";
             henry = header.time.unit == "s" ? "H" : "";
@@ -256,7 +272,6 @@ Identified identify_impedance(const IdentifyArguments& arguments) {
         }
         panel.series = {std::move(measured), std::move(fitted)};
     });
-    Identified result;
     const auto put = [&](const char* name, const std::string& unit, const std::vector<Estimate>& sets) {
         if (!sets.empty())
             result.values.push_back({name, unit, combine(sets).mean});
@@ -267,6 +282,9 @@ Identified identify_impedance(const IdentifyArguments& arguments) {
     put("resistance", ohm, resistances);
     put("inductance", henry, inductances);
     put("leakage_inductance", henry, leakages);
+    for (std::size_t i = 0; i < frequencies.size(); ++i)
+        result.values.push_back({frequencies.size() == 1 ? "frequency" : "frequency of " + arguments.reading.files[i],
+                                 hertz, frequencies[i]});
     result.figure = fit_figure(std::move(panel), "measured less fitted", std::move(left));
     return result;
 }

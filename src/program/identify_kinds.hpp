@@ -16,6 +16,7 @@ struct Identified {
         Estimate estimate;
     };
     std::vector<Value> values;
+    std::vector<std::string> warnings; ///< what calls for a look at the record
     Figure figure;
 };
 

@@ -5,6 +5,7 @@
 #include "program/commands.hpp"
 #include "program/interrupt.hpp"
 #include "program/status_line.hpp"
+#include "program/values.hpp"
 
 #include <fmt/format.h>
 
@@ -28,7 +29,7 @@ BranchSettings settings_of(const StoredRun& run, const std::string& asked) {
     settings.free_bounds.clear();
     settings.kept.reset();
     if (!asked.empty()) {
-        const ParameterId parameter = run.model.independent_parameter(asked);
+        const ParameterId parameter = asked_parameter(run.model, asked);
         if (parameter != settings.parameter)
             settings.least = settings.greatest = std::nullopt;
         settings.parameter = parameter;

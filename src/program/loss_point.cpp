@@ -149,6 +149,22 @@ std::vector<double> numbers_by_decades(const Model& model, const std::vector<std
     return values;
 }
 
+std::string why_not(const TripTime& trip, const std::string& longer) {
+    if (!trip.detail.empty())
+        return trip.detail;
+    if (trip.ending == "end-time")
+        return fmt::format("it has been simulated for {:.6g} cycles; {}", trip.cycles, longer);
+    return fmt::format("it ended by {}", trip.ending);
+}
+
+void tell_lacks(const std::vector<std::string>& lacks, const Console& console) {
+    constexpr std::size_t most = 5;
+    for (std::size_t i = 0; i < std::min(most, lacks.size()); ++i)
+        console.err << fmt::format("graze: {}\n", lacks[i]);
+    if (lacks.size() > most)
+        console.err << fmt::format("graze: {} more are like that\n", lacks.size() - most);
+}
+
 JsonObject heading_of(const ResultFile& file, const LossPoint& point, const AskedEnd& end) {
     const OrbitRecord& record = point.stored.record;
     JsonObject heading;

@@ -3,6 +3,7 @@
 #include "graze/branch/fold_passage.hpp"
 #include "graze/grazing/trip_time.hpp"
 #include "program/arguments.hpp"
+#include "program/program.hpp"
 #include "program/table.hpp"
 #include "program/touching_orbit.hpp"
 
@@ -50,6 +51,11 @@ AskedEnd end_of(const LossPoint& point, const TripArguments& arguments);
 /// @throws InputError for what are none, or too many
 std::vector<double> numbers_by_decades(const Model& model, const std::vector<std::string>& asked,
                                        const std::string& option);
+
+/// Why a trip has not come to its end, and what to do. @param longer what to do where more cycles may help
+std::string why_not(const TripTime& trip, const std::string& longer);
+/// The first of what has not come to its end, and how many more there are, each on a line.
+void tell_lacks(const std::vector<std::string>& lacks, const Console& console);
 
 /// What a JSON table says of the point first.
 JsonObject heading_of(const ResultFile& file, const LossPoint& point, const AskedEnd& end);

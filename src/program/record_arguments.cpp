@@ -1,6 +1,7 @@
 #include "program/record_arguments.hpp"
 
-#include <map>
+#include "program/declared_option.hpp"
+
 #include <string>
 #include <vector>
 
@@ -23,108 +24,85 @@ constexpr const char* record_examples = R"(Examples:
   graze record run.csv --what spectrum --channel I --part 4096
   graze record run.csv --every 10 --derivative q --write slow.h5)";
 
-template <class Value>
-CLI::Option* add(CLI::App& command, const char* group, const char* name, Value& value, const char* type,
-                 const char* text) {
-    return command.add_option(name, value, text)->type_name(type)->group(group);
-}
-
-void declare_reading(CLI::App& command, RecordArguments& arguments) {
-    const char* group = "What is read";
-    add(command, group, "--columns", arguments.columns, "NAMES",
-        "Names and units of the columns of texts without a first line that says it: 't [s], V [V]'")
-        ->check(not_empty());
-    add(command, group, "--group", arguments.group, "NAME", "Of HDF5: the group whose datasets are the channels")
-        ->check(not_empty());
-    add(command, group, "--scale", arguments.scales, "NAME=FACTOR[+OFFSET][:UNIT]",
-        "What readings of a channel mean, such as q=2.011:mm");
-    add(command, group, "--from", arguments.from, "T", "Rows from this time on");
-    add(command, group, "--to", arguments.to, "T", "Rows up to this time");
-}
-
 void declare_processing(CLI::App& command, RecordArguments& arguments) {
     const char* group = "Filter and derivative";
-    add(command, group, "--pass", arguments.pass, "F", "Take away what is faster than this frequency")
+    declare_option(command, group, "--pass", arguments.pass, "F", "Take away what is faster than this frequency")
         ->check(CLI::PositiveNumber);
-    auto* stop = add(command, group, "--stop", arguments.stop, "F", "And all that is faster than this one (1.5 F)")
-                     ->check(CLI::PositiveNumber);
+    auto* stop =
+        declare_option(command, group, "--stop", arguments.stop, "F", "And all that is faster than this one (1.5 F)")
+            ->check(CLI::PositiveNumber);
     stop->needs("--pass");
-    add(command, group, "--every", arguments.every, "N",
-        "Keep one of so many samples, without what is too fast for them")
+    declare_option(command, group, "--every", arguments.every, "N",
+                   "Keep one of so many samples, without what is too fast for them")
         ->check(whole_number(1, 1'000'000));
-    add(command, group, "--derivative", arguments.derivative, "NAME",
-        "Two channels more: the derivative of this one, and its error")
-        ->check(not_empty());
-    add(command, group, "--half-width", arguments.half_width, "N",
-        "Samples on each side that tell the derivative (those for which its error is least)")
+    declare_option(command, group, "--derivative", arguments.derivative, "NAME",
+                   "Two channels more: the derivative of this one, and its error");
+    declare_option(command, group, "--half-width", arguments.half_width, "N",
+                   "Samples on each side that tell the derivative (those for which its error is least)")
         ->check(whole_number(4, 100'000))
         ->needs("--derivative");
 }
 
 void declare_tables(CLI::App& command, RecordArguments& arguments) {
     const char* group = "What to show";
-    add(command, group, "--what", arguments.what, "TABLE",
-        "channels (default), samples, periods, sections, extremes, spectrum or impacts")
+    declare_option(command, group, "--what", arguments.what, "TABLE",
+                   "channels (default), samples, periods, sections, extremes, spectrum or impacts")
         ->check(one_of(record_table_names()));
-    add(command, group, "--channel", arguments.channels, "NAME", "Only these channels (all)");
-    add(command, group, "--reference", arguments.reference, "NAME", "Channel whose rising crossings begin periods")
-        ->check(not_empty());
-    add(command, group, "--level", arguments.level, "VALUE", "That it crosses (0)");
-    add(command, group, "--hysteresis", arguments.hysteresis, "VALUE",
-        "How far it has to be below and then above (a tenth of its range)")
+    declare_option(command, group, "--channel", arguments.channels, "NAME", "Only these channels (all)");
+    declare_option(command, group, "--reference", arguments.reference, "NAME",
+                   "Channel whose rising crossings begin periods");
+    declare_option(command, group, "--level", arguments.level, "VALUE", "That it crosses (0)");
+    declare_option(command, group, "--hysteresis", arguments.hysteresis, "VALUE",
+                   "How far it has to be below and then above (a tenth of its range)")
         ->check(CLI::PositiveNumber);
-    add(command, group, "--phase", arguments.phases, "PARTS", "Sections at these parts of a period (0)");
-    add(command, group, "--negate", arguments.negated, "NAME",
-        "Sections: half a period later too, as images with the signs of these channels changed");
-    add(command, group, "--displacement", arguments.displacement, "NAME",
-        "Impacts: a channel whose corners tell their times")
-        ->check(not_empty());
-    add(command, group, "--window", arguments.window, "N", "Impacts: samples on each side that tell velocities (12)")
+    declare_option(command, group, "--phase", arguments.phases, "PARTS", "Sections at these parts of a period (0)");
+    declare_option(command, group, "--negate", arguments.negated, "NAME",
+                   "Sections: half a period later too, as images with the signs of these channels changed");
+    declare_option(command, group, "--displacement", arguments.displacement, "NAME",
+                   "Impacts: a channel whose corners tell their times");
+    declare_option(command, group, "--window", arguments.window, "N",
+                   "Impacts: samples on each side that tell velocities (12)")
         ->check(whole_number(5, 100'000));
-    add(command, group, "--transition", arguments.transition, "N",
-        "Impacts: samples on each side that the impact itself disturbs (0)")
+    declare_option(command, group, "--transition", arguments.transition, "N",
+                   "Impacts: samples on each side that the impact itself disturbs (0)")
         ->check(whole_number(0, 100'000));
-    add(command, group, "--least-jump", arguments.least_jump, "VALUE", "Impacts: smaller jumps are none (0)")
+    declare_option(command, group, "--least-jump", arguments.least_jump, "VALUE", "Impacts: smaller jumps are none (0)")
         ->check(CLI::NonNegativeNumber);
-    add(command, group, "--part", arguments.part, "N",
-        "Spectrum: averaged over parts of so many samples (the whole record as one)")
+    declare_option(command, group, "--part", arguments.part, "N",
+                   "Spectrum: averaged over parts of so many samples (the whole record as one)")
         ->check(whole_number(8, 4'000'000));
 }
 
 void declare_record(CLI::App& app, RecordArguments& arguments) {
-    static const std::map<std::string, TableFormat> formats{
-        {"table", TableFormat::table}, {"csv", TableFormat::csv}, {"json", TableFormat::json}};
     CLI::App& command = *app.add_subcommand("record", record_text);
     command.footer(record_examples);
     command.add_option("FILE", arguments.files, "Records; of several each row tells which")->type_name("")->required();
     declare_reading(command, arguments);
     declare_processing(command, arguments);
     declare_tables(command, arguments);
-    const char* group = "Output";
-    add(command, group, "--format", arguments.output.format, "FORMAT", "table (default), csv or json")
-        ->transform(CLI::Transformer(formats).description(""));
-    add(command, group, "--digits", arguments.output.digits, "N",
-        "Significant digits of numbers (8; 17 of csv and json, which lose nothing)")
-        ->check(whole_number(1, 17));
-    add(command, group, "--output", arguments.output.file, "FILE",
-        "Write the table there instead of to standard output")
-        ->check(not_empty());
-    command.add_flag("--all", arguments.output.all, "All columns of a table, also those that do not fit a terminal")
-        ->group(group);
-    add(command, group, "--write", arguments.write, "FILE",
-        "Write the processed record there instead: HDF5 where the name ends in .h5, otherwise text")
-        ->check(not_empty());
-    group = "Picture";
-    add(command, group, "--plot", arguments.plot, "FILE", "Draw the table instead, as svg, png or pdf")
-        ->check(not_empty());
-    add(command, group, "--data", arguments.data, "FILE",
-        "Keep data and commands, to be changed and drawn by `gnuplot FILE`");
+    declare_table(command, arguments.output);
+    declare_option(command, "Output", "--write", arguments.write, "FILE",
+                   "Write the processed record there instead: HDF5 where the name ends in .h5, otherwise text");
+    declare_option(command, "Picture", "--plot", arguments.plot, "FILE", "Draw the table instead, as svg, png or pdf");
+    declare_data(command, arguments.data);
 }
 
 } // namespace
 
 std::vector<std::string> record_table_names() {
     return {"channels", "samples", "periods", "sections", "extremes", "spectrum", "impacts"};
+}
+
+void declare_reading(CLI::App& command, RecordArguments& arguments) {
+    const char* group = "What is read";
+    declare_option(command, group, "--columns", arguments.columns, "NAMES",
+                   "Names and units of the columns of texts without a first line that says it: 't [s], V [V]'");
+    declare_option(command, group, "--group", arguments.group, "NAME",
+                   "Of HDF5: the group whose datasets are the channels");
+    declare_option(command, group, "--scale", arguments.scales, "NAME=FACTOR[+OFFSET][:UNIT]",
+                   "What readings of a channel mean, such as q=2.011:mm");
+    declare_option(command, group, "--from", arguments.from, "T", "Rows from this time on");
+    declare_option(command, group, "--to", arguments.to, "T", "Rows up to this time");
 }
 
 void declare_record_commands(CLI::App& app, Arguments& arguments) {

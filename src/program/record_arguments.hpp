@@ -7,6 +7,9 @@ namespace graze {
 /// What `graze record --what` makes.
 std::vector<std::string> record_table_names();
 
+/// Options that say what is read of a record.
+void declare_reading(CLI::App& command, RecordArguments& arguments);
+
 /// The command that looks at measured records: `record`.
 void declare_record_commands(CLI::App& app, Arguments& arguments);
 

@@ -2,6 +2,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/figure.hpp"
+#include "program/interrupt.hpp"
 #include "program/output_file.hpp"
 #include "program/picture.hpp"
 #include "program/record_tables.hpp"
@@ -27,10 +28,12 @@ void with_file(const std::string& file, const Work& work) {
     }
 }
 
-void write_record(const RecordArguments& arguments, const Console& console) {
+/// @return the exit code
+int write_record(const RecordArguments& arguments, const Console& console) {
     if (arguments.files.size() > 1)
         throw InputError("several records cannot be written to one file", "give one record");
     require_distinct({{"the record", arguments.files.front()}, {"--write", arguments.write}});
+    const InterruptGuard guard; // a file that is half written is taken away
     FileReplacement replacement(arguments.write);
     with_file(arguments.files.front(), [&] {
         RecordStages stages(arguments.files.front(), arguments);
@@ -40,7 +43,7 @@ void write_record(const RecordArguments& arguments, const Console& console) {
             header.channels.push_back(stages.header().channels[c]);
         RecordWriter writer(replacement.temporary_path(), header);
         Samples samples, chosen;
-        while (stages.source().read(samples)) {
+        while (!InterruptGuard::requested() && stages.source().read(samples)) {
             chosen.times = samples.times;
             chosen.values.clear();
             for (const std::size_t c : channels)
@@ -49,8 +52,13 @@ void write_record(const RecordArguments& arguments, const Console& console) {
         }
         writer.close();
     });
+    if (InterruptGuard::requested()) {
+        console.err << fmt::format("graze: interrupted; '{}' is not written\n", arguments.write);
+        return InterruptGuard::exit_code();
+    }
     replacement.commit();
     console.out << arguments.write << '\n';
+    return exit_success;
 }
 
 } // namespace
@@ -58,10 +66,8 @@ void write_record(const RecordArguments& arguments, const Console& console) {
 int record_command(const RecordArguments& arguments, const Console& console) {
     if (!arguments.plot.empty())
         picture_ending(arguments.plot, "--plot", {"svg", "png", "pdf"});
-    if (!arguments.write.empty()) {
-        write_record(arguments, console);
-        return exit_success;
-    }
+    if (!arguments.write.empty())
+        return write_record(arguments, console);
     const std::unique_ptr<RecordTable> table = record_table(arguments);
     for (const std::string& file : arguments.files)
         with_file(file, [&] {

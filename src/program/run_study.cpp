@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <thread>
 
 namespace graze {
 
@@ -308,8 +307,7 @@ int run_command(const RunArguments& arguments, const Console& console) {
         ProgressLine progress(console, (arguments.progress || console.terminal) && !arguments.steps);
         StepLines steps(study, console.err);
         RunnerOptions options;
-        options.jobs =
-            arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+        options.jobs = threads_for(arguments.jobs);
         options.only = split_list(arguments.only);
         options.interrupted = [] { return InterruptGuard::requested(); };
         options.one_by_one = arguments.steps; // lines about several at a time could not be read

@@ -1,5 +1,7 @@
 #include "program/study_arguments.hpp"
 
+#include "program/declared_option.hpp"
+
 #include <map>
 
 namespace graze {
@@ -60,14 +62,6 @@ CLI::Option* add(CLI::App& command, const char* name, Value& value, const char* 
     return command.add_option(name, value, text)->type_name(type);
 }
 
-void declare_format(CLI::App& command, OutputArguments& output) {
-    static const std::map<std::string, TableFormat> formats{
-        {"table", TableFormat::table}, {"csv", TableFormat::csv}, {"json", TableFormat::json}};
-    command.add_option("--format", output.format, "table (default), csv or json")
-        ->type_name("FORMAT")
-        ->transform(CLI::Transformer(formats).description(""));
-}
-
 void declare_run(CLI::App& app, RunArguments& arguments) {
     CLI::App& command = *app.add_subcommand("run", run_text);
     command.footer(run_examples);
@@ -83,7 +77,7 @@ void declare_run(CLI::App& app, RunArguments& arguments) {
     command.add_flag("--no-pictures", arguments.no_pictures, "Compute only");
     command.add_flag("--progress", arguments.progress, "Show progress even if standard error is no terminal");
     command.add_flag("--quiet", arguments.quiet, "Do not list what was done");
-    declare_format(command, arguments.output);
+    declare_format(command, arguments.output)->group("Options");
 }
 
 void declare_info(CLI::App& app, InfoArguments& arguments) {
@@ -91,7 +85,7 @@ void declare_info(CLI::App& app, InfoArguments& arguments) {
     command.footer(info_examples);
     add(command, "FILE", arguments.file, "", "Result file, folder of a study, model or study")->required();
     command.add_flag("--all", arguments.all, "Parameters and settings of runs too, as csv and json have them always");
-    declare_format(command, arguments.output);
+    declare_format(command, arguments.output)->group("Options");
     add(command, "--output", arguments.output.file, "FILE", "Write there instead of to standard output");
 }
 

@@ -10,17 +10,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <sstream>
 
 namespace graze {
 
 namespace {
-
-std::string text_of(const Table& table) {
-    std::ostringstream text;
-    write_table(text, table, TableFormat::csv, 17, {});
-    return text.str();
-}
 
 bool holds(const std::string& path, const std::string& text) {
     std::ifstream stream(path, std::ios::binary);
@@ -39,7 +32,7 @@ WrittenTables write_study_tables(const Study& study, const ResultFile& file, con
             require_inside(path, folder);
             for (const std::string& input : inputs)
                 require_distinct({{"the study, or what it reads,", input}, {"table " + table.name, path}});
-            if (const std::string text = text_of(make_table(table, file)); !holds(path, text))
+            if (const std::string text = csv_text(make_table(table, file)); !holds(path, text))
                 write_file(path, text);
             written.paths.push_back(path);
         } catch (const InputError& error) {

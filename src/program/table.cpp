@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <sstream>
 
 namespace graze {
 
@@ -178,6 +179,12 @@ void write_table(std::ostream& out, const Table& table, TableFormat format, int 
     case TableFormat::json:
         return write_json(out, table, digits, heading);
     }
+}
+
+std::string csv_text(const Table& table) {
+    std::ostringstream text;
+    write_table(text, table, TableFormat::csv, 17, {});
+    return text.str();
 }
 
 } // namespace graze

@@ -38,4 +38,7 @@ std::vector<std::size_t> column_widths(const Table& table, int digits);
 void write_table(std::ostream& out, const Table& table, TableFormat format, int digits, const JsonObject& heading,
                  std::size_t longest = 0);
 
+/// A table as text for files: CSV with all digits.
+std::string csv_text(const Table& table);
+
 } // namespace graze

@@ -19,7 +19,6 @@
 #include <limits>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -60,7 +59,7 @@ SpecialPoint with_condition(const SpecialPoint& point) {
 /// What was asked for, or what the run follows; on a curve first the parameter that was freed.
 std::vector<ParameterId> parameters_of(const StoredRun& run, const std::string& asked) {
     if (!asked.empty())
-        return {run.model.independent_parameter(asked)};
+        return {asked_parameter(run.model, asked)};
     std::vector<ParameterId> result;
     if (run.record.kind == "curve" && run.record.coordinates.size() > 1)
         result.push_back(run.model.independent_parameter(run.record.coordinates[1].name));
@@ -147,8 +146,7 @@ void set_yield(Findings& found, const System& system, const ToleranceArguments& 
         set_interval(found, arguments.within);
     settings.devices = arguments.devices;
     settings.seed = arguments.seed;
-    settings.jobs =
-        arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    settings.jobs = threads_for(arguments.jobs);
     settings.interrupted = [] { return InterruptGuard::requested(); };
     StatusLine line(console, console.terminal);
     settings.progress = [&](std::size_t devices) {

@@ -1,6 +1,7 @@
 #include "program/touching_orbit.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "program/values.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +12,7 @@ namespace graze {
 
 std::vector<ParameterId> moving_parameters(const StoredRun& run, const std::string& asked) {
     if (!asked.empty())
-        return {run.model.independent_parameter(asked)};
+        return {asked_parameter(run.model, asked)};
     std::vector<ParameterId> result;
     if (run.record.kind == "curve" && run.record.coordinates.size() > 1)
         result.push_back(run.model.independent_parameter(run.record.coordinates[1].name));
@@ -38,6 +39,7 @@ OrbitTouch touch_of(const System& system, const OrbitRecord& record) {
 void find_map(TouchingOrbit& found, const System& system, const std::string& asked) {
     const OrbitTouch touch = touch_of(system, found.stored.record);
     CycleMapOptions options;
+    options.next_order = true;
     found.map = cycle_map(system, found.stored.record.point.solution.orbit, touch, options);
     for (const ParameterId parameter : moving_parameters(found.stored.run, asked)) {
         found.parameter = options.parameter = parameter;

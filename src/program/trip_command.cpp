@@ -39,7 +39,7 @@ struct Trips {
     LossPoint point;
     AskedEnd end;
     std::vector<TripRow> rows{};
-    bool all_ended = true;
+    std::vector<std::string> lacks{}; ///< what has not come to its end
 };
 
 /// Those asked for, or ten from 1e-2 to 1e-20 of the size of the parameter, on the side on which the motion is lost.
@@ -47,13 +47,7 @@ std::vector<double> overshoots_of(const LossPoint& point, const std::vector<std:
     std::vector<double> values = numbers_by_decades(point.model(), asked, "--overshoot");
     if (!values.empty())
         return values;
-    const double value = std::abs(point.value);
-    const int size = value > 0 ? static_cast<int>(std::floor(std::log10(value))) : 0;
-    const char* sign = point.side > 0 ? "" : "-";
-    constexpr int least = 20;
-    for (int digits = 2; digits <= least; digits += 2)
-        values.push_back(std::stod(fmt::format("{}1e{}", sign, size - digits)));
-    return values;
+    return usual_overshoots(point.value, point.side);
 }
 
 TripOptions options_of(const LossPoint& point, const TripArguments& arguments) {
@@ -73,14 +67,16 @@ bool add_row(Trips& trips, double overshoot, const TripOptions& options) {
     const LossPoint& point = trips.point;
     TripRow row;
     row.overshoot = overshoot;
-    bool ended = true;
+    std::string lack;
+    constexpr const char* longer = "give more --cycles, or another end by --until";
     if (point.fold) {
         row.cycles = cycles_of_passage(*point.fold, overshoot);
         row.gate_cycles = cycles_of_passage(*point.fold, overshoot, -point.fold->gate, point.fold->gate);
         if (row.cycles < options.cycles && std::abs(overshoot) >= least_overshoot(*point.fold)) {
             row.passage =
                 simulated_passage(point.system, *point.fold, overshoot, trips.end.end, !trips.end.given, options);
-            ended = trips.end.given ? row.passage->trip.ended : row.passage->passed;
+            if (!(trips.end.given ? row.passage->trip.ended : row.passage->passed))
+                lack = why_not(row.passage->trip, longer);
         }
     } else {
         PredictionOptions prediction;
@@ -92,11 +88,14 @@ bool add_row(Trips& trips, double overshoot, const TripOptions& options) {
             continued_trip(point.system, point.map, point.parameter, overshoot, row.predicted, trips.end.end, options);
         if (overshoot == 0 || std::abs(overshoot) >= least_overshoot(point.map, point.parameter))
             row.simulated = simulated_trip(point.system, point.map, point.parameter, overshoot, trips.end.end, options);
-        ended = row.continued.ended;
+        if (!row.continued.ended)
+            lack = why_not(row.continued, longer);
     }
     if (InterruptGuard::requested())
         return false;
-    trips.all_ended = trips.all_ended && ended;
+    if (!lack.empty())
+        trips.lacks.push_back(
+            fmt::format("the trip at the overshoot {:g} has not come to its end: {}", overshoot, lack));
     trips.rows.push_back(std::move(row));
     return true;
 }
@@ -191,14 +190,6 @@ Table table_of_both(const Trips& one, const Trips& other) {
     return table;
 }
 
-FigureSeries series_of(const std::string& title, FigureSeries::Style style, std::size_t colour) {
-    FigureSeries series;
-    series.title = title;
-    series.style = style;
-    series.colour = colour;
-    return series;
-}
-
 void add_touch(FigurePanel& panel, const Trips& trips, const std::string& which) {
     const double speed = trips.end.end.speed;
     const std::string level =
@@ -288,14 +279,15 @@ int trip_command(const TripArguments& arguments, const Console& console) {
     if (!arguments.plot.empty())
         require_drawable(overshoots);
     const InterruptGuard guard;
-    bool interrupted = false, all_ended = true;
+    bool interrupted = false;
+    std::vector<std::string> lacks;
     for (Trips& trips : all) {
         const TripOptions options = options_of(trips.point, arguments);
         for (std::size_t i = 0; i < overshoots.size() && !interrupted; ++i) {
             const bool own = &trips == &all.front();
             interrupted = !add_row(trips, own ? overshoots[i] : trips.point.side * std::abs(overshoots[i]), options);
         }
-        all_ended = all_ended && trips.all_ended;
+        lacks.insert(lacks.end(), trips.lacks.begin(), trips.lacks.end());
     }
     if (arguments.plot.empty() || interrupted) {
         const Trips& one = all.front();
@@ -312,7 +304,8 @@ int trip_command(const TripArguments& arguments, const Console& console) {
                                    overshoots.size());
         return InterruptGuard::exit_code();
     }
-    return all_ended ? exit_success : exit_irregular;
+    tell_lacks(lacks, console);
+    return lacks.empty() ? exit_success : exit_irregular;
 }
 
 } // namespace graze

@@ -63,6 +63,14 @@ double positive_value_of(const Model& model, std::string_view text, const std::s
     return value;
 }
 
+ParameterId asked_parameter(const Model& model, const std::string& name) {
+    try {
+        return model.independent_parameter(name);
+    } catch (const InputError& error) {
+        throw InputError(Place{"--parameter", 0, 0}, error.problem(), error.remedy());
+    }
+}
+
 namespace {
 
 /// Of two values one would be ignored.

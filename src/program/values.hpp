@@ -20,6 +20,9 @@ double value_of(const Model& model, std::string_view text, const std::string& op
 /// The same, and positive. @throws InputError
 double positive_value_of(const Model& model, std::string_view text, const std::string& option);
 
+/// The independent parameter that `--parameter NAME` asks for. @throws InputError for another name
+ParameterId asked_parameter(const Model& model, const std::string& name);
+
 /// Carries out `--set NAME=EXPRESSION ...`, one after the other. @throws InputError
 void set_parameters(Model& model, const std::vector<std::string>& assignments);
 /// Names and values of `--set NAME=NUMBER ...` for models that are not known yet: expressions without names.

@@ -51,10 +51,20 @@ public:
         slope.truncation = factors[5] * fit_.slope_at_zero(5) / width;
         return slope;
     }
-    /// @param variance of a sample
-    double error(const Slope& slope, double variance) const {
-        const double beyond = slope.truncation * slope.truncation - variance * truncation_noise_ * truncation_noise_;
-        return std::sqrt(variance * noise_ * noise_ + std::max(0.0, beyond));
+    /// Square of what the terms of fifth and sixth degree add, without what noise adds to it: of one window it may be
+    /// below zero. @param variance of a sample
+    double beyond(const Slope& slope, double variance) const {
+        return slope.truncation * slope.truncation - variance * truncation_noise_ * truncation_noise_;
+    }
+    /// @param usual what these terms usually add, squared: that of one window is as noisy as the slope itself, so that
+    /// it
+    ///        is believed only where it is much larger
+    double error(const Slope& slope, double variance, double usual) const {
+        constexpr double significant = 9;
+        const double own = slope.truncation * slope.truncation,
+                     noise = variance * truncation_noise_ * truncation_noise_;
+        return std::sqrt(variance * noise_ * noise_ +
+                         (own > significant * noise ? std::max(usual, own - noise) : usual));
     }
 
 private:
@@ -93,6 +103,17 @@ double variance_at(const Slope& slope, double usual, double freedom) {
     return own > far * usual ? own : usual;
 }
 
+/// What terms beyond the fourth degree add to the slope, squared: the mean of all windows in which nothing jumps.
+double usual_beyond(const SlopeFilter& filter, const std::vector<Slope>& slopes, double usual) {
+    double sum = 0, count = 0;
+    for (const Slope& slope : slopes)
+        if (variance_at(slope, usual, filter.freedom()) == usual) {
+            sum += filter.beyond(slope, usual);
+            ++count;
+        }
+    return count > 0 ? std::max(0.0, sum / count) : 0;
+}
+
 std::size_t best_half_width(const std::vector<double>& values) {
     std::size_t best = 0;
     double least = 0, noise = 0;
@@ -110,10 +131,8 @@ std::size_t best_half_width(const std::vector<double>& values) {
         if (best != 0 && usual > more_than_noise * noise)
             break;
         noise = best == 0 ? usual : std::min(noise, usual);
-        std::vector<double> errors;
-        for (const Slope& slope : slopes)
-            errors.push_back(filter.error(slope, variance_at(slope, usual, filter.freedom())));
-        const double error = median(errors);
+        // Of the squares' mean: where the terms pass through nought they are as large elsewhere.
+        const double error = filter.error({}, usual, usual_beyond(filter, slopes, usual));
         if (best == 0 || error < least) {
             best = half;
             least = error;
@@ -194,10 +213,11 @@ bool WithDerivative::read(Samples& samples) {
     core.append(rows, state.window->first(), state.window->last());
     samples.times = std::move(core.times);
     std::move(core.values.begin(), core.values.end(), samples.values.begin());
+    const double beyond = usual_beyond(*state.filter, slopes, usual);
     std::vector<double>&values = samples.values[core.values.size()], &errors = samples.values[core.values.size() + 1];
     for (const Slope& slope : slopes) {
         values.push_back(slope.value * frequency);
-        errors.push_back(state.filter->error(slope, variance_at(slope, usual, freedom)) * frequency);
+        errors.push_back(state.filter->error(slope, variance_at(slope, usual, freedom), beyond) * frequency);
     }
     return true;
 }

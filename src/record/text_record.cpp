@@ -60,7 +60,7 @@ const char* parse_number(const char* at, const char* end, double& value) {
 /// The first that a line has outside of brackets; blanks count only if there is no other.
 char separator_of(std::string_view line) {
     line = trimmed(line);
-    for (const char separator : {',', ';', '\t', ' '}) {
+    for (const char separator : {';', ',', '\t', ' '}) {
         int depth = 0;
         for (const char letter : line) {
             depth += letter == '[' || letter == '(' ? 1 : letter == ']' || letter == ')' ? -1 : 0;
@@ -126,7 +126,41 @@ Channel channel_of(const Field& field, const Place& line) {
 
 } // namespace
 
+/// Of a bracket that is never closed all that follows would be the unit.
+void require_closed_brackets(std::string_view line, const Place& place) {
+    constexpr std::size_t none = std::string_view::npos;
+    std::size_t square = none, round = none; // where one was opened
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (line[i] == '[' && square != none) // within one there is no other
+            break;
+        if (line[i] == '[')
+            square = i;
+        else if (line[i] == ']')
+            square = none;
+        else if (line[i] == '(' && round == none)
+            round = i;
+        else if (line[i] == ')')
+            round = none;
+    }
+    if ((square == none && round == none) || !is_plain_line(std::string(line)))
+        return;
+    throw InputError({place.file, place.line, place.line > 0 ? static_cast<int>(std::min(square, round)) + 1 : 0},
+                     "the bracket of a unit is not closed", "write names with their units, as in 't [s], V [V]'");
+}
+
+/// Whether a row has a comma within a number, beside what separates columns.
+bool has_decimal_commas(std::string_view line, char separator) {
+    const auto is_digit = [](char letter) { return letter >= '0' && letter <= '9'; };
+    bool commas = false, others = separator != ',';
+    for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+        commas = commas || (line[i] == ',' && is_digit(line[i - 1]) && is_digit(line[i + 1]));
+        others = others || (is_blank(line[i]) && is_digit(line[i - 1]) && line[i - 1] != ',');
+    }
+    return commas && others;
+}
+
 RecordHeader parse_record_header(const std::string& line, const Place& place) {
+    require_closed_brackets(line, place);
     const std::vector<Field> fields = header_fields(line, separator_of(line));
     if (fields.size() < 2)
         throw InputError(place, "there is only one column",
@@ -232,6 +266,8 @@ void TextRecord::find_header(const RecordLayout& layout) {
         header_ = parse_record_header(std::string(line), Place{path_, line_, 1});
         return;
     }
+    if (has_decimal_commas(line, separator_))
+        refuse(line, text.data(), "numbers have decimal commas", "write decimal points");
     const std::size_t columns = header_fields(line, separator_).size();
     constexpr std::size_t columns_of_dissertation = 5;
     if (!layout.columns.empty())
@@ -278,6 +314,9 @@ void TextRecord::parse(std::string_view line, Samples& samples) {
         }
     }
     const char* const rest = past_blanks(at, end);
+    if (rest != end && separator_ == ',' && header_fields(line, separator_).size() == 2 * columns)
+        refuse(line, line.data(), fmt::format("there are {} numbers instead of {}", 2 * columns, columns),
+               "give one for each column; if commas are decimal ones, write decimal points");
     if (rest != end)
         refuse(line, rest, fmt::format("there is more on this line than {} columns", columns),
                "give a number for each column that the first line names");

@@ -24,6 +24,9 @@ void require_between(double value, double least, double greatest, const char* wh
 
 void read_size(const StudyReader& reader, const TomlEntry& entry, FigureStyle& style) {
     const Model none;
+    if (entry.node->is_string() && reader.toml().line(entry).find_first_of("x,;") != std::string::npos)
+        reader.fail(entry, fmt::format("{} is a text, not a width or a width and a height", entry.path),
+                    "write it as 170 or [170, 100], in mm");
     if (!entry.node->is_array()) {
         style.width = reader.positive(none, entry);
         return;

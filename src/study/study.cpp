@@ -287,7 +287,7 @@ private:
 } // namespace
 
 Study parse_study(std::string_view text, const std::string& file, const ParameterValues& set) {
-    const toml::table root = parse_toml(text, file);
+    const toml::table root = parse_toml(text, file, "docs/study-format.md shows how a study is written");
     return WholeStudy(file, set).read(root);
 }
 

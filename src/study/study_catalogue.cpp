@@ -4,10 +4,6 @@
 #include "model/catalogue_data.hpp"
 #include "study/study_reader.hpp"
 
-#include <fmt/format.h>
-
-#include <filesystem>
-
 namespace graze {
 
 std::vector<std::string> shipped_studies() {
@@ -18,14 +14,7 @@ std::vector<std::string> shipped_studies() {
 }
 
 std::string shipped_study_text(const std::string& name) {
-    for (const EmbeddedModel& study : embedded_studies())
-        if (study.name == name)
-            return std::string(study.text);
-    std::error_code error;
-    if (const std::string file = name + ".toml"; std::filesystem::exists(file, error))
-        throw InputError(fmt::format("there is no study '{}'", name), fmt::format("the file is called {}", file));
-    throw InputError(fmt::format("there is no study '{}'", name),
-                     study_name_remedy(name, shipped_studies()) + " (the name of a file ends in .toml)");
+    return embedded_text(embedded_studies(), "study", name);
 }
 
 Study load_study(const std::string& name_or_path, const ParameterValues& set) {

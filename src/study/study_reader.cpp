@@ -7,12 +7,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 namespace graze {
 
 std::string study_name_remedy(const std::string& name, const std::vector<std::string>& known) {
     return name_advice(name, known, "there are none");
+}
+
+std::string embedded_text(std::span<const EmbeddedModel> files, const std::string& kind, const std::string& name) {
+    std::vector<std::string> names;
+    for (const EmbeddedModel& file : files) {
+        if (file.name == name)
+            return std::string(file.text);
+        names.emplace_back(file.name);
+    }
+    const std::string problem = fmt::format("there is no {} '{}'", kind, name);
+    std::error_code error;
+    if (const std::string file = name + ".toml"; std::filesystem::exists(file, error))
+        throw InputError(problem, fmt::format("the file is called {}", file));
+    throw InputError(problem, study_name_remedy(name, names) + " (the name of a file ends in .toml)");
 }
 
 void StudyReader::fail(const TomlEntry& entry, const std::string& problem, const std::string& remedy) const {

@@ -4,10 +4,12 @@
 #include "graze/results/name_advice.hpp"
 #include "graze/study/study.hpp"
 #include "graze/symbolic/input_errors.hpp"
+#include "model/catalogue_data.hpp"
 #include "model/model_file_toml.hpp"
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -116,6 +118,10 @@ void check_start(const StudyReader& reader, const StudyRun& run, const StudyRun&
 
 /// "did you mean", or all there are.
 std::string study_name_remedy(const std::string& name, const std::vector<std::string>& known);
+
+/// The text of a file that is part of the program. @param kind "study", "design"
+/// @throws InputError when there is none of this name
+std::string embedded_text(std::span<const EmbeddedModel> files, const std::string& kind, const std::string& name);
 
 /// As what pictures of a study can be written.
 std::vector<std::string> picture_formats();

@@ -10,6 +10,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -24,6 +25,7 @@ struct LinearOscillator {
     Eigen::VectorXd force;
     double omega = 1, restitution = 0.8;
     double length = 1, clock = 1; ///< units: one of length, one of time
+    double wall = 0;              ///< with it the same is seen from a ground to which the stop goes back and forth
 
     std::size_t degrees() const { return static_cast<std::size_t>(force.size()); }
     Eigen::VectorXcd amplitude() const {
@@ -71,12 +73,21 @@ struct LinearOscillator {
         const std::size_t n = degrees();
         std::string states, rates;
         for (std::size_t i = 0; i < n; ++i) {
-            states += fmt::format("q{} = 0\nv{} = 0\n", i, i);
+            if (i > 0 || wall == 0)
+                states += fmt::format("q{} = 0\nv{} = 0\n", i, i);
             std::string rate = fmt::format("force*({:.17g})*cos(theta)", force[idx(i)] * length / (clock * clock));
             for (std::size_t j = 0; j < n; ++j)
                 rate += fmt::format(" - ({:.17g})*v{} - ({:.17g})*q{}", damping(idx(i), idx(j)) / clock, j,
                                     stiffness(idx(i), idx(j)) / (clock * clock), j);
-            rates += fmt::format("q{} = \"v{}\"\nv{} = \"{}\"\n", i, i, i, rate);
+            if (i > 0 || wall == 0)
+                rates += fmt::format("q{} = \"v{}\"\nv{} = \"{}\"\n", i, i, i, rate);
+            else
+                rates += fmt::format("p = \"u\"\nu = \"{} - wall*omega^2*sin(theta)\"\n", rate);
+        }
+        std::string moving;
+        if (wall != 0) {
+            states += "p = 0\nu = 0\n";
+            moving = "[definitions]\nq0 = \"p - wall*sin(theta)\"\nv0 = \"u - wall*omega*cos(theta)\"\n";
         }
         const std::string rest = contact.empty() ? R"toml(
 [modes.free]
@@ -84,7 +95,7 @@ watch = ["stop"]
 [modes.free.rates]
 RATES
 [jumps.impact]
-v0 = "-e*v0"
+JUMP
 [[transitions]]
 mode = "free"
 event = "stop"
@@ -99,7 +110,8 @@ force = 1
 sigma = {:.17g}
 omega = {:.17g}
 e = {:.17g}
-[states]
+wall = {:.17g}
+{}[states]
 {}theta = {{ initial = 0, period = "2*pi" }}
 [events.stop]
 function = "sigma - q0"
@@ -107,10 +119,12 @@ function = "sigma - q0"
 state = "theta"
 value = 0
 )toml",
-                                       stop() * length, omega / clock, restitution, states) +
+                                       stop() * length, omega / clock, restitution, wall * length, moving, states) +
                            rest;
         for (std::size_t at; (at = text.find("RATES")) != std::string::npos;)
             text.replace(at, 5, rates + "theta = \"omega\"");
+        if (const std::size_t at = text.find("JUMP"); at != std::string::npos)
+            text.replace(at, 4, wall == 0 ? "v0 = \"-e*v0\"" : "u = \"wall*omega*cos(theta) - e*v0\"");
         for (std::size_t at; (at = text.find("HELD")) != std::string::npos;) {
             std::string held = rates + "theta = \"omega\"";
             held.insert(held.find("v0 = \"") + 6, "k*(sigma - q0) + ");
@@ -126,9 +140,12 @@ value = 0
         std::vector<double> start;
         const Eigen::VectorXcd motion = amplitude();
         const std::complex<double> i(0, 1);
-        for (Eigen::Index k = 0; k < motion.size(); ++k) {
-            start.push_back(motion[k].real() * length);
-            start.push_back((i * omega * motion[k]).real() * length / clock);
+        for (Eigen::Index k = 0; k < motion.size(); ++k)
+            for (const double one : {motion[k].real() * length, (i * omega * motion[k]).real() * length / clock})
+                start.push_back(one);
+        if (wall != 0) { // the state of the first one is the last
+            start[1] += wall * omega * length / clock;
+            std::rotate(start.begin(), start.begin() + 2, start.end());
         }
         start.push_back(0);
         result.starts = {start};

@@ -4,6 +4,7 @@
 
 #include "graze/grazing/map_motion.hpp"
 #include "graze/grazing/trial.hpp"
+#include "graze/symbolic/input_error.hpp"
 #include "graze/trajectory/trajectory.hpp"
 #include "linear_oscillator.hpp"
 
@@ -58,8 +59,11 @@ TEST(Verdict, maps_of_linear_oscillators_have_their_closed_form_in_all_units) {
                   testing::two_degrees(2.1, 0.3, 2.7, 0, -0.7)}) {
                 one.length = length;
                 one.clock = clock;
-                SCOPED_TRACE(fmt::format("length {} clock {} omega {}", length, clock, one.omega));
-                expect_closed_form(one);
+                for (const double wall : {0.0, 0.4}) {
+                    one.wall = wall * one.stop();
+                    SCOPED_TRACE(fmt::format("length {} clock {} omega {} wall {}", length, clock, one.omega, wall));
+                    expect_closed_form(one);
+                }
             }
 }
 
@@ -140,9 +144,10 @@ std::map<std::string, int> try_random(int count, unsigned seed) {
         // From weak damping to more than critical, where multipliers are real.
         const double zeta = std::pow(10, -2.5 + 3.1 * uniform(random)), omega = 0.4 + 5 * uniform(random),
                      e = 0.95 * uniform(random);
-        const LinearOscillator one =
-            trial % 2 == 0 ? testing::one_degree(zeta, omega, e)
-                           : testing::two_degrees(3 * uniform(random), zeta, omega, e, 2 * uniform(random) - 1);
+        LinearOscillator one = trial % 2 == 0
+                                   ? testing::one_degree(zeta, omega, e)
+                                   : testing::two_degrees(3 * uniform(random), zeta, omega, e, 2 * uniform(random) - 1);
+        one.wall = trial % 3 == 0 ? one.stop() * (0.1 + uniform(random)) : 0;
         const Model model = one.model();
         const CycleMap map = map_of(one, model);
         const Verdict verdict = verdict_of(map);
@@ -279,6 +284,74 @@ TEST(Verdict, leading_multiplier_says_which_attractors_remain) {
             EXPECT_EQ(near.period, 0U);
         }
     }
+}
+
+/// A map of one state with the slope a without sliding and b with it: the tent map with two slopes, whose attractors
+/// are known (Yu. L. Maistrenko, V. L. Maistrenko and L. O. Chua, Int. J. Bifurcation Chaos 3, 1993).
+CycleMap tent(double a, double b) {
+    CycleMap map;
+    map.contact.order = MapOrder::linear;
+    map.contact.acceleration = 2;
+    map.active = {0};
+    map.scales = {3};
+    map.matrix = {a};
+    map.gradient = {1};
+    map.impact = {1 - b / a};
+    map.multipliers = {a};
+    map.clearance_rate = -1;
+    return map;
+}
+
+TEST(Verdict, of_sliding_is_that_of_the_tent_map) {
+    const auto judged = [](double a, double b) { return verdict_of(tent(a, b)); };
+    const auto expect_period = [&](double a, double b, std::size_t period) {
+        const Verdict verdict = judged(a, b);
+        EXPECT_EQ(verdict.outcome, GrazingOutcome::persists) << a << ' ' << b;
+        EXPECT_EQ(verdict.attractor, AttractorKind::periodic) << a << ' ' << b;
+        EXPECT_EQ(verdict.in, period) << a << ' ' << b;
+        EXPECT_EQ(verdict.slides, 1U) << a << ' ' << b;
+        EXPECT_EQ(verdict.border, BorderCollision::persistence);
+        EXPECT_EQ(verdict.doubles, period > 1);
+        EXPECT_NEAR(*verdict.leading, std::abs(b), 1e-12);
+    };
+    for (const double b : {-0.9, -0.2, 0.3, 0.95})
+        expect_period(0.4, b, 1);
+    // Of the period m the slope is a^(m-1) b, and there is such an orbit for b < -(1 + a + ... + a^(m-2))/a^(m-2).
+    expect_period(0.4, -1.2, 2);
+    expect_period(0.4, -2.4, 2);
+    expect_period(0.4, -4, 3);
+    expect_period(0.4, -6, 3);
+    expect_period(0.4, -12, 4);
+    for (const auto& [a, b] : {std::pair(0.4, -3.0), std::pair(0.9, -1.5), std::pair(0.9, -5.0)}) {
+        const Verdict verdict = judged(a, b);
+        EXPECT_EQ(verdict.outcome, GrazingOutcome::persists);
+        EXPECT_EQ(verdict.attractor, AttractorKind::chaotic) << a << ' ' << b;
+    }
+    for (const double b : {1.02, 1.5, 20.0}) {
+        const Verdict verdict = judged(0.4, b);
+        EXPECT_EQ(verdict.outcome, GrazingOutcome::lost);
+        EXPECT_EQ(verdict.border, BorderCollision::fold);
+        EXPECT_FALSE(verdict.doubles);
+        EXPECT_EQ(verdict.side, 1);
+        EXPECT_DOUBLE_EQ(*verdict.first_speed, 2);
+    }
+    EXPECT_EQ(judged(0.4, 1).outcome, GrazingOutcome::undecided);
+    EXPECT_EQ(judged(0.4, -1).outcome, GrazingOutcome::undecided);
+    EXPECT_EQ(judged(1.2, 0.5).reason, "the orbit that touches is not stable itself");
+}
+
+/// All is in proportion to the clearance.
+TEST(Verdict, motions_that_slide_do_not_depend_on_the_distance) {
+    const CycleMap map = tent(0.4, -2);
+    for (const double clearance : {-1.0, -1e-8}) {
+        const MapMotion motion = map_motion(map, clearance);
+        EXPECT_EQ(motion.period, 2U);
+        // x -> a x without; with the depth d: x' = b x + (b - a) C. Two rounds meet at x, from the free side.
+        const double a = 0.4, b = -2, x = a * (b - a) * clearance / (1 - a * b), depth = -(clearance + x);
+        EXPECT_NEAR(motion.largest, std::sqrt(4 * depth), 1e-9 * motion.largest) << clearance;
+    }
+    EXPECT_THROW(map.image({}, -1), InputError);
+    EXPECT_THROW(CycleMap{}.image({}, -1), InputError);
 }
 
 /// Contacts at the stop after a transient, over whole cycles.

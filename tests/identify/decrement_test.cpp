@@ -4,6 +4,7 @@
 #include "identify/noise.hpp"
 
 #include <numbers>
+#include <string>
 
 namespace graze::testing {
 
@@ -18,13 +19,13 @@ double velocity(double t, double displacement) {
     return -displacement * frequency * frequency / damped * std::exp(-damping * frequency * t) * std::sin(damped * t);
 }
 
-DecayPeaks peaks_of(Noise& noise, double sigma, double rate, std::size_t most = 10) {
+DecayPeaks peaks_of(Noise& noise, double sigma, double rate, std::size_t most = 10, double rest = 0) {
     Samples samples;
     samples.clear(1);
     const double begin = 0.001 * noise.uniform();
     for (int i = 0; i < static_cast<int>(rate); ++i) {
         samples.times.push_back(begin + i / rate);
-        samples.values[0].push_back(velocity(samples.times.back(), 0.762e-3) + sigma * noise.normal());
+        samples.values[0].push_back(rest + velocity(samples.times.back(), 0.762e-3) + sigma * noise.normal());
     }
     StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
     return decay_peaks(source, 0, most);
@@ -79,6 +80,48 @@ TEST(Decrement, IntervalsCoverTheTruth) {
     expect_coverage(frequencies, "natural frequency");
     expect_coverage(dampings, "damping ratio");
     EXPECT_LT(scatter, pairs) << "means of pairs waste what was measured";
+}
+
+// A channel that comes to rest elsewhere than at nought: where that is belongs to what is found, and to the errors.
+TEST(Decrement, FindsWhereAChannelComesToRest) {
+    constexpr double rest = 0.3; // four times the first peak
+    std::size_t dampings = 0, rests = 0;
+    for (std::size_t seed = 0; seed < experiments; ++seed) {
+        Noise noise(seed);
+        std::vector<DecayPeaks> releases;
+        for (int r = 0; r < 3; ++r)
+            releases.push_back(peaks_of(noise, 2e-3, 1000, 10, rest));
+        const Decrement found = logarithmic_decrement(releases);
+        dampings += std::abs(found.damping.value - damping) < found.damping.half_width() ? 1 : 0;
+        rests += std::abs(releases[0].rest - rest) < 1.96 * releases[0].rest_error ? 1 : 0;
+    }
+    expect_coverage(dampings, "damping ratio");
+    expect_coverage(rests, "rest position");
+    Noise none(1);
+    const DecayPeaks exact = peaks_of(none, 0, 1000, 10, rest);
+    EXPECT_NEAR(exact.rest, rest, 1e-12);
+}
+
+// Noise of a third of the first peak, as large as the last ones: fewer peaks stand out, and those that do tell.
+TEST(Decrement, OfNoisyRecordsUsesThePeaksThatStandOut) {
+    std::size_t frequencies = 0;
+    for (std::size_t seed = 0; seed < experiments; ++seed) {
+        Noise noise(seed);
+        std::vector<DecayPeaks> releases;
+        for (int r = 0; r < 10; ++r)
+            releases.push_back(peaks_of(noise, 0.02, 1000));
+        const Decrement found = logarithmic_decrement(releases);
+        frequencies += std::abs(found.frequency.value - frequency) < found.frequency.half_width() ? 1 : 0;
+        EXPECT_NEAR(found.damping.value, damping, 5 * found.damping.error) << seed;
+    }
+    expect_coverage(frequencies, "natural frequency");
+    Noise noise(3);
+    try {
+        peaks_of(noise, 0.3, 1000);
+        ADD_FAILURE() << "noise of four times the first peak";
+    } catch (const InputError& error) {
+        EXPECT_EQ(std::string(error.what()).find("about nought"), std::string::npos) << error.what();
+    }
 }
 
 TEST(Decrement, RefusesWhatIsNone) {

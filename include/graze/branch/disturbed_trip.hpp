@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -72,8 +74,9 @@ struct NoiseSettings {
 
 struct NoisyTrips {
     std::size_t motions = 0, trips = 0;
-    std::size_t failed = 0;         ///< that ended otherwise: they are not counted in the share
-    std::size_t beyond = 0;         ///< whose parameter was beyond the point at any time
+    std::size_t failed = 0; ///< that ended otherwise: they are not counted in the share
+    std::vector<std::pair<std::string, std::size_t>> failures; ///< how these ended, and how many each way
+    std::size_t beyond = 0;                                    ///< whose parameter was beyond the point at any time
     ConfidenceInterval probability; ///< of a trip within the cycles, with limits by E. B. Wilson (see yield.hpp), which
                                     ///< are 0 and 1 where all failed
     std::optional<double> half;     ///< cycles after which half of the motions had tripped

@@ -49,6 +49,7 @@ struct Approach {
     std::string event;      ///< that is touched; empty: any
     std::size_t cycles = 0; ///< for the motion to settle; 0: as many as usual
     Place place;
+    Place range_place; ///< of the range, if there is one
 };
 
 /// What counts as tripped, and at which distances beyond the trip value its time is asked for.

@@ -16,6 +16,7 @@ struct DeviceTrial {
     bool trips_above = false;           ///< the motion came to the end that counts as tripped
     std::string seen_below, seen_above; ///< in words
     TrialOutcome outcome = TrialOutcome::undecided; ///< whether that is what the class says
+    std::string reason;                             ///< why undecided, and what to do
     TripTime trip;                                  ///< above
 };
 
@@ -25,7 +26,9 @@ struct DeviceTrialOptions {
     std::function<bool()> interrupted;
 };
 
-/// Simulates a device on both sides of its trip value, without the map of the cycle.
+/// Simulates a device on both sides of its trip value, without the map of the cycle. Where the end that counts as
+/// tripped does not come in time, contacts that have become harder than the map can tell of do not contradict that the
+/// motion is lost: then it is undecided, and so is a simulation that could not go on.
 /// @param orbit at its trip point
 DeviceTrial try_device(const TripPoint& trip, const Orbit& orbit, const TripClass& found, const TripRequest& request,
                        const DeviceTrialOptions& options = {});

@@ -6,6 +6,7 @@
 #include <complex>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct CycleMapOptions {
     double tolerance = 1e-13; ///< of the integration; 1e-16 .. 1e-2
     /// By which the orbit is moved from grazing; none: the map is that of the grazing orbit alone.
     std::optional<ParameterId> parameter;
+    bool next_order = false; ///< also that, which takes second derivatives of the motion around the orbit
 };
 
 /// All places at which an orbit touches a surface, to within some 1e-7 of the size of the event's function; each once.
@@ -34,8 +36,11 @@ std::vector<OrbitTouch> touches_of(const System& system, const Orbit& orbit, con
 ///
 ///     x -> P (x + B s),   s = sqrt(-2 a h) where h = C + g x is negative, and 0 elsewhere
 ///
-/// (or B (-h)^(3/2) in place of B s), where C is the clearance of that orbit. The orbit may have contacts of its own;
-/// the cycle of a half orbit ends at its image.
+/// (or B (-h)^(3/2) or B (-h) in place of B s), where C is the clearance of that orbit. The orbit may have contacts of
+/// its own; the cycle of a half orbit ends at its image.
+///
+/// States that are as small as h are off by s^2 (h^2, of the two others). With the next order, of an impact `second`
+/// s^2 more, they are off by s^3 only; of sliding it is `second` (-h)^(3/2), with an error of h^2.
 struct CycleMap {
     std::string reason; ///< why there is none, in one line; empty if there is one
     OrbitTouch touch;
@@ -52,6 +57,10 @@ struct CycleMap {
     std::vector<double> matrix;      ///< P, row by row
     std::vector<double> impact;      ///< B
     std::vector<double> gradient;    ///< g
+    /// The next order, one cycle later: what the active states have gained besides P B s. Empty: not known, or not
+    /// asked for.
+    std::vector<double> second;
+    double second_clearance = 0; ///< the same of h, whose own curvature counts, too
     /// Eigenvalues of P but the one that belongs to the projection onto the surface: multipliers, largest first.
     std::vector<std::complex<double>> multipliers;
     /// With respect to the parameter, if one was given and no multiplier is 1.
@@ -68,6 +77,10 @@ struct CycleMap {
     /// well, and is there without any limit. Folds (sign 1) and flips (sign -1) of orbits with an impact in each cycle
     /// begin on those that graze where it vanishes; with two multipliers it is the first projection, for both signs.
     double sum_of_projections(int sign) const;
+    /// One cycle: the active states after it. With the next order where it is known.
+    /// @param state of as many, before; @param clearance of the orbit without contact (C)
+    /// @throws InputError for a map that does not exist, and numbers that do not fit it
+    std::vector<double> image(std::span<const double> state, double clearance) const;
 };
 
 /// The map of the cycle at one touch.

@@ -23,7 +23,7 @@ struct MapMotion {
 };
 
 /// Iterates the map, from the orbit without contact. To leading order all is in proportion: of a square_root map only
-/// clearance / (acceleration projection^2) matters.
+/// clearance / (acceleration projection^2) matters, of a linear one nothing but the clearance's sign.
 /// @throws InputError for a map that does not exist, a clearance that is not finite, and options out of range
 MapMotion map_motion(const CycleMap& map, double clearance, const MapMotionOptions& options = {});
 

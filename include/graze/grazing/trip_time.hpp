@@ -19,6 +19,7 @@ struct TripTime {
     double time = 0;
     std::size_t contacts = 0; ///< with the touched surface until then, that at the end included
     double speed = 0;         ///< approach speed of the last of these
+    std::string detail{};     ///< of a simulation that could not go on: what happened and what to do
 };
 
 /// A trip as the map has it. Cycles are passes of the touch, of which the beginning is number 0.
@@ -39,6 +40,10 @@ struct PredictionOptions {
     std::vector<double> disturbance; ///< of each state of the model where the motion begins; empty: none
     std::size_t contacts = 10'000;   ///< at most
 };
+
+/// Overshoots over ten decades: 1e-2, 1e-4 ... 1e-20 times the power of ten of the parameter's value.
+/// @param side on which they are: negative below the value
+std::vector<double> usual_overshoots(double value, int side);
 
 /// An approach speed up to which the map of a lost orbit says what happens: a tenth of what its contacts grow to, and
 /// of the speed with which the states of the orbit could meet the surface at all.

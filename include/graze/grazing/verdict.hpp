@@ -20,14 +20,23 @@ enum class GrazingOutcome {
 /// Stable name for tables and files, such as "persists".
 std::string_view name_of(GrazingOutcome outcome);
 
-/// Attractors that remain next to a touch of a rigid stop, as the leading multiplier has them.
+/// Attractors that remain next to a touch: of a rigid stop as the leading multiplier has them, of sliding as the map.
 enum class AttractorKind {
     none,             ///< nothing is known of them
     period_adding,    ///< below 1/4: one contact in ever more cycles, nearer and nearer to the touch
     periodic_windows, ///< below 2/3: the same, with chaos between
-    chaotic,          ///< chaos that begins at the touch
+    chaotic,          ///< chaos that begins at the touch; of sliding, any motion that does not repeat
+    periodic,         ///< of sliding: one that repeats
 };
 std::string_view name_of(AttractorKind kind);
+
+/// How the orbit that touches a surface on which motions slide meets the one that slides for a moment.
+enum class BorderCollision {
+    none,        ///< nothing is known of it
+    persistence, ///< the one becomes the other: it goes on beyond the touch
+    fold,        ///< both are there before the touch, and neither beyond it
+};
+std::string_view name_of(BorderCollision collision);
 
 /// What follows from the map of a cycle.
 ///
@@ -40,6 +49,12 @@ std::string_view name_of(AttractorKind kind);
 /// Of a compliant contact the orbit goes on; with d its depth and C the clearance without contact, C + d + chi d^(3/2)
 /// = 0, which for chi < 0 turns at C = -4 / (27 chi^2): the cubic alpha tau^3 + tau^2 + beta of Eq. (3.29) in the work
 /// that this project follows, with tau = -d^(1/2), alpha = -chi, beta = C.
+///
+/// With sliding the map is continuous and linear on both sides: P without, P (1 - B g) with it. An odd number of real
+/// multipliers above 1 of both together makes a fold of the two orbits, an even number lets the one become the other,
+/// and an odd number below -1 sets off an orbit of twice the period (M. I. Feigin, J. Appl. Math. Mech. 42, 1978; M. di
+/// Bernardo, M. I. Feigin, S. J. Hogan and M. E. Homer, Chaos, Solitons & Fractals 10, 1999). Where the orbit that
+/// slides is not stable the map is iterated, which needs to be done once: it is the same at all distances.
 struct Verdict {
     GrazingOutcome outcome = GrazingOutcome::undecided;
     std::string reason;              ///< why undecided; empty if it is not
@@ -54,6 +69,11 @@ struct Verdict {
     std::optional<double> first_speed; ///< of the first contact: speed = first_speed |parameter - touch|^(1/2)
     AttractorKind attractor = AttractorKind::none;
     std::optional<double> leading; ///< multiplier that decides
+
+    // Of sliding; first_speed, attractor and leading, too: here that of the orbit that slides, its largest in modulus.
+    BorderCollision border = BorderCollision::none;
+    bool doubles = false;           ///< an orbit of twice the period begins at the touch, stable or not
+    std::size_t slides = 0, in = 0; ///< times it slides in so many cycles, where an attractor repeats
 
     // Of a compliant contact.
     std::optional<double> alpha;      ///< of the cubic

@@ -17,9 +17,10 @@ struct DerivativeSettings {
 /// A source with two channels more: the derivative of one of its channels, and how far that is wrong. The derivative is
 /// that of a polynomial of fourth degree that fits the samples around by least squares (A. Savitzky and M. J. E. Golay,
 /// Anal. Chem. 36 (1964) 1627). Its error has two parts: the standard error that the noise makes, which is what a
-/// polynomial of sixth degree leaves, and by how much the derivative of that one differs. The width is the one for
-/// which the median of this error is least at the record's beginning. Where the velocity jumps no polynomial fits, and
-/// the error is large. Rows at both ends are left out.
+/// polynomial of sixth degree leaves, and by how much the derivative of that one differs: at least by as much as it
+/// does in the root of mean squares, since at a single sample that is as noisy as the derivative. The width is the one
+/// for which this error is least at the record's beginning. Where the velocity jumps no polynomial fits, and the error
+/// is large. Rows at both ends are left out.
 class WithDerivative : public SampleSource {
 public:
     /// @param source must outlive this

@@ -1,0 +1,66 @@
+#include "graze/acquire/experiment.hpp"
+
+#include "acquire/experiment_reader.hpp"
+#include "graze/symbolic/text_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cmath>
+#include <iterator>
+
+namespace graze {
+
+std::string Experiment::record_name(const Level& level) const {
+    constexpr double thousandths = 1000;
+    return fmt::format("{:04d}_f{:.0f}mHz_a{:.0f}mV_{}.{}", level.number, level.frequency * thousandths,
+                       level.amplitude * thousandths,
+                       level.direction > 0   ? "up"
+                       : level.direction < 0 ? "down"
+                                             : "only",
+                       hdf5 ? "h5" : "csv");
+}
+
+std::string Experiment::settings() const {
+    std::string lines = fmt::format("experiment {}\noffset {}\nrate {}\nsamples {}\nformat {}\nchannels {}\n", name,
+                                    offset, rate, samples, hdf5 ? "h5" : "csv", fmt::join(channels, ","));
+    lines += fmt::format("settle {} {} {} {} {} {}\n", settling.time, settling.most, settling.reference, settling.phase,
+                         settling.repeats, settling.period);
+    for (const SettlingOptions::Tolerance& tolerance : settling.tolerances)
+        lines += fmt::format("tolerance {} {}\n", tolerance.channel, tolerance.size);
+    for (const Level& level : levels)
+        fmt::format_to(std::back_inserter(lines), "level {} {} {} {}\n", level.number, level.frequency, level.amplitude,
+                       level.direction);
+    return lines;
+}
+
+DeviceAddress device_address(const std::string& text, const Place& place) {
+    DeviceAddress address;
+    const std::size_t first = text.find(':'), last = text.rfind(':');
+    const std::string kind = text.substr(0, first);
+    if (kind == "serial" && first != std::string::npos && first + 1 < text.size()) {
+        address.name = text.substr(first + 1);
+        return address;
+    }
+    if (kind == "tcp" && last != first && last > first + 1) {
+        address.is_tcp = true;
+        address.name = text.substr(first + 1, last - first - 1);
+        const char* const end = text.data() + text.size();
+        if (std::from_chars(text.data() + last + 1, end, address.port).ptr == end && address.port > 0)
+            return address;
+    }
+    throw InputError(place, fmt::format("'{}' is no device of samples", text),
+                     "give \"tcp:HOST:PORT\" or \"serial:PATH\"");
+}
+
+Experiment parse_experiment(std::string_view text, const std::string& file) {
+    const toml::table root = parse_toml(text, file);
+    return ExperimentReader(file).read(root);
+}
+
+Experiment read_experiment(const std::string& path) {
+    return parse_experiment(read_text_file(path, "experiment", longest_model), path);
+}
+
+} // namespace graze

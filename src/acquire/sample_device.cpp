@@ -1,0 +1,158 @@
+#include "graze/acquire/sample_device.hpp"
+
+#include "graze/record/record_file.hpp"
+#include "graze/symbolic/printable.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace graze {
+
+namespace {
+
+constexpr const char* who = "the device of samples";
+constexpr std::size_t rows_at_once = 1024;
+constexpr double part_of_timeout = 0.25; ///< for what is passed over
+
+[[noreturn]] void fail(const std::string& what) {
+    throw InstrumentError(AcquisitionEnding::samples, fmt::format("{} {}", who, what));
+}
+
+} // namespace
+
+TextSampleDevice::TextSampleDevice(InstrumentLine& line, double timeout, std::function<bool()> interrupted)
+    : line_(&line), timeout_(timeout), interrupted_(std::move(interrupted)) {
+    line_->send("STOP");
+    drain();
+    const std::string channels = asked("CHANNELS");
+    try {
+        header_ = parse_record_header(channels, Place{who, 0, 0});
+    } catch (const InputError&) {
+        refuse(channels, "the names of its channels");
+    }
+}
+
+void TextSampleDevice::refuse(const std::string& line, const char* wanted) const {
+    const std::string_view reason(line);
+    if (reason.starts_with("ERROR"))
+        fail(fmt::format("says: {}",
+                         shortened(printable_line(reason.substr(std::min<std::size_t>(6, reason.size()))), 200)));
+    fail(fmt::format("says '{}' in the place of {}", shortened(printable_line(line), 200), wanted));
+}
+
+std::string TextSampleDevice::asked(std::string_view question) {
+    line_->send(question);
+    return awaited_line(*line_, timeout_, interrupted_, who);
+}
+
+void TextSampleDevice::set_rate(double rate) {
+    const std::string answer = asked(fmt::format("RATE {}", rate));
+    double taken = 0;
+    const char* const end = answer.data() + answer.size();
+    if (!answer.starts_with("OK ") || std::from_chars(answer.data() + 3, end, taken).ptr != end)
+        refuse(answer, "'OK' and its rate");
+    constexpr double roundoff = 1e-9;
+    if (!(std::abs(taken - rate) <= roundoff * rate))
+        fail(fmt::format("takes {} samples in a second instead of {}", taken, rate));
+    rate_ = rate;
+}
+
+void TextSampleDevice::begin(std::size_t count, std::size_t block) {
+    line_->send(block > 0 ? fmt::format("READ {} {}", count, block) : fmt::format("READ {}", count));
+    block_ = block;
+    wanted_ = count;
+    given_ = 0;
+    last_time_ = -std::numeric_limits<double>::infinity();
+    running_ = true;
+}
+
+void TextSampleDevice::parse(const std::string& row, Samples& samples) {
+    const char *at = row.data(), *const end = at + row.size();
+    const auto next = [&](char before) {
+        double value = 0;
+        if (before != '\0' && (at == end || *at++ != before))
+            refuse(row, "a row of numbers");
+        while (at != end && *at == ' ')
+            ++at;
+        const auto [behind, error] = std::from_chars(at, end, value);
+        if (error != std::errc() || !std::isfinite(value))
+            refuse(row, "a row of numbers");
+        at = behind;
+        return value;
+    };
+    const double time = next('\0');
+    if (!(time > last_time_))
+        fail(fmt::format("gives the time {} after {}", time, last_time_));
+    samples.values.resize(header_.channels.size());
+    samples.times.push_back(time);
+    for (std::vector<double>& column : samples.values)
+        column.push_back(next(','));
+    if (at != end)
+        refuse(row, "a row of as many numbers as it has channels");
+    last_time_ = time;
+}
+
+bool TextSampleDevice::read(Samples& samples) {
+    samples.clear(header_.channels.size());
+    const std::size_t most = block_ > 0 ? block_ : rows_at_once;
+    if (running_ && block_ > 0 && given_ > 0 && given_ < wanted_)
+        line_->send("MORE");
+    while (running_ && (samples.rows() < most || given_ == wanted_)) {
+        const std::string row = awaited_line(*line_, timeout_ + (rate_ > 0 ? 1 / rate_ : 0), interrupted_, who);
+        if (!row.starts_with("END")) {
+            if (given_ == wanted_)
+                refuse(row, "the end of its samples");
+            parse(row, samples);
+            ++given_;
+            continue;
+        }
+        running_ = false;
+        std::size_t count = 0;
+        const char* const end = row.data() + row.size();
+        if (row.size() < 5 || std::from_chars(row.data() + 4, end, count).ptr != end || count != given_ ||
+            given_ != wanted_)
+            fail(fmt::format("ends with '{}' after {} of {} samples", shortened(printable_line(row), 100), given_,
+                             wanted_));
+    }
+    return samples.rows() > 0;
+}
+
+/// Whatever it still has to say, until it says that it has ended, or nothing for a while.
+void TextSampleDevice::drain() {
+    using Clock = std::chrono::steady_clock;
+    const auto most =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_));
+    while (Clock::now() < most) {
+        if (interrupted_ && interrupted_())
+            throw InstrumentError(AcquisitionEnding::interrupted, "interrupted");
+        const auto line = line_->receive(part_of_timeout * timeout_);
+        if (!line || line->starts_with("END") || line->starts_with("ERROR"))
+            return;
+    }
+}
+
+void TextSampleDevice::stop() {
+    if (!running_)
+        return;
+    running_ = false;
+    line_->send("STOP");
+    drain();
+}
+
+bool TextSampleDevice::done(const char* word, std::uint64_t number) {
+    return asked(fmt::format("{} {}", word, number)).starts_with("OK");
+}
+
+bool TextSampleDevice::mark(std::uint64_t number) {
+    return done("MARK", number);
+}
+
+bool TextSampleDevice::return_to(std::uint64_t number) {
+    return done("RETURN", number);
+}
+
+} // namespace graze

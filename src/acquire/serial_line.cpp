@@ -1,0 +1,256 @@
+#include "graze/acquire/serial_line.hpp"
+
+// Of Asio headers alone: nothing is linked.
+#define BOOST_ERROR_CODE_HEADER_ONLY 1
+#include <boost/asio/connect.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/serial_port.hpp>
+#include <boost/asio/write.hpp>
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+#include <functional>
+#include <utility>
+
+namespace graze {
+
+namespace {
+
+namespace asio = boost::asio;
+using Error = boost::system::error_code;
+
+constexpr double send_timeout = 5; // s; a line of a hundred letters takes a tenth of a second at 9600 baud
+
+std::chrono::steady_clock::duration duration_of(double seconds) {
+    return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+        std::chrono::duration<double>(seconds > 0 ? seconds : 0));
+}
+
+/// Lines over a stream of Asio's, which is read in the background while anything is waited for.
+template <class Stream>
+class StreamLine : public InstrumentLine {
+public:
+    using Open = std::function<void(asio::io_context&, Stream&)>;
+
+    StreamLine(std::string name, Open open) : name_(std::move(name)), open_(std::move(open)), stream_(context_) {
+        start();
+    }
+    ~StreamLine() override { stop(); }
+
+    void send(std::string_view line) override {
+        require_open();
+        const std::string text = std::string(line) + '\n';
+        bool sent = false;
+        Error error;
+        asio::async_write(stream_, asio::buffer(text), [&](const Error& result, std::size_t) {
+            error = result;
+            sent = true;
+        });
+        const auto end = std::chrono::steady_clock::now() + duration_of(send_timeout);
+        while (!sent && std::chrono::steady_clock::now() < end)
+            step(end);
+        if (!sent) { // and what it refers to goes away
+            Error ignored;
+            stream_.cancel(ignored);
+            while (!sent && run_one())
+                continue;
+            throw InstrumentError(AcquisitionEnding::no_answer, fmt::format("{} takes nothing that is sent", name_));
+        }
+        if (error)
+            lose(error);
+    }
+    std::optional<std::string> receive(double wait) override {
+        const auto end = std::chrono::steady_clock::now() + duration_of(wait);
+        for (;;) {
+            if (auto line = next_line())
+                return line;
+            if (!failure_.empty())
+                throw InstrumentError(AcquisitionEnding::line_lost, failure_);
+            read_on();
+            context_.restart();
+            if (context_.run_one_until(end) == 0)
+                return next_line();
+        }
+    }
+    void discard() override {
+        require_open();
+        for (int turn = 0; turn < 1000; ++turn) { // of one that never ends no more than that is passed over
+            received_.clear();
+            scanned_ = 0;
+            read_on();
+            context_.restart();
+            if (context_.poll() == 0)
+                break;
+        }
+        received_.clear();
+        scanned_ = 0;
+        require_open();
+    }
+    void reopen() override {
+        stop();
+        stream_ = Stream(context_);
+        start();
+    }
+
+private:
+    void start() {
+        failure_.clear();
+        received_.clear();
+        scanned_ = 0;
+        open_(context_, stream_);
+        read_on();
+    }
+    void stop() {
+        Error ignored;
+        stream_.close(ignored);
+        context_.restart();
+        while (reading_ && context_.run_one() > 0)
+            continue;
+        reading_ = false;
+    }
+    void read_on() {
+        if (reading_ || !failure_.empty() || received_.size() > most_received)
+            return;
+        reading_ = true;
+        stream_.async_read_some(asio::buffer(buffer_), [this](const Error& error, std::size_t count) {
+            reading_ = false;
+            received_.append(buffer_.data(), count);
+            if (error && error != asio::error::operation_aborted)
+                failure_ = fmt::format("{} is closed ({})", name_, error.message());
+        });
+    }
+    bool run_one() {
+        context_.restart();
+        return context_.run_one() > 0;
+    }
+    void step(std::chrono::steady_clock::time_point end) {
+        read_on();
+        context_.restart();
+        context_.run_one_until(end);
+    }
+    /// Terminators of nothing are passed over.
+    std::optional<std::string> next_line() {
+        while (!received_.empty() && (received_.front() == '\n' || received_.front() == '\r'))
+            received_.erase(0, 1), scanned_ = 0;
+        const std::size_t end = received_.find_first_of("\r\n", scanned_);
+        if (end != std::string::npos) {
+            std::string line = received_.substr(0, end);
+            received_.erase(0, end + 1);
+            scanned_ = 0;
+            return line;
+        }
+        scanned_ = received_.size();
+        if (received_.size() > longest_line) {
+            received_.clear();
+            scanned_ = 0;
+            throw InstrumentError(AcquisitionEnding::garbled,
+                                  fmt::format("{} sends a line of more than {} bytes", name_, longest_line));
+        }
+        return std::nullopt;
+    }
+    void require_open() const {
+        if (!failure_.empty())
+            throw InstrumentError(AcquisitionEnding::line_lost, failure_);
+    }
+    [[noreturn]] void lose(const Error& error) {
+        failure_ = fmt::format("{} is closed ({})", name_, error.message());
+        throw InstrumentError(AcquisitionEnding::line_lost, failure_);
+    }
+
+    static constexpr std::size_t most_received = std::size_t{1} << 20;
+
+    std::string name_;
+    Open open_;
+    asio::io_context context_{1};
+    Stream stream_;
+    std::array<char, 16384> buffer_{};
+    std::string received_, failure_;
+    std::size_t scanned_ = 0; ///< of what was received, without a terminator
+    bool reading_ = false;
+};
+
+template <class Option>
+void set(asio::serial_port& port, const Option& option, const std::string& name, const char* what) {
+    Error error;
+    port.set_option(option, error);
+    if (error)
+        throw InstrumentError(AcquisitionEnding::line_lost,
+                              fmt::format("{} cannot be set to this {} ({})", name, what, error.message()));
+}
+
+void open_port(const SerialSettings& settings, asio::serial_port& port) {
+    using Base = asio::serial_port_base;
+    const std::string& name = settings.port;
+    Error error;
+    port.open(name, error);
+    if (error)
+        throw InstrumentError(AcquisitionEnding::line_lost,
+                              fmt::format("serial line '{}' cannot be opened ({})", name, error.message()));
+    set(port, Base::baud_rate(settings.baud), name, "rate");
+    set(port, Base::character_size(settings.data_bits), name, "number of data bits");
+    set(port,
+        Base::parity(settings.parity == Parity::none  ? Base::parity::none
+                     : settings.parity == Parity::odd ? Base::parity::odd
+                                                      : Base::parity::even),
+        name, "parity");
+    set(port,
+        Base::stop_bits(settings.stop_bits == StopBits::one   ? Base::stop_bits::one
+                        : settings.stop_bits == StopBits::two ? Base::stop_bits::two
+                                                              : Base::stop_bits::onepointfive),
+        name, "number of stop bits");
+    set(port,
+        Base::flow_control(settings.flow == FlowControl::none       ? Base::flow_control::none
+                           : settings.flow == FlowControl::software ? Base::flow_control::software
+                                                                    : Base::flow_control::hardware),
+        name, "flow control");
+}
+
+void open_socket(const std::string& host, unsigned short number, double timeout, asio::io_context& context,
+                 asio::ip::tcp::socket& socket) {
+    Error error;
+    asio::ip::tcp::resolver resolver(context);
+    const auto found = resolver.resolve(host, std::to_string(number), error);
+    bool done = false;
+    if (!error) {
+        asio::async_connect(socket, found, [&](const Error& result, const asio::ip::tcp::endpoint&) {
+            error = result;
+            done = true;
+        });
+        const auto end = std::chrono::steady_clock::now() + duration_of(timeout);
+        context.restart();
+        while (!done && context.run_one_until(end) > 0)
+            continue;
+        if (!done) {
+            error = asio::error::timed_out;
+            Error ignored;
+            socket.close(ignored);
+            context.restart();
+            context.run();
+            error = asio::error::timed_out;
+        }
+    }
+    if (error)
+        throw InstrumentError(AcquisitionEnding::line_lost,
+                              fmt::format("port {} of '{}' cannot be reached ({})", number, host, error.message()));
+    socket.set_option(asio::ip::tcp::no_delay(true), error);
+}
+
+} // namespace
+
+std::unique_ptr<InstrumentLine> open_serial_line(const SerialSettings& settings) {
+    return std::make_unique<StreamLine<asio::serial_port>>(
+        fmt::format("serial line '{}'", settings.port),
+        [settings](asio::io_context&, asio::serial_port& port) { open_port(settings, port); });
+}
+
+std::unique_ptr<InstrumentLine> open_tcp_line(const std::string& host, unsigned short port, double timeout) {
+    return std::make_unique<StreamLine<asio::ip::tcp::socket>>(
+        fmt::format("the connection to {}:{}", host, port),
+        [=](asio::io_context& context, asio::ip::tcp::socket& socket) {
+            open_socket(host, port, timeout, context, socket);
+        });
+}
+
+} // namespace graze

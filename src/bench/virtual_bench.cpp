@@ -1,0 +1,193 @@
+#include "graze/bench/virtual_bench.hpp"
+
+#include "bench/anti_alias.hpp"
+#include "bench/bench_motion.hpp"
+#include "symbolic/random_number.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+namespace graze {
+
+namespace {
+
+constexpr double usual_rate = 1000, least_rate = 1e-3, most_rate = 1e7;
+constexpr std::size_t kept_marks = 4;
+constexpr std::size_t least_oversampling = 8;
+constexpr double samples_of_corner = 16; ///< so that the filter sees all that it has to take away
+
+/// What a converter makes of a value.
+double converted(double value, double range, int bits) {
+    if (range == 0)
+        return value;
+    const double step = std::ldexp(range, 1 - bits), most = std::ldexp(1.0, bits - 1) - 1;
+    return step * std::clamp(std::nearbyint(value / step), -most - 1, most);
+}
+
+} // namespace
+
+struct VirtualBench::State {
+    /// All that changes by itself.
+    struct Moment {
+        std::uint64_t number = 0;
+        BenchMotion::Moment motion{};
+        std::vector<AntiAlias> filters{};
+        std::size_t taken = 0; ///< samples
+        bool settled = false;  ///< whether the filters know what was before
+    };
+
+    BenchSettings settings;
+    FunctionGenerator generator;
+    BenchMotion motion;
+    RecordHeader header{};
+    double rate = usual_rate;
+    Moment now{};
+    std::deque<Moment> marks{};
+    std::string ended{};
+
+    std::size_t oversampling() const {
+        if (settings.anti_alias == 0)
+            return 1;
+        return std::max(least_oversampling,
+                        static_cast<std::size_t>(std::ceil(samples_of_corner * settings.anti_alias / rate)));
+    }
+    void renew_filters() {
+        now.settled = false;
+        now.filters.clear();
+        if (settings.anti_alias > 0)
+            now.filters.assign(settings.channels.size(),
+                               AntiAlias(settings.anti_alias / (rate * static_cast<double>(oversampling()))));
+    }
+    double measured(std::size_t c, double value, double time) const {
+        const BenchChannel& channel = settings.channels[c];
+        value += channel.offset + channel.drift * time;
+        if (channel.noise > 0)
+            value += channel.noise * drawn_normal(settings.seed, c, now.taken);
+        return converted(value, channel.range, settings.bits);
+    }
+};
+
+VirtualBench::VirtualBench(const BenchSettings& settings) {
+    settings.validate();
+    state_ = std::make_unique<State>(
+        State{settings, FunctionGenerator({settings.offset.has_value(), settings.clip}), BenchMotion(settings)});
+    state_->header.time = {"t", "s"};
+    for (const BenchChannel& channel : settings.channels)
+        state_->header.channels.push_back({channel.value.name, channel.value.unit});
+    set_rate(std::max(usual_rate, 4 * settings.anti_alias));
+}
+
+VirtualBench::~VirtualBench() = default;
+
+std::string VirtualBench::command(std::string_view line) {
+    std::string answer = state_->generator.execute(line);
+    state_->motion.drive(state_->generator.output());
+    return answer;
+}
+
+const FunctionGenerator& VirtualBench::generator() const {
+    return state_->generator;
+}
+
+FunctionGenerator& VirtualBench::generator() {
+    return state_->generator;
+}
+
+const RecordHeader& VirtualBench::header() const {
+    return state_->header;
+}
+
+double VirtualBench::rate() const {
+    return state_->rate;
+}
+
+void VirtualBench::set_rate(double rate) {
+    if (!(rate >= least_rate && rate <= most_rate) || !(rate > 2 * state_->settings.anti_alias))
+        throw InputError(
+            fmt::format("{} samples in a second cannot be taken", rate),
+            fmt::format("give from {} to {}, and more than twice the corner of the filter", least_rate, most_rate));
+    if (rate == state_->rate && state_->now.taken > 0)
+        return; // filters go on
+    state_->rate = rate;
+    state_->renew_filters();
+}
+
+double VirtualBench::time() const {
+    return state_->motion.time();
+}
+
+const std::string& VirtualBench::ended() const {
+    return state_->ended.empty() ? state_->motion.ended() : state_->ended;
+}
+
+void VirtualBench::sample(std::size_t count, Samples& samples) {
+    State& state = *state_;
+    samples.clear(state.header.channels.size());
+    const std::size_t parts = state.oversampling();
+    const double begin = time(), spacing = 1 / state.rate;
+    std::size_t part = 0;
+    const auto take = [&](std::span<const double> values) {
+        const bool wanted = part++ % parts == 0;
+        const double at = begin + static_cast<double>(samples.rows()) * spacing;
+        for (std::size_t c = 0; c < values.size() && state.ended.empty(); ++c) {
+            double value = values[c];
+            if (!std::isfinite(value)) {
+                state.ended = fmt::format("channel '{}' has no finite value", state.header.channels[c].name);
+                break;
+            }
+            if (!state.now.filters.empty()) {
+                if (!state.now.settled)
+                    state.now.filters[c].settle(value);
+                value = state.now.filters[c].filtered(value);
+            }
+            if (wanted)
+                samples.values[c].push_back(state.measured(c, value, at));
+        }
+        if (!state.ended.empty())
+            return;
+        state.now.settled = true;
+        if (wanted) {
+            samples.times.push_back(at);
+            ++state.now.taken;
+        }
+    };
+    if (!ended().empty())
+        return;
+    state.motion.advance(spacing / static_cast<double>(parts), count * parts, take);
+    for (std::vector<double>& column : samples.values)
+        column.resize(samples.rows());
+}
+
+void VirtualBench::pass(double seconds) {
+    if (!(seconds > 0) || !ended().empty())
+        return;
+    state_->motion.advance(seconds, 1, nullptr);
+    state_->now.settled = false;
+}
+
+void VirtualBench::mark(std::uint64_t number) {
+    State& state = *state_;
+    std::erase_if(state.marks, [&](const State::Moment& moment) { return moment.number == number; });
+    if (state.marks.size() == kept_marks)
+        state.marks.pop_front();
+    state.now.number = number;
+    state.now.motion = state.motion.moment();
+    state.marks.push_back(state.now);
+}
+
+bool VirtualBench::return_to(std::uint64_t number) {
+    State& state = *state_;
+    const auto found = std::find_if(state.marks.begin(), state.marks.end(),
+                                    [&](const State::Moment& moment) { return moment.number == number; });
+    if (found == state.marks.end())
+        return false;
+    state.now = *found;
+    state.motion.go_back(state.now.motion);
+    state.ended.clear();
+    return true;
+}
+
+} // namespace graze

@@ -1,0 +1,329 @@
+#include "graze/identify/decay_peaks.hpp"
+
+#include "graze/record/period.hpp"
+#include "graze/record/spectrum.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/require.hpp"
+#include "record/local_polynomial.hpp"
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t most_samples = 10'000'000;
+
+/// About what a channel swings in the end: its mean over the second half of the record.
+double level_of(const std::vector<double>& values) {
+    double sum = 0;
+    const std::size_t first = values.size() / 2;
+    for (std::size_t i = first; i < values.size(); ++i)
+        sum += (values[i] - values[first]) / static_cast<double>(values.size() - first);
+    return values[first] + sum;
+}
+
+/// Standard deviation of the noise, by second differences: of a wave with many samples a period they are small.
+double noise_of(const std::vector<double>& values) {
+    std::vector<double> differences;
+    for (std::size_t i = 1; i + 1 < values.size(); ++i)
+        differences.push_back(std::abs(values[i + 1] - 2 * values[i] + values[i - 1]));
+    if (differences.empty())
+        return 0;
+    const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+    std::nth_element(differences.begin(), middle, differences.end());
+    constexpr double median_of_normal = 0.6745, squares = 6;
+    return *middle / (median_of_normal * std::sqrt(squares));
+}
+
+/// Means over a quarter of the period of the largest wave, so that noise makes no periods.
+std::vector<double> smoothed(const Samples& samples, std::size_t channel, double level) {
+    std::vector<double> values = samples.values[channel];
+    for (double& value : values)
+        value -= level;
+    const Spectrum waves = spectrum(values, sampling_frequency(samples.times));
+    const auto highest = std::max_element(waves.amplitudes.begin(), waves.amplitudes.end());
+    const double period = 1 / waves.frequencies[static_cast<std::size_t>(highest - waves.amplitudes.begin())];
+    constexpr double share = 0.125; // on each side
+    const double rows = share * period * sampling_frequency(samples.times);
+    const auto count = values.size();
+    if (!(rows >= 1 && rows < static_cast<double>(count)))
+        return samples.values[channel];
+    const auto half = static_cast<std::size_t>(rows);
+    std::vector<double> result(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t first = i - std::min(i, half), last = std::min(count - 1, i + half);
+        for (std::size_t j = first; j <= last; ++j)
+            result[i] += samples.values[channel][j] / static_cast<double>(last - first + 1);
+    }
+    return result;
+}
+
+/// Periods as they were recorded, from one rising crossing of the level to the next.
+std::vector<Period> periods_of(const Samples& samples, const RecordHeader& header, std::size_t channel, double level,
+                               std::size_t most) {
+    Samples seen = samples;
+    const auto [least, greatest] = std::minmax_element(samples.values[channel].begin(), samples.values[channel].end());
+    constexpr double noisy = 0.02; // of the range: a fifth of what a crossing needs
+    if (noise_of(samples.values[channel]) > noisy * (*greatest - *least))
+        seen.values[channel] = smoothed(samples, channel, level);
+    StoredSamples source(header, seen);
+    PeriodSettings settings;
+    settings.reference = channel;
+    settings.level = level;
+    PeriodSplitter splitter(source, settings);
+    std::vector<Period> periods;
+    for (Period period; periods.size() < most && splitter.next(period);) {
+        const auto row_of = [&](double time) {
+            return static_cast<std::size_t>(std::lower_bound(samples.times.begin(), samples.times.end(), time) -
+                                            samples.times.begin());
+        };
+        constexpr std::size_t margin = 3;
+        const std::size_t first = row_of(period.begin), last = row_of(period.end);
+        period.samples.clear(samples.values.size());
+        period.samples.append(samples, first - std::min(first, margin), std::min(samples.rows(), last + margin));
+        periods.push_back(std::move(period));
+    }
+    return periods;
+}
+
+/// Where an oscillation comes to rest, and the noise about it.
+struct Rest {
+    double value = 0, error = 0;
+    double noise = 0; ///< standard deviation of a sample
+};
+
+/// c + exp(-decay s) (a cos(turn s) + b sin(turn s)) through the samples of whole periods by least squares, with s from
+/// 0 to 1.
+class DampedSine {
+public:
+    DampedSine(const std::vector<Period>& periods, const Samples& samples, std::size_t channel, double level)
+        : level_(level) {
+        const double begin = periods.front().begin, end = periods.back().end;
+        for (std::size_t i = 0; i < samples.rows(); ++i)
+            if (samples.times[i] >= begin && samples.times[i] <= end) {
+                places_.push_back((samples.times[i] - begin) / (end - begin));
+                values_.push_back(samples.values[channel][i] - level);
+            }
+        turn_ = 2 * std::numbers::pi * static_cast<double>(periods.size());
+        decay_ = 0;
+        if (periods.size() > 1)
+            decay_ = std::log(range_of(periods.front(), channel) / range_of(periods.back(), channel)) *
+                     static_cast<double>(periods.size()) / static_cast<double>(periods.size() - 1);
+    }
+
+    /// @return none where the samples do not follow such an oscillation
+    std::optional<Rest> fit() {
+        constexpr Eigen::Index unknowns = 5;
+        const auto rows = static_cast<Eigen::Index>(places_.size());
+        if (rows <= 2 * unknowns || !std::isfinite(decay_))
+            return std::nullopt;
+        Eigen::MatrixXd slopes(rows, unknowns);
+        Eigen::VectorXd left(rows);
+        Eigen::VectorXd linear = Eigen::VectorXd::Zero(3); // c, a, b
+        constexpr int steps = 30;
+        double before = std::numeric_limits<double>::infinity();
+        for (int step = 0; step < steps; ++step) {
+            fill(slopes, left, linear);
+            if (step == 0) { // what is linear is solved for first
+                linear = slopes.leftCols(3).colPivHouseholderQr().solve(left);
+                fill(slopes, left, linear);
+            }
+            const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(slopes);
+            const Eigen::VectorXd change = factors.solve(left);
+            linear += change.head(3);
+            turn_ += change[3];
+            decay_ += change[4];
+            const double size = std::abs(change[3]) + std::abs(change[4]);
+            if (!std::isfinite(size) || size > std::numbers::pi)
+                return std::nullopt;
+            constexpr double enough = 1e-13;
+            if (size < enough * turn_ || (size < 1e-9 * turn_ && size >= before))
+                return rest_of(slopes, left, linear);
+            before = size;
+        }
+        return std::nullopt;
+    }
+
+private:
+    static double range_of(const Period& period, std::size_t channel) {
+        const std::vector<double>& values = period.samples.values[channel];
+        const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+        return *greatest - *least;
+    }
+    void fill(Eigen::MatrixXd& slopes, Eigen::VectorXd& left, const Eigen::VectorXd& linear) const {
+        for (Eigen::Index i = 0; i < left.size(); ++i) {
+            const double s = places_[static_cast<std::size_t>(i)], falls = std::exp(-decay_ * s),
+                         c = falls * std::cos(turn_ * s), d = falls * std::sin(turn_ * s);
+            slopes.row(i) << 1, c, d, s * (linear[2] * c - linear[1] * d), -s * (linear[1] * c + linear[2] * d);
+            left[i] = values_[static_cast<std::size_t>(i)] - linear[0] - linear[1] * c - linear[2] * d;
+        }
+    }
+    Rest rest_of(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& left, const Eigen::VectorXd& linear) const {
+        const double variance = left.squaredNorm() / static_cast<double>(left.size() - slopes.cols());
+        const Eigen::MatrixXd normal = slopes.transpose() * slopes;
+        const double of_rest = normal.ldlt().solve(Eigen::VectorXd::Unit(slopes.cols(), 0))[0];
+        return {level_ + linear[0], std::sqrt(variance * std::max(0.0, of_rest)), std::sqrt(variance)};
+    }
+
+    double level_, turn_ = 0, decay_ = 0;
+    std::vector<double> places_, values_;
+};
+
+/// A polynomial near a peak, and where its top is.
+struct PeakFit {
+    double time = 0, middle = 0, width = 1;
+    double noise = 0; ///< of its height
+    std::vector<double> powers{};
+
+    double height(double t) const {
+        const double x = (t - middle) / width;
+        double sum = 0;
+        for (std::size_t k = powers.size(); k-- > 0;)
+            sum = sum * x + powers[k];
+        return sum;
+    }
+};
+
+/// So many powers that what they leave of a cosine is less than the noise: more of them would follow the noise.
+std::size_t powers_for(double noise_by_height) {
+    struct Left {
+        std::size_t degree;
+        double size;
+    };
+    // Of a cosine over 0.15 of its period on each side of its top, by Chebyshev's polynomial of the next even degree.
+    constexpr Left left[] = {{2, 4e-3}, {4, 3e-5}, {6, 1.2e-7}};
+    constexpr double share = 0.1;
+    for (const Left& one : left)
+        if (one.size < share * noise_by_height)
+            return one.degree;
+    return 8;
+}
+
+/// That of the samples around the highest one of a period. @return whether it has a top that stands out from the noise
+bool fit_peak(const Period& period, std::size_t channel, const Rest& rest, PeakFit& peak) {
+    const std::vector<double>&times = period.samples.times, &values = period.samples.values[channel];
+    std::size_t highest = times.size();
+    for (std::size_t i = 0; i < times.size(); ++i)
+        if (times[i] >= period.begin && times[i] <= period.end &&
+            (highest == times.size() || values[i] > values[highest]))
+            highest = i;
+    if (highest == times.size() || !(values[highest] > rest.value))
+        return false;
+    // Noise moves the highest sample; the middle of what is nearly as high is not moved so far.
+    constexpr double share = 0.8, reach = 0.15;
+    const double nearly = rest.value + share * (values[highest] - rest.value);
+    std::size_t first = highest, last = highest;
+    while (first > 0 && values[first - 1] > nearly)
+        --first;
+    while (last + 1 < values.size() && values[last + 1] > nearly)
+        ++last;
+    const double middle = 0.5 * (times[first] + times[last]), width = reach * period.duration();
+    std::vector<double> places, heights;
+    for (std::size_t i = 0; i < times.size(); ++i)
+        if (std::abs(times[i] - middle) <= width) {
+            places.push_back((times[i] - middle) / width);
+            heights.push_back(values[i] - rest.value);
+        }
+    constexpr std::size_t fewest = 4;
+    if (places.size() < fewest)
+        return false;
+    const double of_mean = rest.noise / std::sqrt(static_cast<double>(places.size()));
+    const LocalPolynomial fit(places,
+                              std::min(powers_for(of_mean / (values[highest] - rest.value)), places.size() / 2));
+    const std::vector<double> powers = fit.powers(heights.data());
+    double x = 0;
+    constexpr int steps = 50;
+    for (int i = 0; i < steps; ++i) { // Newton's method for the slope
+        double slope = 0, bend = 0;
+        for (std::size_t k = powers.size(); k-- > 1;) {
+            bend = bend * x + slope;
+            slope = slope * x + static_cast<double>(k) * powers[k];
+        }
+        if (!(bend < 0))
+            return false;
+        const double change = -slope / bend;
+        x = std::clamp(x + change, -1.0, 1.0);
+        if (std::abs(change) < 1e-15)
+            break;
+    }
+    peak.middle = middle;
+    peak.width = width;
+    peak.powers = powers;
+    peak.time = middle + width * x;
+    double squares = 0;
+    for (std::size_t k = 0; k <= fit.degree(); ++k)
+        squares += fit.at_zero(k) * fit.at_zero(k);
+    peak.noise = rest.noise * std::sqrt(squares);
+    constexpr double stands_out = 5;
+    return std::abs(x) < 1 && peak.height(peak.time) > stands_out * peak.noise;
+}
+
+/// The heights are those at times as far from one another as all of them say: at its own top each polynomial is too
+/// high by what noise has moved the top, and the lower the peak the more.
+DecayPeaks at_common_times(const std::vector<PeakFit>& fits) {
+    double weights = 0, x = 0, y = 0, xx = 0, xy = 0;
+    for (std::size_t k = 0; k < fits.size(); ++k) {
+        const double weight = std::pow(fits[k].height(fits[k].time), 2);
+        weights += weight;
+        x += weight * static_cast<double>(k);
+        y += weight * fits[k].time;
+    }
+    x /= weights;
+    y /= weights;
+    for (std::size_t k = 0; k < fits.size(); ++k) {
+        const double weight = std::pow(fits[k].height(fits[k].time), 2), from = static_cast<double>(k) - x;
+        xx += weight * from * from;
+        xy += weight * from * (fits[k].time - y);
+    }
+    DecayPeaks peaks;
+    for (std::size_t k = 0; k < fits.size(); ++k) {
+        peaks.times.push_back(fits[k].time);
+        peaks.heights.push_back(fits[k].height(y + xy / xx * (static_cast<double>(k) - x)));
+    }
+    return peaks;
+}
+
+} // namespace
+
+DecayPeaks decay_peaks(SampleSource& source, std::size_t channel, std::size_t most) {
+    const RecordHeader header = source.header();
+    require_index(channel, header.channels.size(), "channel");
+    const std::string& name = header.channels[channel].name;
+    const Samples samples = read_all(source, most_samples);
+    const double level = samples.rows() > 0 ? level_of(samples.values[channel]) : 0;
+    const std::vector<Period> periods = periods_of(samples, header, channel, level, most);
+    if (periods.size() < 2)
+        throw InputError(
+            fmt::format("'{}' has fewer than two periods about {:.4g}, where it is in the end", name, level),
+            "give the record of an oscillation that dies out");
+    const std::optional<Rest> found = DampedSine(periods, samples, channel, level).fit();
+    if (!found)
+        throw InputError(fmt::format("'{}' is no oscillation that dies out", name),
+                         "give the record of a single one, from its release on (graze identify ... --from T --to T)");
+    std::vector<PeakFit> fits;
+    PeakFit fit;
+    for (const Period& period : periods) {
+        if (!fit_peak(period, channel, *found, fit))
+            break;
+        fits.push_back(fit);
+    }
+    if (fits.size() < 2)
+        throw InputError(fmt::format("of the peaks of '{}' {} of {} stand out from the noise, of {:.2g} a sample", name,
+                                     fits.size(), periods.size(), found->noise),
+                         "take away what is faster, by graze record FILE --pass F --write FILE, or record a larger "
+                         "release");
+    DecayPeaks peaks = at_common_times(fits);
+    peaks.rest = found->value;
+    peaks.rest_error = found->error;
+    return peaks;
+}
+
+} // namespace graze

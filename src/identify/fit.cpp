@@ -1,0 +1,280 @@
+#include "graze/identify/fit.hpp"
+
+#include "identify/fit_findings.hpp"
+#include "identify/fit_solver.hpp"
+#include "identify/fit_start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+constexpr double last_joint = 1e5;
+
+/// Pieces join more and more.
+std::vector<FitStage> stages_of(const FitRows& rows, const FitSettings& settings) {
+    constexpr int few = 30;
+    const bool joined = std::any_of(rows.layout.pieces.begin(), rows.layout.pieces.end(),
+                                    [](const FitPiece& piece) { return piece.leads; });
+    FitStage last;
+    last.joint = last_joint;
+    last.most_iterations = settings.most_iterations;
+    if (!joined)
+        return {last};
+    std::vector<FitStage> stages;
+    for (const double joint : {1.0, 30.0, 1e3}) {
+        FitStage stage;
+        stage.joint = joint;
+        stage.tolerance = 1e-6;
+        stage.most_iterations = std::min(few, settings.most_iterations);
+        stages.push_back(stage);
+    }
+    stages.push_back(last);
+    return stages;
+}
+
+bool is_settled(const std::vector<double>& noise, const std::vector<double>& before, const FitRows& rows) {
+    constexpr double enough = 0.01, nothing = 1e-9;
+    for (std::size_t o = 0; o < noise.size(); ++o)
+        if (std::abs(noise[o] - before[o]) > enough * before[o] && noise[o] + before[o] > nothing * rows.range(o))
+            return false;
+    return true;
+}
+
+class Fitter {
+public:
+    Fitter(const System& system, const FitTask& task, const FitSettings& settings)
+        : settings_(&settings), rows_(system, task, settings) {
+        rows_.layout.pieces = cut_records(system, task, settings);
+        point_ = starting_point(rows_);
+    }
+
+    Fit run() {
+        Fit fit;
+        StageReport report = pass(fit);
+        // What is left is no noise: contacts may be missing, which the parameters that were found let appear.
+        constexpr int most_passes = 4;
+        constexpr double better = 0.95;
+        for (int round = 1; round < most_passes && !report.interrupted && leaves_more_than_noise(); ++round) {
+            const FitLayout layout = rows_.layout;
+            const std::vector<double> noise = rows_.noise;
+            const FitPoint point = point_;
+            const double before = squares_at(rows_, point_);
+            report = pass(fit);
+            if (const double after = squares_at(rows_, point_); after < better * before)
+                continue;
+            else if (!(after <= before) && !report.interrupted)
+                restore(layout, noise, point);
+            break;
+        }
+        describe(rows_, point_, last_joint, fit);
+        judge(report, check_point(rows_, point_, last_joint), fit);
+        return fit;
+    }
+
+private:
+    /// From the first pieces to all of them, and until they join.
+    StageReport pass(Fit& fit) {
+        const std::vector<FitStage> stages = stages_of(rows_, *settings_);
+        const int count = static_cast<int>(stages.size());
+        StageReport report = begin(fit);
+        for (int s = 0; s + 1 < count && !report.interrupted; ++s) {
+            report = make(stages[static_cast<std::size_t>(s)], s + 1, count + 1, fit);
+            merge_bound(rows_, point_);
+            update_modes(rows_, point_);
+            if (!report.interrupted)
+                rows_.noise = noise_at(rows_, point_);
+        }
+        // Once more where weights or modes have changed by what was found.
+        constexpr int most_rounds = 8;
+        for (int round = 0; round < most_rounds && !report.interrupted; ++round) {
+            report = make(stages.back(), count, count + 1, fit);
+            const std::vector<double> before = rows_.noise;
+            if (report.interrupted || report.failed)
+                break;
+            const bool merged = merge_bound(rows_, point_), switched = update_modes(rows_, point_) || merged;
+            const std::vector<double> noise = noise_at(rows_, point_);
+            if (!switched && is_settled(noise, before, rows_))
+                break;
+            rows_.noise = noise;
+        }
+        return report;
+    }
+
+    bool leaves_more_than_noise() {
+        constexpr double round_off = 1e-9;
+        Fit trial;
+        describe(rows_, point_, last_joint, trial);
+        for (std::size_t o = 0; o < trial.outputs.size(); ++o)
+            if (!trial.outputs[o].independent && trial.outputs[o].deviation > round_off * rows_.range(o))
+                return true;
+        return false;
+    }
+
+    void restore(const FitLayout& layout, const std::vector<double>& noise, const FitPoint& point) {
+        rows_.layout = layout;
+        rows_.noise = noise;
+        point_ = point;
+    }
+
+    /// The first pieces of records alone, then twice as many, and so on: each begins where what is known by then leads
+    /// to, so that a wrong frequency, say, does not add up to a wrong phase.
+    StageReport begin(Fit& fit) {
+        StageReport report;
+        std::size_t done = 0;
+        for (std::size_t count = 1; done < most_pieces() && !report.interrupted; count *= 2) {
+            for (std::size_t k = 0; k < pieces().size(); ++k) {
+                if (ordinal(k) < done || ordinal(k) >= count)
+                    continue;
+                if (!pieces()[k].opening && ends_bound(rows_, point_, k - 1)) {
+                    merge(rows_, point_, k--);
+                    continue;
+                }
+                if (!pieces()[k].opening)
+                    continue_from(rows_, point_, k);
+                FitStage alone = soft_stage();
+                alone.active.assign(pieces().size(), false);
+                alone.active[k] = true;
+                alone.states_only = true;
+                alone.prior = 0.03;
+                report = best_opening(alone, k, fit);
+            }
+            FitStage together = soft_stage();
+            for (std::size_t k = 0; k < pieces().size(); ++k)
+                together.active.push_back(ordinal(k) < count);
+            together.prior = 0.01;
+            report = make(together, 0, 5, fit);
+            update_modes(rows_, point_);
+            done = count;
+        }
+        return report;
+    }
+
+    /// From each of the states in which a piece might begin: the one that meets its readings best.
+    StageReport best_opening(const FitStage& stage, std::size_t piece, Fit& fit) {
+        StageReport best = make(stage, 0, 5, fit);
+        const std::vector<Eigen::VectorXd> others =
+            pieces()[piece].opening ? other_openings(rows_, point_, piece) : std::vector<Eigen::VectorXd>{};
+        Eigen::VectorXd found = point_.states[piece];
+        for (const Eigen::VectorXd& other : others) {
+            point_.states[piece] = other;
+            const StageReport report = make(stage, 0, 5, fit);
+            if (report.interrupted)
+                return report;
+            if (!report.failed && (report.cost < best.cost || best.failed)) {
+                best = report;
+                found = point_.states[piece];
+            }
+        }
+        point_.states[piece] = found;
+        return best;
+    }
+
+    static FitStage soft_stage() {
+        FitStage stage;
+        stage.joint = 1;
+        stage.tolerance = 1e-3;
+        stage.most_iterations = 15;
+        return stage;
+    }
+    std::vector<FitPiece>& pieces() { return rows_.layout.pieces; }
+    /// Which piece of its record.
+    std::size_t ordinal(std::size_t piece) {
+        std::size_t count = 0;
+        while (!pieces()[piece - count].opening)
+            ++count;
+        return count;
+    }
+    std::size_t most_pieces() {
+        std::size_t most = 0;
+        for (std::size_t k = 0; k < pieces().size(); ++k)
+            most = std::max(most, ordinal(k) + 1);
+        return most;
+    }
+
+    StageReport make(const FitStage& stage, int number, int count, Fit& fit) {
+        const int before = fit.iterations;
+        const StageReport report = minimise(rows_, point_, stage, [&](int iteration, double cost, const FitPoint&) {
+            if (!settings_->progress)
+                return true;
+            FitProgress progress;
+            progress.stage = number;
+            progress.stages = count;
+            progress.iteration = before + iteration;
+            progress.misfit = std::sqrt(2 * cost / static_cast<double>(std::max<std::size_t>(1, readings())));
+            return settings_->progress(progress);
+        });
+        fit.iterations += report.iterations;
+        return report;
+    }
+
+    std::size_t readings() const {
+        std::size_t count = 0;
+        for (const FitRecord& record : rows_.task().records)
+            count += record.times.size() * record.readings.size();
+        return count;
+    }
+
+    void judge(const StageReport& report, const FitChecks& checks, Fit& fit) const {
+        fit.gap = checks.gap;
+        const auto end = [&](FitEnding ending, std::string detail) {
+            fit.ending = ending;
+            fit.detail = std::move(detail);
+        };
+        if (report.interrupted)
+            return end(FitEnding::interrupted, "the fit was ended before it had converged");
+        if (!checks.broken.empty())
+            return end(FitEnding::broken, checks.broken + ": begin from other guesses, or bound parameters");
+        if (!checks.modes_agree || !(checks.gap <= checks.allowed_gap))
+            return end(FitEnding::apart,
+                       fmt::format("pieces of the motion do not join, by {:.3g} of its size: begin from other guesses, "
+                                   "or with shorter pieces",
+                                   checks.gap));
+        if (!checks.stationary)
+            return end(FitEnding::unfinished,
+                       fmt::format("it has not converged after {} iterations: allow more, or begin from other guesses",
+                                   fit.iterations));
+        if (!fit.free.empty())
+            return end(FitEnding::undetermined,
+                       fmt::format("readings do not tell all numbers, for nothing changes with {}: give some of these, "
+                                   "or record what tells them",
+                                   fit.free.front().text));
+        end(FitEnding::converged, {});
+    }
+
+    const FitSettings* settings_;
+    FitRows rows_;
+    FitPoint point_;
+};
+
+} // namespace
+
+std::string_view name_of(FitEnding ending) {
+    switch (ending) {
+    case FitEnding::converged:
+        return "converged";
+    case FitEnding::unfinished:
+        return "unfinished";
+    case FitEnding::interrupted:
+        return "interrupted";
+    case FitEnding::apart:
+        return "apart";
+    case FitEnding::broken:
+        return "broken";
+    case FitEnding::undetermined:
+        return "undetermined";
+    }
+    return "";
+}
+
+Fit fit_model(const System& system, const FitTask& task, const FitSettings& settings) {
+    require_task(system, task, settings);
+    return Fitter(system, task, settings).run();
+}
+
+} // namespace graze

@@ -1,0 +1,341 @@
+#include "identify/fit_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace graze {
+
+namespace {
+
+/// What is left of readings, output by output, in the order of records and times.
+struct Rests {
+    std::vector<std::vector<double>> of_output;
+    std::vector<std::vector<std::vector<double>>> of_record; ///< record, readings, times
+};
+
+Rests rests_at(FitRows& rows, const FitPoint& point, Fit* fit) {
+    const FitTask& task = rows.task();
+    Rests rests;
+    rests.of_output.resize(task.outputs.size());
+    for (const FitRecord& record : task.records)
+        rests.of_record.emplace_back(record.readings.size());
+    for (std::size_t k = 0; k < rows.layout.pieces.size(); ++k) {
+        const FitPiece& piece = rows.layout.pieces[k];
+        const PieceRows& known = rows.evaluate(piece, point.shared, point.states[k]);
+        const auto& readings = task.records[piece.record].readings;
+        for (std::size_t i = 0; i < known.rests.size(); ++i) {
+            const std::size_t r = i % readings.size();
+            rests.of_record[piece.record][r].push_back(known.rests[i]);
+        }
+        if (fit != nullptr) {
+            fit->records[piece.record].contacts += known.contacts;
+            fit->records[piece.record].misplaced += known.misplaced;
+            if (!piece.opening)
+                fit->records[piece.record].joints.push_back(piece.begin);
+        }
+    }
+    for (std::size_t r = 0; r < task.records.size(); ++r)
+        for (std::size_t c = 0; c < task.records[r].readings.size(); ++c) {
+            auto& all = rests.of_output[task.records[r].readings[c].output];
+            all.insert(all.end(), rests.of_record[r][c].begin(), rests.of_record[r][c].end());
+        }
+    return rests;
+}
+
+std::size_t unknowns_of(const FitRows& rows) {
+    auto count = static_cast<std::size_t>(rows.layout.shared());
+    for (const FitRecord& record : rows.task().records)
+        count += record.unknown_states.size();
+    return count;
+}
+
+std::size_t readings_of(const FitTask& task) {
+    std::size_t count = 0;
+    for (const FitRecord& record : task.records)
+        count += record.times.size() * record.readings.size();
+    return count;
+}
+
+double square_sum(const std::vector<double>& values) {
+    return std::transform_reduce(values.begin(), values.end(), 0.0, std::plus<>(), [](double x) { return x * x; });
+}
+
+/// Which of all numbers, in the order of FitInformation, is which.
+std::vector<FittedNumber> numbers_at(const FitRows& rows, const FitPoint& point, std::vector<double>& scales) {
+    const FitTask& task = rows.task();
+    const FitLayout& layout = rows.layout;
+    const Model& model = rows.system().model();
+    std::vector<FittedNumber> numbers;
+    for (std::size_t k = 0; k < layout.pieces.size(); ++k) {
+        if (!layout.pieces[k].opening)
+            continue;
+        const FitRecord& record = task.records[layout.pieces[k].record];
+        for (std::size_t c = 0; c < record.unknown_states.size(); ++c) {
+            const std::size_t i = record.unknown_states[c];
+            FittedNumber number;
+            number.kind = FittedNumber::Kind::state;
+            number.name = task.records.size() == 1
+                              ? fmt::format("{}(0)", model.states[i].name)
+                              : fmt::format("{}(0) of record {}", model.states[i].name, layout.pieces[k].record + 1);
+            number.unit = model.states[i].unit;
+            number.record = layout.pieces[k].record;
+            number.index = i;
+            scales.push_back(layout.state_scale[static_cast<Eigen::Index>(i)]);
+            number.estimate.value = point.states[k][static_cast<Eigen::Index>(c)] * scales.back();
+            numbers.push_back(std::move(number));
+        }
+    }
+    Eigen::Index column = 0;
+    const auto add = [&](FittedNumber::Kind kind, std::string name, std::string unit, std::size_t index) {
+        FittedNumber number;
+        number.kind = kind;
+        number.name = std::move(name);
+        number.unit = std::move(unit);
+        number.index = index;
+        scales.push_back(layout.shared_scale[column]);
+        number.estimate.value = point.shared[column++] * scales.back();
+        numbers.push_back(std::move(number));
+    };
+    const std::vector<std::string> names = model.independent_parameters();
+    for (const UnknownParameter& unknown : task.parameters) {
+        const std::string& name = names[unknown.parameter.place()];
+        add(FittedNumber::Kind::parameter, name, model.parameters[*model.find_parameter(name)].unit,
+            unknown.parameter.place());
+        const double value = numbers.back().estimate.value, near = 1e-9 * scales.back();
+        numbers.back().at_bound = value - unknown.least <= near || unknown.greatest - value <= near;
+    }
+    for (const std::size_t output : layout.gains)
+        add(FittedNumber::Kind::gain, "gain of " + task.outputs[output].name, "", output);
+    for (const std::size_t output : layout.offsets)
+        add(FittedNumber::Kind::offset, "offset of " + task.outputs[output].name, "", output);
+    return numbers;
+}
+
+/// The variance of the rows' noise; of robust losses, what stands in its place in the covariance (Huber, chapter 7).
+double variance_at(FitRows& rows, const Rests& rests, double freedom) {
+    constexpr double huber = 1.345, cauchy = 2.385;
+    double squares = 0, slopes = 0, count = 0;
+    for (std::size_t o = 0; o < rests.of_output.size(); ++o)
+        for (const double rest : rests.of_output[o]) {
+            const double u = rest / rows.noise[o];
+            double pull = u, slope = 1;
+            if (rows.loss() == FitLoss::huber && std::abs(u) > huber) {
+                pull = std::copysign(huber, u);
+                slope = 0;
+            } else if (rows.loss() == FitLoss::cauchy) {
+                const double part = 1 + u * u / (cauchy * cauchy);
+                pull = u / part;
+                slope = (2 - part) / (part * part);
+            }
+            squares += pull * pull;
+            slopes += slope;
+            count += 1;
+        }
+    const double mean = slopes / count, unit = rows.unit();
+    return mean > 0 ? unit * unit * squares / freedom / (mean * mean) : 0;
+}
+
+std::string text_of(const std::vector<FreeCombination::Part>& parts, const std::vector<FittedNumber>& numbers) {
+    std::string text;
+    for (const FreeCombination::Part& part : parts)
+        text += fmt::format("{}{} ({:+.3g} %)", text.empty() ? "" : ", ", numbers[part.number].name, part.change);
+    return text;
+}
+
+FreeCombination combination(const FitDecomposition& parts, Eigen::Index k, const std::vector<FittedNumber>& numbers,
+                            const std::vector<double>& scales, const std::vector<std::size_t>& order) {
+    constexpr double least = 0.01;
+    FreeCombination result;
+    result.strength = parts.values[0] > 0 ? parts.values[k] / parts.values[0] : 0;
+    std::vector<FreeCombination::Part> all;
+    double largest = 0;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const auto c = static_cast<Eigen::Index>(i);
+        const double length = parts.lengths[c] > 0 ? parts.lengths[c] : 1, value = numbers[order[i]].estimate.value;
+        const double change = parts.directions(c, k) / length;
+        all.push_back({order[i], value != 0 ? change * scales[i] / value : change});
+        largest = std::abs(all.back().change) > std::abs(largest) ? all.back().change : largest;
+    }
+    for (FreeCombination::Part part : all) {
+        part.change = largest != 0 ? part.change / largest : 0;
+        if (std::abs(part.change) >= least)
+            result.parts.push_back(part);
+    }
+    std::stable_sort(result.parts.begin(), result.parts.end(),
+                     [](const auto& one, const auto& other) { return std::abs(one.change) > std::abs(other.change); });
+    result.text = text_of(result.parts, numbers);
+    return result;
+}
+
+void describe_outputs(FitRows& rows, const Rests& rests, Fit& fit) {
+    constexpr double chance = 4, far = 5;
+    const FitTask& task = rows.task();
+    const double freed = fit.freedom / static_cast<double>(fit.readings);
+    for (std::size_t o = 0; o < task.outputs.size(); ++o) {
+        FittedOutput output;
+        output.name = task.outputs[o].name;
+        const std::vector<double>& all = rests.of_output[o];
+        output.readings = all.size();
+        if (all.empty()) {
+            fit.outputs.push_back(std::move(output));
+            continue;
+        }
+        const auto count = static_cast<double>(all.size());
+        const double squares = square_sum(all);
+        output.deviation = std::sqrt(squares / (count * freed));
+        double sum = 0, spread = 0, products = 0, pairs = 0;
+        for (std::size_t r = 0; r < task.records.size(); ++r)
+            for (std::size_t c = 0; c < task.records[r].readings.size(); ++c) {
+                if (task.records[r].readings[c].output != o)
+                    continue;
+                const std::vector<double>&left = rests.of_record[r][c], &values = task.records[r].readings[c].values;
+                sum = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+                for (const double value : values)
+                    spread += (value - sum) * (value - sum);
+                for (std::size_t i = 1; i < left.size(); ++i) {
+                    products += left[i] * left[i - 1];
+                    pairs += 1;
+                }
+            }
+        output.share = spread > 0 ? 1 - squares / spread : 0;
+        output.correlation = squares > 0 ? products / squares : 0;
+        output.independent = std::abs(output.correlation) * std::sqrt(std::max(pairs, 1.0)) <= chance;
+        if (task.outputs[o].noise > 0)
+            output.chi_square = squares / (task.outputs[o].noise * task.outputs[o].noise * count * freed);
+        output.outliers = static_cast<std::size_t>(std::count_if(
+            all.begin(), all.end(), [&](double rest) { return std::abs(rest) > far * output.deviation; }));
+        fit.outputs.push_back(std::move(output));
+    }
+}
+
+} // namespace
+
+void describe(FitRows& rows, const FitPoint& point, double joint, Fit& fit) {
+    const FitTask& task = rows.task();
+    fit.records.assign(task.records.size(), {});
+    const Rests rests = rests_at(rows, point, &fit);
+    fit.readings = readings_of(task);
+    fit.freedom = static_cast<double>(fit.readings) - static_cast<double>(unknowns_of(rows));
+    fit.pieces = rows.layout.pieces.size();
+    for (std::size_t r = 0; r < task.records.size(); ++r)
+        for (std::size_t c = 0; c < task.records[r].readings.size(); ++c) {
+            std::vector<double> fitted = task.records[r].readings[c].values;
+            for (std::size_t i = 0; i < fitted.size(); ++i)
+                fitted[i] += rests.of_record[r][c][i];
+            fit.records[r].fitted.push_back(std::move(fitted));
+        }
+    for (std::size_t k = 0; k < rows.layout.pieces.size(); ++k)
+        if (const FitPiece& piece = rows.layout.pieces[k]; piece.opening)
+            fit.records[piece.record].start = rows.first_state(piece, point.shared, point.states[k]);
+    fit.parameters = task.values.empty() ? rows.system().model().parameter_values() : task.values;
+    for (std::size_t j = 0; j < task.parameters.size(); ++j)
+        fit.parameters[task.parameters[j].parameter.place()] =
+            point.shared[static_cast<Eigen::Index>(j)] * rows.layout.shared_scale[static_cast<Eigen::Index>(j)];
+    describe_outputs(rows, rests, fit);
+
+    std::vector<double> scales;
+    std::vector<FittedNumber> numbers = numbers_at(rows, point, scales);
+    std::vector<bool> held;
+    for (const FittedNumber& number : numbers)
+        held.push_back(number.at_bound);
+    // Parameters first; what comes from FitInformation has states first.
+    const std::size_t shared = static_cast<std::size_t>(rows.layout.shared()), states = numbers.size() - shared;
+    std::vector<std::size_t> order(numbers.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        order[i] = i < states ? shared + i : i - states;
+    const double variance = variance_at(rows, rests, fit.freedom);
+    const bool robust = rows.robust;
+    rows.robust = false;
+    const FitDecomposition parts = decompose(information_of(rows, point, joint), held);
+    rows.robust = robust;
+    fit.numbers.resize(numbers.size());
+    fit.correlations.assign(numbers.size() * numbers.size(), 0.0);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const auto c = static_cast<Eigen::Index>(i);
+        if (parts.known[i]) {
+            numbers[i].estimate.error = scales[i] * std::sqrt(variance * parts.covariance(c, c));
+            numbers[i].estimate.freedom = fit.freedom;
+            for (std::size_t j = 0; j < numbers.size(); ++j) {
+                const auto d = static_cast<Eigen::Index>(j);
+                if (parts.known[j])
+                    fit.correlations[order[i] * numbers.size() + order[j]] =
+                        parts.covariance(c, d) / std::sqrt(parts.covariance(c, c) * parts.covariance(d, d));
+            }
+        }
+    }
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        fit.numbers[order[i]] = std::move(numbers[i]);
+    const auto told = static_cast<std::size_t>(std::count(parts.told.begin(), parts.told.end(), true));
+    const auto bound = static_cast<std::size_t>(std::count(held.begin(), held.end(), true));
+    fit.condition = told > 0 ? parts.values[0] / parts.values[static_cast<Eigen::Index>(told) - 1] : 0;
+    for (std::size_t k = told; k + bound < parts.told.size(); ++k)
+        if (FreeCombination free = combination(parts, static_cast<Eigen::Index>(k), fit.numbers, scales, order);
+            !free.parts.empty())
+            fit.free.push_back(std::move(free));
+}
+
+FitChecks check_point(FitRows& rows, const FitPoint& point, double joint) {
+    constexpr double part_of_error = 0.01, nothing = 1e-9, part_of_noise = 1e-3;
+    FitChecks checks;
+    double squares = 0;
+    std::vector<FitPiece>& pieces = rows.layout.pieces;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+        const PieceRows& known = rows.evaluate(pieces[k], point.shared, point.states[k]);
+        squares += known.readings.col(known.readings.cols() - 1).squaredNorm();
+        if (!known.complete && checks.broken.empty())
+            checks.broken = known.detail;
+        if (!pieces[k].leads)
+            continue;
+        checks.gap = std::max(checks.gap, rows.gap(known, point.states[k + 1]).lpNorm<Eigen::Infinity>());
+        checks.modes_agree = checks.modes_agree && known.end_mode == pieces[k + 1].mode;
+    }
+    const double freedom = static_cast<double>(readings_of(rows.task())) - static_cast<double>(unknowns_of(rows));
+    const double size = std::sqrt(squares / freedom);
+    checks.allowed_gap = std::max(nothing, part_of_noise * size);
+    std::vector<double> scales;
+    std::vector<bool> held;
+    for (const FittedNumber& number : numbers_at(rows, point, scales))
+        held.push_back(number.at_bound);
+    const FitInformation information = information_of(rows, point, joint);
+    const FitDecomposition parts = decompose(information, held);
+    checks.stationary = std::sqrt(parts.gain + information.eliminated) <= part_of_error * size ||
+                        (parts.step.size() == 0 || parts.step.lpNorm<Eigen::Infinity>() <= nothing);
+    return checks;
+}
+
+double squares_at(FitRows& rows, const FitPoint& point) {
+    const Rests rests = rests_at(rows, point, nullptr);
+    double sum = 0;
+    for (std::size_t o = 0; o < rests.of_output.size(); ++o)
+        sum += square_sum(rests.of_output[o]) / (rows.range(o) * rows.range(o));
+    return sum;
+}
+
+std::vector<double> noise_at(FitRows& rows, const FitPoint& point) {
+    constexpr double floor = 1e-12; // of ranges: round-off
+    const Rests rests = rests_at(rows, point, nullptr);
+    const auto readings = static_cast<double>(readings_of(rows.task()));
+    const double freed = (readings - static_cast<double>(unknowns_of(rows))) / readings;
+    std::vector<double> noise = rows.noise;
+    for (std::size_t o = 0; o < noise.size(); ++o) {
+        std::vector<double> sizes = rests.of_output[o];
+        if (sizes.empty() || rows.task().outputs[o].noise > 0)
+            continue;
+        noise[o] = std::sqrt(square_sum(sizes) / (static_cast<double>(sizes.size()) * freed));
+        if (rows.loss() != FitLoss::squares) { // the median is not moved by readings that are far off
+            constexpr double of_normal = 1.4826;
+            for (double& size : sizes)
+                size = std::abs(size);
+            const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+            std::nth_element(sizes.begin(), middle, sizes.end());
+            noise[o] = of_normal * *middle / std::sqrt(freed);
+        }
+        noise[o] = std::max(noise[o], floor * rows.range(o));
+    }
+    return noise;
+}
+
+} // namespace graze

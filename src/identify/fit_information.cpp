@@ -1,0 +1,130 @@
+#include "identify/fit_information.hpp"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+/// The triangle of a matrix's sums of squares, as many rows as columns.
+Eigen::MatrixXd triangle(Eigen::MatrixXd matrix) {
+    if (matrix.rows() < matrix.cols())
+        matrix.conservativeResizeLike(Eigen::MatrixXd::Zero(matrix.cols(), matrix.cols()));
+    const Eigen::Index size = matrix.cols();
+    const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> factors(matrix);
+    return matrix.topRows(size).template triangularView<Eigen::Upper>();
+}
+
+/// Of one record: columns are its first states, what is shared, and what is left.
+Eigen::MatrixXd record_rows(FitRows& rows, const FitPoint& point, std::size_t first, std::size_t last, double joint,
+                            double& eliminated) {
+    const std::vector<FitPiece>& pieces = rows.layout.pieces;
+    Eigen::MatrixXd carried;
+    for (std::size_t k = last + 1; k-- > first;) {
+        const PieceRows& piece = rows.evaluate(pieces[k], point.shared, point.states[k]);
+        if (!pieces[k].leads) {
+            carried = piece.readings;
+            continue;
+        }
+        // Columns: the states of the next piece, those of this one, what is shared, what is left.
+        const Eigen::Index ahead = point.states[k + 1].size(), own = piece.readings.cols(), behind = carried.rows();
+        const Eigen::Index states = own - (carried.cols() - ahead);
+        Eigen::MatrixXd all = Eigen::MatrixXd::Zero(behind + own + ahead, ahead + own);
+        all.topLeftCorner(behind, ahead) = carried.leftCols(ahead);
+        all.block(0, ahead + states, behind, own - states) = carried.rightCols(own - states);
+        all.block(behind, ahead, own, own) = piece.readings;
+        all.block(behind + own, 0, ahead, ahead).diagonal().setConstant(-joint);
+        all.block(behind + own, ahead, ahead, own - 1) = joint * piece.ends.leftCols(own - 1);
+        all.block(behind + own, ahead + own - 1, ahead, 1) = joint * rows.gap(piece, point.states[k + 1]);
+        // Gaps weigh more than readings by far: with the heavy rows first, reflections lose nothing of the others.
+        Eigen::MatrixXd sorted(all.rows(), all.cols());
+        sorted << all.bottomRows(ahead), all.topRows(behind + own);
+        const Eigen::MatrixXd factor = triangle(std::move(sorted));
+        eliminated += factor.col(ahead + own - 1).head(ahead).squaredNorm();
+        carried = factor.bottomRightCorner(own, own);
+    }
+    return carried;
+}
+
+} // namespace
+
+FitInformation information_of(FitRows& rows, const FitPoint& point, double joint) {
+    const std::vector<FitPiece>& pieces = rows.layout.pieces;
+    const Eigen::Index shared = rows.layout.shared();
+    Eigen::Index states = 0;
+    for (std::size_t k = 0; k < pieces.size(); ++k)
+        states += pieces[k].opening ? point.states[k].size() : 0;
+    FitInformation result;
+    Eigen::MatrixXd carried = Eigen::MatrixXd::Zero(0, states + shared + 1);
+    Eigen::Index at = 0;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+        if (!pieces[k].opening)
+            continue;
+        std::size_t last = k;
+        while (pieces[last].leads)
+            ++last;
+        const Eigen::MatrixXd one = record_rows(rows, point, k, last, joint, result.eliminated);
+        const Eigen::Index own = one.cols() - shared - 1, before = carried.rows();
+        Eigen::MatrixXd all = Eigen::MatrixXd::Zero(before + one.rows(), carried.cols());
+        all.topRows(before) = carried;
+        all.block(before, at, one.rows(), own) = one.leftCols(own);
+        all.bottomRightCorner(one.rows(), shared + 1) = one.rightCols(shared + 1);
+        carried = triangle(std::move(all));
+        at += own;
+    }
+    result.rows = std::move(carried);
+    return result;
+}
+
+FitDecomposition decompose(const FitInformation& information, const std::vector<bool>& held) {
+    // Derivatives are known to some ten digits; what is smaller may be their error.
+    constexpr double nothing = 1e-9, involved = 1e-3;
+    const Eigen::Index count = information.rows.cols() - 1;
+    FitDecomposition result;
+    Eigen::MatrixXd scaled = information.rows.topLeftCorner(count, count);
+    for (Eigen::Index c = 0; c < count; ++c)
+        if (held[static_cast<std::size_t>(c)])
+            scaled.col(c).setZero();
+    result.lengths = scaled.colwise().norm();
+    const double longest = count > 0 ? result.lengths.maxCoeff() : 0;
+    for (Eigen::Index c = 0; c < count; ++c)
+        scaled.col(c) = result.lengths[c] > 1e-13 * longest ? Eigen::VectorXd(scaled.col(c) / result.lengths[c])
+                                                            : Eigen::VectorXd::Zero(count);
+    const Eigen::JacobiSVD<Eigen::MatrixXd> factors(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    result.values = factors.singularValues();
+    result.directions = factors.matrixV();
+    result.covariance = Eigen::MatrixXd::Zero(count, count);
+    result.step = Eigen::VectorXd::Zero(count);
+    const Eigen::VectorXd left = factors.matrixU().transpose() * information.rows.col(count).head(count);
+    result.known.assign(static_cast<std::size_t>(count), true);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const bool told = result.values[k] > nothing * result.values[0];
+        result.told.push_back(told);
+        const Eigen::VectorXd direction = result.directions.col(k);
+        if (told) {
+            result.covariance += direction * direction.transpose() / (result.values[k] * result.values[k]);
+            result.gain += left[k] * left[k];
+            result.step -= direction * (left[k] / result.values[k]);
+        } else
+            for (Eigen::Index c = 0; c < count; ++c)
+                if (std::abs(direction[c]) > involved)
+                    result.known[static_cast<std::size_t>(c)] = false;
+    }
+    for (Eigen::Index i = 0; i < count; ++i)
+        result.step[i] = result.lengths[i] > 0 ? result.step[i] / result.lengths[i] : 0;
+    for (Eigen::Index i = 0; i < count; ++i)
+        for (Eigen::Index j = 0; j < count; ++j) {
+            const double size = result.lengths[i] * result.lengths[j];
+            result.covariance(i, j) = size > 0 ? result.covariance(i, j) / size : 0;
+        }
+    for (Eigen::Index c = 0; c < count; ++c)
+        if (held[static_cast<std::size_t>(c)])
+            result.known[static_cast<std::size_t>(c)] = false;
+    return result;
+}
+
+} // namespace graze

@@ -1,0 +1,349 @@
+#include "identify/fit_rows.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+/// How far apart the two sides of a contact must be, in standard deviations, for a reading to choose.
+constexpr double distinct = 6;
+
+std::vector<double> ranges_of(const FitTask& task) {
+    std::vector<double> least(task.outputs.size(), std::numeric_limits<double>::infinity()), greatest(least.size());
+    std::fill(greatest.begin(), greatest.end(), -std::numeric_limits<double>::infinity());
+    for (const FitRecord& record : task.records)
+        for (const FitRecord::Readings& readings : record.readings)
+            for (const double value : readings.values) {
+                least[readings.output] = std::min(least[readings.output], value);
+                greatest[readings.output] = std::max(greatest[readings.output], value);
+            }
+    std::vector<double> ranges(least.size(), 1.0);
+    for (std::size_t o = 0; o < ranges.size(); ++o)
+        if (greatest[o] >= least[o]) {
+            const double largest = std::max(std::abs(least[o]), std::abs(greatest[o]));
+            ranges[o] = greatest[o] > least[o] ? greatest[o] - least[o] : largest > 0 ? largest : 1;
+        }
+    return ranges;
+}
+
+double usual_distance(const FitTask& task) {
+    std::vector<double> distances;
+    for (const FitRecord& record : task.records)
+        for (std::size_t i = 1; i < record.times.size(); ++i)
+            distances.push_back(record.times[i] - record.times[i - 1]);
+    if (distances.empty())
+        return 0;
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), middle, distances.end());
+    return *middle;
+}
+
+std::vector<std::size_t> places_of(const FitTask& task) {
+    std::vector<std::size_t> places;
+    for (const UnknownParameter& unknown : task.parameters)
+        places.push_back(unknown.parameter.place());
+    return places;
+}
+
+/// What is left, by its standard deviation, is replaced by the root of what it costs: a sum of squares again.
+struct Costed {
+    double value, slope;
+};
+Costed cost_of(double rest, FitLoss loss) {
+    constexpr double huber = 1.345, cauchy = 2.385; // 95 % of the efficiency of least squares for normal noise
+    const double size = std::abs(rest);
+    if (loss == FitLoss::huber && size > huber) {
+        const double root = std::sqrt(2 * huber * size - huber * huber);
+        return {std::copysign(root, rest), huber / root};
+    }
+    if (loss == FitLoss::cauchy && size > 1e-4 * cauchy) {
+        const double part = size / cauchy, root = cauchy * std::sqrt(std::log1p(part * part));
+        return {std::copysign(root, rest), size / ((1 + part * part) * root)};
+    }
+    return {rest, 1};
+}
+
+} // namespace
+
+FitRows::FitRows(const System& system, const FitTask& task, const FitSettings& settings)
+    : system_(system), task_(&task), loss_(settings.loss),
+      reach_(settings.reach >= 0 ? settings.reach : 3 * usual_distance(task)), ranges_(ranges_of(task)),
+      values_(task.values.empty() ? system.model().parameter_values() : task.values), periods_(system.states()),
+      motion_(Simulation(system, {}, {}, settings.simulation), places_of(task)) {
+    layout.parameters = task.parameters.size();
+    layout.states = system.states();
+    for (std::size_t o = 0; o < task.outputs.size(); ++o) {
+        if (task.outputs[o].gain_unknown)
+            layout.gains.push_back(o);
+        if (task.outputs[o].offset_unknown)
+            layout.offsets.push_back(o);
+        outputs_.push_back(system.with_gradient(task.outputs[o].value));
+        noise.push_back(task.outputs[o].noise > 0 ? task.outputs[o].noise : 0.05 * ranges_[o]);
+    }
+    std::size_t room = system.workspace();
+    for (const State& state : system.model().states)
+        initials_.push_back(system.with_gradient(state.initial));
+    for (const auto* functions : {&outputs_, &initials_})
+        for (const Function& function : *functions)
+            room = std::max(room, function.workspace());
+    inputs_.resize(system.states() + system.parameters());
+    work_.resize(room);
+    gradient_.resize(1 + inputs_.size());
+    layout.shared_scale = Eigen::VectorXd::Ones(layout.shared());
+    layout.state_scale = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(layout.states));
+}
+
+double FitRows::unit() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const FitRecord& record : task_->records)
+        for (const FitRecord::Readings& readings : record.readings)
+            least = std::min(least, noise[readings.output] / ranges_[readings.output]);
+    return least;
+}
+
+std::vector<double> FitRows::parameters(std::size_t record, const Eigen::VectorXd& shared) const {
+    std::vector<double> values = values_;
+    for (std::size_t j = 0; j < layout.parameters; ++j) {
+        const auto column = static_cast<Eigen::Index>(j);
+        values[task_->parameters[j].parameter.place()] = shared[column] * layout.shared_scale[column];
+    }
+    for (const auto& [parameter, value] : task_->records[record].known)
+        values[parameter.place()] = value;
+    return values;
+}
+
+double FitRows::gain(std::size_t output, const Eigen::VectorXd& shared) const {
+    for (std::size_t k = 0; k < layout.gains.size(); ++k)
+        if (layout.gains[k] == output) {
+            const auto column = static_cast<Eigen::Index>(layout.parameters + k);
+            return shared[column] * layout.shared_scale[column];
+        }
+    return task_->outputs[output].gain;
+}
+
+double FitRows::offset(std::size_t output, const Eigen::VectorXd& shared) const {
+    for (std::size_t k = 0; k < layout.offsets.size(); ++k)
+        if (layout.offsets[k] == output) {
+            const auto column = static_cast<Eigen::Index>(layout.parameters + layout.gains.size() + k);
+            return shared[column] * layout.shared_scale[column];
+        }
+    return task_->outputs[output].offset;
+}
+
+std::vector<double> FitRows::first_state(const FitPiece& piece, const Eigen::VectorXd& shared,
+                                         const Eigen::VectorXd& states) {
+    std::vector<double> state(layout.states);
+    if (!piece.opening) {
+        for (std::size_t i = 0; i < state.size(); ++i)
+            state[i] = states[static_cast<Eigen::Index>(i)] * layout.state_scale[static_cast<Eigen::Index>(i)];
+        return state;
+    }
+    state = model_start(piece.record, shared);
+    const std::vector<std::size_t>& unknown = task_->records[piece.record].unknown_states;
+    for (std::size_t k = 0; k < unknown.size(); ++k)
+        state[unknown[k]] =
+            states[static_cast<Eigen::Index>(k)] * layout.state_scale[static_cast<Eigen::Index>(unknown[k])];
+    return state;
+}
+
+std::vector<double> FitRows::model_start(std::size_t record, const Eigen::VectorXd& shared) {
+    const std::vector<double> values = parameters(record, shared);
+    std::vector<double> state(layout.states);
+    std::fill(inputs_.begin(), inputs_.end(), 0.0);
+    std::copy(values.begin(), values.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(layout.states));
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        initials_[i].evaluate(inputs_, gradient_, work_);
+        state[i] = gradient_[0];
+    }
+    return state;
+}
+
+const PredictedMotion& FitRows::motion(const FitPiece& piece, const Eigen::VectorXd& shared,
+                                       const Eigen::VectorXd& states) {
+    const std::vector<double> state = first_state(piece, shared, states), values = parameters(piece.record, shared);
+    const std::size_t count = layout.states + layout.parameters;
+    std::vector<double> seeds(layout.states * count, 0.0);
+    for (std::size_t i = 0; i < layout.states; ++i)
+        seeds[i * count + i] = 1;
+    if (piece.opening) {
+        const std::vector<std::size_t>& unknown = task_->records[piece.record].unknown_states;
+        for (std::size_t i = 0; i < layout.states; ++i) {
+            if (std::find(unknown.begin(), unknown.end(), i) != unknown.end())
+                continue;
+            initials_[i].evaluate(inputs_, gradient_, work_); // the inputs are those of the first state
+            for (std::size_t j = 0; j < layout.parameters; ++j)
+                seeds[i * count + layout.states + j] =
+                    gradient_[1 + layout.states + task_->parameters[j].parameter.place()];
+        }
+    }
+    // A parameter that this record has of its own does not move.
+    motion_.set_parameters(values);
+    system_.periods().evaluate(values, periods_, work_);
+    std::copy(values.begin(), values.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(layout.states));
+    MotionPiece asked;
+    asked.state = state;
+    asked.seeds = seeds;
+    asked.mode = piece.mode;
+    asked.begin = piece.begin;
+    asked.end = piece.end;
+    asked.times = std::span(task_->records[piece.record].times).subspan(piece.first, piece.last - piece.first);
+    asked.reach = reach_;
+    return motion_.follow(asked);
+}
+
+/// Values of all outputs in a state, and their derivatives in all directions.
+void FitRows::read(std::span<const double> state, std::span<const double> derivatives, Side& side) {
+    const std::size_t count = layout.states + layout.parameters;
+    side.values.resize(outputs_.size());
+    side.slopes.assign(outputs_.size() * count, 0.0);
+    std::copy(state.begin(), state.end(), inputs_.begin());
+    for (std::size_t o = 0; o < outputs_.size(); ++o) {
+        outputs_[o].evaluate(inputs_, gradient_, work_);
+        side.values[o] = gradient_[0];
+        double* slope = &side.slopes[o * count];
+        for (std::size_t i = 0; i < layout.states; ++i)
+            for (std::size_t d = 0; d < count && gradient_[1 + i] != 0; ++d)
+                slope[d] += gradient_[1 + i] * derivatives[i * count + d];
+        for (std::size_t j = 0; j < layout.parameters; ++j)
+            slope[layout.states + j] += gradient_[1 + layout.states + task_->parameters[j].parameter.place()];
+    }
+}
+
+/// Whether readings are nearer to the other side of a contact, and the sides so far apart that noise does not tell it.
+bool FitRows::is_beyond(const FitRecord& record, std::size_t sample, const Eigen::VectorXd& shared) const {
+    double here = 0, there = 0, apart = 0;
+    for (const FitRecord::Readings& readings : record.readings) {
+        const std::size_t o = readings.output;
+        const double factor = gain(o, shared), shift = offset(o, shared);
+        const double one = (factor * side_.values[o] + shift - readings.values[sample]) / noise[o];
+        const double other = (factor * beyond_.values[o] + shift - readings.values[sample]) / noise[o];
+        here += one * one;
+        there += other * other;
+        apart = std::max(apart, std::abs(one - other));
+    }
+    return there < here && apart > distinct;
+}
+
+double FitRows::scale_of(const FitPiece& piece, Eigen::Index column) const {
+    const Eigen::Index states = layout.unknown_states(*task_, piece);
+    if (column >= states)
+        return layout.shared_scale[column - states];
+    const std::size_t state = piece.opening
+                                  ? task_->records[piece.record].unknown_states[static_cast<std::size_t>(column)]
+                                  : static_cast<std::size_t>(column);
+    return layout.state_scale[static_cast<Eigen::Index>(state)];
+}
+
+void FitRows::add_time(const FitPiece& piece, std::size_t sample, const Eigen::VectorXd& shared, Eigen::Index row) {
+    const FitRecord& record = task_->records[piece.record];
+    const std::size_t count = layout.states + layout.parameters;
+    const Eigen::Index states = layout.unknown_states(*task_, piece), last = raw_.cols() - 1;
+    const double size = unit();
+    for (const FitRecord::Readings& readings : record.readings) {
+        const std::size_t o = readings.output;
+        const double factor = gain(o, shared),
+                     rest = factor * side_.values[o] + offset(o, shared) - readings.values[sample];
+        rows_.rests.push_back(rest);
+        const Costed costed = cost_of(rest / noise[o], loss());
+        const double weight = size * costed.slope / noise[o];
+        const double* slope = &side_.slopes[o * count];
+        for (Eigen::Index c = 0; c < states; ++c) {
+            const std::size_t state =
+                piece.opening ? record.unknown_states[static_cast<std::size_t>(c)] : static_cast<std::size_t>(c);
+            raw_(row, c) = weight * factor * slope[state] * scale_of(piece, c);
+        }
+        for (std::size_t j = 0; j < layout.parameters; ++j) {
+            const Eigen::Index c = states + static_cast<Eigen::Index>(j);
+            const ParameterId parameter = task_->parameters[j].parameter;
+            const bool own = std::any_of(record.known.begin(), record.known.end(),
+                                         [&](const auto& known) { return known.first == parameter; });
+            raw_(row, c) = own ? 0 : weight * factor * slope[layout.states + j] * scale_of(piece, c);
+        }
+        Eigen::Index c = states + static_cast<Eigen::Index>(layout.parameters);
+        for (const std::size_t output : layout.gains) {
+            raw_(row, c) = output == o ? weight * side_.values[o] * scale_of(piece, c) : 0;
+            ++c;
+        }
+        for (const std::size_t output : layout.offsets) {
+            raw_(row, c) = output == o ? weight * scale_of(piece, c) : 0;
+            ++c;
+        }
+        raw_(row, last) = size * costed.value;
+        ++row;
+    }
+}
+
+void FitRows::add_ends(const FitPiece& piece, const PredictedMotion& predicted) {
+    const std::size_t count = layout.states + layout.parameters;
+    const FitRecord& record = task_->records[piece.record];
+    const Eigen::Index states = layout.unknown_states(*task_, piece), last = raw_.cols() - 1;
+    rows_.ends.setZero(static_cast<Eigen::Index>(layout.states), raw_.cols());
+    for (Eigen::Index i = 0; i < rows_.ends.rows(); ++i) {
+        const double* slope = &predicted.end_derivatives[static_cast<std::size_t>(i) * count];
+        for (Eigen::Index c = 0; c < states; ++c) {
+            const std::size_t state =
+                piece.opening ? record.unknown_states[static_cast<std::size_t>(c)] : static_cast<std::size_t>(c);
+            rows_.ends(i, c) = slope[state] * scale_of(piece, c) / layout.state_scale[i];
+        }
+        for (std::size_t j = 0; j < layout.parameters; ++j) {
+            const Eigen::Index c = states + static_cast<Eigen::Index>(j);
+            const ParameterId parameter = task_->parameters[j].parameter;
+            const bool own = std::any_of(record.known.begin(), record.known.end(),
+                                         [&](const auto& known) { return known.first == parameter; });
+            rows_.ends(i, c) = own ? 0 : slope[layout.states + j] * scale_of(piece, c) / layout.state_scale[i];
+        }
+        rows_.ends(i, last) = predicted.end_state[static_cast<std::size_t>(i)] / layout.state_scale[i];
+    }
+}
+
+const PieceRows& FitRows::evaluate(const FitPiece& piece, const Eigen::VectorXd& shared,
+                                   const Eigen::VectorXd& states) {
+    const FitRecord& record = task_->records[piece.record];
+    const PredictedMotion& predicted = motion(piece, shared, states);
+    const Eigen::Index columns = layout.unknown_states(*task_, piece) + layout.shared() + 1;
+    const auto readings = static_cast<Eigen::Index>(record.readings.size());
+    const auto times = static_cast<Eigen::Index>(piece.last - piece.first);
+    raw_.setZero(std::max(times * readings, columns), columns);
+    rows_.rests.clear();
+    rows_.misplaced = 0;
+    for (std::size_t k = 0; k < predicted.samples.size(); ++k) {
+        const PredictedMotion::Sample& sample = predicted.samples[k];
+        read(sample.state, sample.derivatives, side_);
+        if (sample.other) {
+            read(sample.other_state, sample.other_derivatives, beyond_);
+            if (is_beyond(record, piece.first + k, shared)) {
+                std::swap(side_, beyond_);
+                ++rows_.misplaced;
+            }
+        }
+        add_time(piece, piece.first + k, shared, static_cast<Eigen::Index>(k) * readings);
+    }
+    add_ends(piece, predicted);
+    rows_.finite = raw_.allFinite() && rows_.ends.allFinite();
+    rows_.complete = predicted.complete;
+    rows_.contacts = predicted.contacts;
+    rows_.end_mode = predicted.end_mode;
+    rows_.detail = predicted.detail;
+    if (rows_.finite) {
+        const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> factors(raw_);
+        rows_.readings = raw_.topRows(columns).template triangularView<Eigen::Upper>();
+    }
+    return rows_;
+}
+
+Eigen::VectorXd FitRows::gap(const PieceRows& piece, const Eigen::VectorXd& next) const {
+    Eigen::VectorXd result = piece.ends.col(piece.ends.cols() - 1) - next;
+    for (Eigen::Index i = 0; i < result.size(); ++i)
+        if (const double period = periods_[static_cast<std::size_t>(i)] / layout.state_scale[i]; period > 0)
+            result[i] = std::remainder(result[i], period);
+    return result;
+}
+
+} // namespace graze

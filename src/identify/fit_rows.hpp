@@ -1,0 +1,81 @@
+#pragma once
+
+#include "graze/symbolic/function.hpp"
+#include "identify/fit_layout.hpp"
+#include "identify/piece_motion.hpp"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace graze {
+
+/// What a piece says about the unknowns. Columns are the states at its beginning, the shared unknowns, and what is
+/// left; all unknowns in their scales.
+struct PieceRows {
+    /// Triangular: as many rows as columns, of the same sums of squares and products as those of all its readings.
+    Eigen::MatrixXd readings;
+    Eigen::MatrixXd ends;      ///< the state at its end, in scales: derivatives, and, last, the state
+    std::vector<double> rests; ///< readings as they should be less what they are: time by time, reading by reading
+    std::size_t end_mode = 0, contacts = 0, misplaced = 0;
+    bool complete = false, finite = false;
+    std::string detail;
+};
+
+/// Evaluates pieces.
+class FitRows {
+public:
+    FitRows(const System& system, const FitTask& task, const FitSettings& settings);
+
+    FitLayout layout;
+    std::vector<double> noise; ///< of each output: what readings are divided by
+    bool robust = true;        ///< whether the loss of the settings is made of what is left, or squares
+
+    const FitTask& task() const { return *task_; }
+    const System& system() const { return system_; }
+    /// Rows are measured by this: what is left, relative to the ranges of the outputs.
+    double unit() const;
+    double range(std::size_t output) const { return ranges_[output]; }
+    FitLoss loss() const { return robust ? loss_ : FitLoss::squares; }
+
+    double gain(std::size_t output, const Eigen::VectorXd& shared) const;
+    double offset(std::size_t output, const Eigen::VectorXd& shared) const;
+
+    const PieceRows& evaluate(const FitPiece& piece, const Eigen::VectorXd& shared, const Eigen::VectorXd& states);
+    /// The gap between a state at the end of a piece and the first of the next, in scales; of cyclic states the
+    /// shorter way round.
+    Eigen::VectorXd gap(const PieceRows& piece, const Eigen::VectorXd& next) const;
+    /// The whole state at the beginning of a piece. @param shared, states in scales
+    std::vector<double> first_state(const FitPiece& piece, const Eigen::VectorXd& shared,
+                                    const Eigen::VectorXd& states);
+    /// The model's own initial state.
+    std::vector<double> model_start(std::size_t record, const Eigen::VectorXd& shared);
+    /// All independent parameters, of a record.
+    std::vector<double> parameters(std::size_t record, const Eigen::VectorXd& shared) const;
+    const PredictedMotion& motion(const FitPiece& piece, const Eigen::VectorXd& shared, const Eigen::VectorXd& states);
+
+private:
+    struct Side {
+        std::vector<double> values, slopes; ///< of outputs; outputs x directions
+    };
+    void read(std::span<const double> state, std::span<const double> derivatives, Side& side);
+    bool is_beyond(const FitRecord& record, std::size_t sample, const Eigen::VectorXd& shared) const;
+    void add_time(const FitPiece& piece, std::size_t sample, const Eigen::VectorXd& shared, Eigen::Index row);
+    void add_ends(const FitPiece& piece, const PredictedMotion& predicted);
+    double scale_of(const FitPiece& piece, Eigen::Index column) const;
+    System system_;
+    const FitTask* task_;
+    FitLoss loss_;
+    double reach_;
+    std::vector<double> ranges_, values_, periods_, inputs_, work_, gradient_;
+    std::vector<Function> outputs_,
+        initials_; ///< values, with gradients; of outputs, and of the model's initial states
+    PieceMotion motion_;
+    Side side_, beyond_;
+    Eigen::MatrixXd raw_;
+    PieceRows rows_;
+};
+
+} // namespace graze

@@ -1,0 +1,244 @@
+#include "identify/piece_motion.hpp"
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace graze {
+
+namespace {
+
+bool all_finite(std::span<const double> values) {
+    return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+} // namespace
+
+/// Takes samples out of steps as they are made, and looks beyond contacts.
+class PieceMotion::Watcher : public Observer {
+public:
+    Watcher(PieceMotion& owner, const MotionPiece& piece)
+        : owner_(&owner), piece_(&piece), state_(owner.simulation_.system().states()),
+          matrix_(state_.size() * owner.directions()) {}
+
+    void watch(const Trajectory& trajectory) { trajectory_ = &trajectory; }
+    std::size_t taken() const { return next_; }
+    /// Samples before a time, from the motion of the first mode.
+    void take_until(double time) {
+        owner_->fan_.begin(piece_->mode, piece_->state, piece_->seeds);
+        for (; next_ < piece_->times.size() && piece_->times[next_] < time; ++next_) {
+            owner_->motion_.differentiable &= owner_->fan_.at(piece_->times[next_] - piece_->begin, state_, matrix_);
+            owner_->take(next_, state_, matrix_);
+        }
+    }
+
+    void step(const Step& step) override {
+        start_ = step.start;
+        mode_ = step.mode;
+        first_.resize(state_.size());
+        for (std::size_t i = 0; i < state_.size(); ++i)
+            first_[i] = step.states[i][0];
+        first_matrix_.assign(trajectory_->tangents().begin(), trajectory_->tangents().end());
+        bool begun = false;
+        for (; next_ < piece_->times.size() && piece_->times[next_] <= step.start + step.length; ++next_) {
+            const double s = std::max(0.0, piece_->times[next_] - step.start);
+            if (!begun)
+                owner_->fan_.begin(step.mode, first_, first_matrix_);
+            begun = true;
+            // The polynomials of the motion itself are more accurate than those of its tangents.
+            owner_->motion_.differentiable &= owner_->fan_.at(s, state_, matrix_);
+            for (std::size_t i = 0; i < state_.size(); ++i)
+                state_[i] = step.state(i, s);
+            owner_->take(next_, state_, matrix_);
+        }
+    }
+
+    void contact(const Contact& contact) override {
+        if (contact.kind == ContactKind::touch)
+            return;
+        ++owner_->motion_.contacts;
+        owner_->motion_.bound = is_bound(contact);
+        if (contact.kind != ContactKind::crossing || trajectory_->finished() || !(piece_->reach > 0))
+            return;
+        const std::vector<double> after(contact.after.begin(), contact.after.end());
+        const std::vector<double> after_matrix(trajectory_->tangents().begin(), trajectory_->tangents().end());
+        const auto from = std::lower_bound(piece_->times.begin(), piece_->times.end(), contact.time - piece_->reach);
+        const auto to = std::upper_bound(piece_->times.begin(), piece_->times.end(), contact.time + piece_->reach);
+        const auto middle = std::lower_bound(from, to, contact.time);
+        const auto index = [&](auto place) { return static_cast<std::size_t>(place - piece_->times.begin()); };
+        // Backwards from the contact in the mode behind it, and on in the one before.
+        owner_->fan_.begin(contact.mode_after, after, after_matrix);
+        for (std::size_t i = index(middle); i-- > index(from);)
+            if (!look(i, piece_->times[i] - contact.time, contact.time))
+                break;
+        if (first_.empty()) // a contact where the piece begins
+            return;
+        owner_->fan_.begin(mode_, first_, first_matrix_);
+        for (std::size_t i = index(middle); i < index(to); ++i)
+            if (!look(i, piece_->times[i] - start_, contact.time))
+                break;
+    }
+
+private:
+    /// Whether the jump of a contact takes freedom from the states.
+    bool is_bound(const Contact& contact) {
+        const System& system = owner_->simulation_.system();
+        const Transition& transition = owner_->simulation_.model().transitions[contact.transition];
+        const System::CompiledJump& jump = system.jump(
+            contact.kind == ContactKind::sticking && transition.chatter ? transition.chatter->jump : transition.jump);
+        std::vector<double> inputs(contact.before.begin(), contact.before.end()), work(system.workspace()),
+            values(system.jacobian_entries());
+        inputs.insert(inputs.end(), owner_->parameters_.begin(), owner_->parameters_.end());
+        jump.jacobian.evaluate(inputs, values, work);
+        const auto states = static_cast<Eigen::Index>(state_.size());
+        Eigen::MatrixXd map = Eigen::MatrixXd::Identity(states, states);
+        for (const std::size_t i : jump.changed)
+            map.row(static_cast<Eigen::Index>(i)).setZero();
+        for (std::size_t k = 0; k < jump.entries.size(); ++k)
+            if (jump.entries[k].column < state_.size())
+                map(static_cast<Eigen::Index>(jump.entries[k].row), static_cast<Eigen::Index>(jump.entries[k].column)) =
+                    values[k];
+        return !jump.identity && Eigen::FullPivLU<Eigen::MatrixXd>(map).rank() < states;
+    }
+
+    bool look(std::size_t sample, double s, double contact) {
+        const double distance = std::abs(piece_->times[sample] - contact);
+        PredictedMotion::Sample& one = owner_->motion_.samples[sample];
+        if (!owner_->fan_.at(s, state_, matrix_) || !all_finite(state_) || !all_finite(matrix_))
+            return false;
+        if (one.other && one.distance <= distance)
+            return true;
+        one.other = true;
+        one.distance = distance;
+        one.other_state = state_;
+        one.other_derivatives = matrix_;
+        return true;
+    }
+
+    PieceMotion* owner_;
+    const MotionPiece* piece_;
+    const Trajectory* trajectory_ = nullptr;
+    std::size_t next_ = 0;
+    std::vector<double> state_, matrix_;
+    double start_ = 0; ///< of the last step
+    std::size_t mode_ = 0;
+    std::vector<double> first_, first_matrix_;
+};
+
+PieceMotion::PieceMotion(const Simulation& simulation, std::vector<std::size_t> moved)
+    : simulation_(simulation), moved_(std::move(moved)), jets_(simulation, LaneKind::single),
+      fan_(simulation, simulation.system().states() + moved_.size()) {}
+
+void PieceMotion::set_parameters(std::span<const double> parameters) {
+    const std::size_t states = simulation_.system().states();
+    parameters_.assign(parameters.begin(), parameters.end());
+    parameter_seeds_.assign(parameters.size() * directions(), 0.0);
+    for (std::size_t d = 0; d < moved_.size(); ++d)
+        parameter_seeds_[moved_[d] * directions() + states + d] = 1;
+    fan_.set_parameters(parameters_, parameter_seeds_);
+}
+
+void PieceMotion::take(std::size_t sample, std::span<const double> state, std::span<const double> matrix) {
+    PredictedMotion::Sample& one = motion_.samples[sample];
+    one.state.assign(state.begin(), state.end());
+    one.derivatives.assign(matrix.begin(), matrix.end());
+}
+
+/// A watched barrier that the state is beyond; as many as there are events if none.
+std::size_t PieceMotion::violated(std::size_t mode, std::span<const double> state) {
+    const System& system = simulation_.system();
+    const System::CompiledMode& compiled = system.mode(mode);
+    inputs_.assign(state.begin(), state.end());
+    inputs_.insert(inputs_.end(), parameters_.begin(), parameters_.end());
+    work_.resize(system.workspace());
+    values_.resize(compiled.events.outputs());
+    compiled.events.evaluate(inputs_, values_, work_);
+    for (std::size_t w = 0; w < compiled.watched.size(); ++w)
+        if (simulation_.model().events[compiled.watched[w]].kind == EventKind::barrier && values_[w] < 0)
+            return compiled.watched[w];
+    return simulation_.model().events.size();
+}
+
+/// Newton's method for where the motion, without events, is on the right side of a surface by a thousandth of what it
+/// is beyond now.
+bool PieceMotion::find_side(const MotionPiece& piece, std::size_t event) {
+    constexpr int most = 20;
+    const System& system = simulation_.system();
+    const std::size_t states = system.states();
+    std::vector<double> gradient(1 + states + parameters_.size()), rates(states);
+    side_ = 0;
+    side_state_.assign(piece.state.begin(), piece.state.end());
+    side_matrix_.assign(piece.seeds.begin(), piece.seeds.end());
+    double aim = 0;
+    for (int i = 0; i < most; ++i) {
+        inputs_.assign(side_state_.begin(), side_state_.end());
+        inputs_.insert(inputs_.end(), parameters_.begin(), parameters_.end());
+        system.event(event).evaluate(inputs_, gradient, work_);
+        system.mode(piece.mode).rates.evaluate(inputs_, rates, work_);
+        if (i == 0)
+            aim = -1e-3 * gradient[0];
+        else if (gradient[0] > 0 && gradient[0] < 2 * aim)
+            return violated(piece.mode, side_state_) == simulation_.model().events.size();
+        double rate = 0;
+        for (std::size_t k = 0; k < states; ++k)
+            rate += gradient[1 + k] * rates[k];
+        side_ += (aim - gradient[0]) / rate;
+        if (!(std::abs(side_) <= piece.end - piece.begin))
+            return false;
+        fan_.begin(piece.mode, piece.state, piece.seeds);
+        if (!fan_.at(side_, side_state_, side_matrix_))
+            return false;
+    }
+    return false;
+}
+
+const PredictedMotion& PieceMotion::follow(const MotionPiece& piece) {
+    const std::size_t states = simulation_.system().states(), count = directions();
+    motion_.samples.resize(piece.times.size());
+    for (PredictedMotion::Sample& sample : motion_.samples)
+        sample.other = false;
+    motion_.contacts = 0;
+    motion_.bound = false;
+    motion_.differentiable = true;
+    motion_.detail.clear();
+    std::span<const double> first = piece.state, first_seeds = piece.seeds;
+    double begin = piece.begin;
+    Watcher watcher(*this, piece);
+    if (const std::size_t event = violated(piece.mode, piece.state);
+        event != simulation_.model().events.size() && find_side(piece, event)) {
+        first = side_state_;
+        first_seeds = side_matrix_;
+        begin += side_;
+        watcher.take_until(begin);
+    }
+    seeds_.assign(count * (states + parameters_.size()), 0.0);
+    for (std::size_t d = 0; d < count; ++d) {
+        double* seed = &seeds_[d * (states + parameters_.size())];
+        for (std::size_t i = 0; i < states; ++i)
+            seed[i] = first_seeds[i * count + d];
+        for (std::size_t j = 0; j < parameters_.size(); ++j)
+            seed[states + j] = parameter_seeds_[j * count + d];
+    }
+    Trajectory trajectory(simulation_, parameters_, watcher);
+    trajectory.start(first, piece.mode, begin, piece.end);
+    trajectory.carry_tangents(seeds_, count);
+    watcher.watch(trajectory);
+    run(trajectory, jets_);
+    motion_.end_state.assign(trajectory.state().begin(), trajectory.state().end());
+    motion_.end_derivatives.assign(trajectory.tangents().begin(), trajectory.tangents().end());
+    motion_.end_mode = trajectory.mode();
+    motion_.complete = trajectory.outcome().ending == Ending::end_time;
+    motion_.differentiable = motion_.differentiable && trajectory.tangents_valid();
+    if (!motion_.complete)
+        motion_.detail = fmt::format("the motion ends at time {:.9g}: {}{}{}", trajectory.outcome().time,
+                                     name_of(trajectory.outcome().ending),
+                                     trajectory.outcome().detail.empty() ? "" : ", ", trajectory.outcome().detail);
+    for (std::size_t i = watcher.taken(); i < piece.times.size(); ++i)
+        take(i, motion_.end_state, motion_.end_derivatives);
+    return motion_;
+}
+
+} // namespace graze

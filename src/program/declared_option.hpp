@@ -1,0 +1,38 @@
+#pragma once
+
+#include "program/arguments.hpp"
+
+#include <CLI/App.hpp>
+
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace graze {
+
+/// An option with the word for its type, in a group of the help. Empty texts are refused.
+template <class Target>
+CLI::Option* declare_option(CLI::App& command, const char* group, const char* name, Target& target, const char* type,
+                            const char* text) {
+    CLI::Option* option = command.add_option(name, target, text)->type_name(type)->group(group);
+    return std::is_same_v<Target, std::string> || std::is_same_v<Target, std::vector<std::string>>
+               ? option->check(not_empty())
+               : option;
+}
+
+/// `--format`.
+CLI::Option* declare_format(CLI::App& command, OutputArguments& output);
+
+/// `--format` and `--digits`.
+void declare_digits(CLI::App& command, OutputArguments& output);
+
+/// `--format`, `--digits` and `--output`.
+void declare_output(CLI::App& command, OutputArguments& output);
+
+/// The same and `--all`, for tables that may be too wide for a terminal.
+void declare_table(CLI::App& command, OutputArguments& output);
+
+/// Adds `--data`, for what a picture is made of.
+void declare_data(CLI::App& command, std::string& data);
+
+} // namespace graze

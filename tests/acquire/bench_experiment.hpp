@@ -1,0 +1,86 @@
+#pragma once
+
+#include "graze/acquire/experiment.hpp"
+#include "graze/bench/virtual_bench.hpp"
+#include "graze/model/catalogue.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace graze::testing {
+
+/// The testbed with noise and converters.
+inline BenchSettings testbed_bench() {
+    BenchSettings settings;
+    settings.model = load_model("electromagnetic-testbed");
+    settings.amplitude = driven_input(settings.model, "V0", "--amplitude");
+    settings.frequency = driven_input(settings.model, "f", "--frequency");
+    for (const char* text : {"V=voltage:V", "I=I:A", "q=q:m", "v=v:m/s"})
+        settings.channels.push_back(bench_channel(settings.model, text, "--channel"));
+    settings.channels[3].noise = 1e-3;
+    settings.channels[3].range = 1;
+    return settings;
+}
+
+/// Six levels, up and down.
+inline std::string experiment_text(const std::string& more = "", const std::string& port = "none",
+                                   const std::string& device = "tcp:127.0.0.1:1") {
+    return "name = \"sweep\"\n[generator]\nport = \"" + port +
+           "\"\ntimeout = 0.2\nidentity = \"33120A\"\n"
+           "[limits]\namplitude = 10\nsafe = 0.1\nfrequency = [1, 20]\n"
+           "[samples]\ndevice = \"" +
+           device +
+           "\"\nrate = 500\ntimeout = 1\n"
+           "[sweep]\nfrequency = 6.1\namplitude = { from = 9.4, to = 9.6, step = 0.1, back = true }\n"
+           "[settle]\ntime = 0.5\n[record]\ntime = 1\n" +
+           more;
+}
+
+inline std::string contents(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+class Folder {
+public:
+    Folder() {
+        std::string name = (std::filesystem::temp_directory_path() / "graze-acquire-XXXXXX").string();
+        path_ = mkdtemp(name.data());
+    }
+    ~Folder() { std::filesystem::remove_all(path_); }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+    std::string path() const { return path_.string(); }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// All files of a folder by their names.
+inline std::map<std::string, std::string> files_of(const std::string& folder) {
+    std::map<std::string, std::string> result;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        result[entry.path().filename().string()] = contents(entry.path());
+    return result;
+}
+
+/// The names of files that differ between two folders, or are in one alone.
+inline std::vector<std::string> different_files(const std::string& one, const std::string& other) {
+    const auto first = files_of(one), second = files_of(other);
+    std::vector<std::string> names;
+    for (const auto& [name, text] : first)
+        if (const auto found = second.find(name); found == second.end() || found->second != text)
+            names.push_back(name);
+    for (const auto& [name, text] : second)
+        if (!first.contains(name))
+            names.push_back(name);
+    return names;
+}
+
+} // namespace graze::testing

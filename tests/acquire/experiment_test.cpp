@@ -1,0 +1,115 @@
+#include "graze/acquire/experiment.hpp"
+
+#include "acquire/bench_experiment.hpp"
+#include "graze/symbolic/input_errors.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace graze {
+namespace {
+
+using testing::experiment_text;
+using ::testing::HasSubstr;
+
+/// The message for a text with a part of it replaced.
+std::string message(const std::string& part, const std::string& by) {
+    std::string text = experiment_text();
+    const std::size_t at = text.find(part);
+    EXPECT_NE(at, std::string::npos) << part;
+    text.replace(at, part.size(), by);
+    try {
+        parse_experiment(text, "e.toml");
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST(Experiment, HasTheLevelsThatAreWritten) {
+    const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
+    ASSERT_EQ(experiment.levels.size(), 6U);
+    const double amplitudes[] = {9.4, 9.5, 9.6, 9.6, 9.5, 9.4};
+    for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_EQ(experiment.levels[i].amplitude, amplitudes[i]) << "without what sums leave";
+        EXPECT_EQ(experiment.levels[i].direction, i < 3 ? 1 : -1);
+        EXPECT_EQ(experiment.levels[i].number, i + 1);
+    }
+    EXPECT_EQ(experiment.samples, 500U);
+    EXPECT_EQ(experiment.serial.baud, 9600U);
+    EXPECT_EQ(experiment.serial.stop_bits, StopBits::two);
+    EXPECT_EQ(experiment.serial.flow, FlowControl::software);
+    EXPECT_EQ(experiment.serial.parity, Parity::none);
+    EXPECT_EQ(experiment.record_name(experiment.levels[4]), "0005_f6100mHz_a9500mV_down.csv");
+}
+
+TEST(Experiment, StepsFrequenciesToo) {
+    std::string text = experiment_text();
+    text.replace(text.find("frequency = 6.1"), 15, "frequency = { from = 6, to = 7, step = 0.5, back = true }");
+    text.replace(text.find("amplitude = { from"), text.find("true }\n[settle]") - text.find("amplitude = { from") + 6,
+                 "amplitude = 9");
+    const Experiment experiment = parse_experiment(text, "e.toml");
+    ASSERT_EQ(experiment.levels.size(), 6U);
+    EXPECT_EQ(experiment.levels[1].frequency, 6.5);
+    EXPECT_EQ(experiment.levels[5].direction, -1);
+    EXPECT_EQ(experiment.levels[5].leg, 0U) << "one sweep";
+}
+
+TEST(Experiment, SaysWhereAndWhatIsWrong) {
+    EXPECT_THAT(message("name = \"sweep\"", "name = \"../sweep\""), HasSubstr("e.toml:1:8: '../sweep' cannot be"));
+    EXPECT_THAT(message("name = \"sweep\"", ""), HasSubstr("e.toml:1:1: the experiment has no name"));
+    EXPECT_THAT(message("step = 0.1", "step = 0"), HasSubstr("e.toml:16:44: sweep.amplitude.step makes inf steps"));
+    EXPECT_THAT(message("step = 0.1", "step = 0.15"), HasSubstr("does not come to 9.6 by steps of 0.15"));
+    EXPECT_THAT(message("to = 9.6", "to = 10.1"),
+                HasSubstr("e.toml:16:13: the amplitude 10.1 is beyond the limits, 0 to "
+                          "10; nothing has been sent"));
+    EXPECT_THAT(message("frequency = 6.1", "frequency = 21"),
+                HasSubstr("the frequency 21 is beyond the limits, 1 to 20"));
+    EXPECT_THAT(message("safe = 0.1", "safe = 11"), HasSubstr("limits.safe is 11; give from 0 to 10"));
+    EXPECT_THAT(message("safe = 0.1\n", ""), HasSubstr("limits has no safe"));
+    EXPECT_THAT(message("[limits]", "[limit]"), HasSubstr("the experiment has no limits"));
+    EXPECT_THAT(message("[settle]", "[settling]"), HasSubstr("e.toml:17:2: unknown key 'settling'; known: name"));
+    EXPECT_THAT(message("tcp:127.0.0.1:1", "tcp:here"), HasSubstr("'tcp:here' is no device of samples"));
+    EXPECT_THAT(message("rate = 500", "rate = nan"), HasSubstr("samples.rate is nan"));
+    EXPECT_THAT(message("rate = 500", "rate = \"fast\""), HasSubstr("samples.rate must be a number, not a string"));
+    EXPECT_THAT(message("time = 1", "time = 0"), HasSubstr("a record would have 0 samples"));
+    EXPECT_THAT(message("time = 0.5", "most = 3"), HasSubstr("most says something about sections"));
+    EXPECT_THAT(message("time = 0.5", "reference = \"V\"\nmost = 3"), HasSubstr("settle has no tolerance"));
+    EXPECT_THAT(message("timeout = 0.2", "parity = \"maybe\""), HasSubstr("give one of none, odd, even"));
+    EXPECT_THAT(message("rate = 500", "rate = 500\nchannels = [\"V\", \"V\"]"), HasSubstr("'V' is there twice"));
+    EXPECT_THAT(message("step = 0.1", "step = 1e-9"), HasSubstr("give one that makes from 1 to 9999"));
+    EXPECT_THAT(message("[sweep]", "[sweep"), HasSubstr("this is not TOML"));
+}
+
+TEST(Experiment, TellsAllMistakesAtOnce) {
+    try {
+        parse_experiment("name = \"x\"\n[generator]\nbaud = 1\n[samples]\nrate = 0\n", "e.toml");
+        FAIL();
+    } catch (const InputErrors& errors) {
+        EXPECT_EQ(errors.all().size(), 5U); // limits, sweep and record are missing
+    }
+}
+
+TEST(Experiment, ReadsNothingThatItDoesNotUnderstand) {
+    std::mt19937 random(5);
+    const std::string whole = experiment_text();
+    for (int i = 0; i < 3000; ++i) {
+        std::string text = whole;
+        for (int k = 0; k < 3; ++k)
+            text[random() % text.size()] = static_cast<char>(random() % 96 + 32);
+        try {
+            const Experiment experiment = parse_experiment(text, "e.toml");
+            for (const Level& level : experiment.levels) {
+                ASSERT_LE(level.amplitude, experiment.generator.limits.amplitude);
+                ASSERT_LE(level.frequency, experiment.generator.limits.greatest_frequency);
+                ASSERT_EQ(experiment.record_name(level).find('/'), std::string::npos);
+            }
+        } catch (const InputError&) {
+        }
+    }
+}
+
+} // namespace graze

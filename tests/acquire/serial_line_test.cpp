@@ -1,0 +1,256 @@
+#include "graze/acquire/serial_line.hpp"
+
+#include "acquire/bench_experiment.hpp"
+#include "graze/acquire/acquisition.hpp"
+#include "graze/bench/bench_service.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <termios.h>
+#include <thread>
+#include <unistd.h>
+
+namespace graze {
+namespace {
+
+using testing::different_files;
+using testing::experiment_text;
+using testing::Folder;
+using ::testing::HasSubstr;
+using testing::testbed_bench;
+
+/// The far end of a serial line, which says what a test wants.
+class FarEnd {
+public:
+    FarEnd() : master_(posix_openpt(O_RDWR | O_NOCTTY)) {
+        grantpt(master_);
+        unlockpt(master_);
+        settings.port = ptsname(master_);
+    }
+    ~FarEnd() { hang_up(); }
+    FarEnd(const FarEnd&) = delete;
+    FarEnd& operator=(const FarEnd&) = delete;
+    void say(const std::string& text) const {
+        EXPECT_EQ(write(master_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+    }
+    std::string heard() const {
+        char buffer[4096];
+        const ssize_t count = read(master_, buffer, sizeof buffer);
+        return {buffer, static_cast<std::size_t>(std::max<ssize_t>(count, 0))};
+    }
+    termios attributes() const {
+        termios result{};
+        tcgetattr(master_, &result);
+        return result;
+    }
+    void hang_up() {
+        if (master_ >= 0)
+            close(master_);
+        master_ = -1;
+    }
+    SerialSettings settings;
+
+private:
+    int master_;
+};
+
+/// A bench that serves in a thread of its own.
+class Served {
+public:
+    explicit Served(const BenchSettings& bench = testbed_bench(), ServiceSettings service = {}) : bench_(bench) {
+        service.port = port();
+        service.on_demand = service.speed == 1;
+        service_.emplace(bench_, service);
+        thread_ = std::thread([this] { service_->run([this] { return stop_.load(); }); });
+    }
+    ~Served() { end(); }
+    Served(const Served&) = delete;
+    Served& operator=(const Served&) = delete;
+    void end() {
+        stop_ = true;
+        if (thread_.joinable())
+            thread_.join();
+        service_.reset();
+    }
+    std::string port() const { return folder_ / "generator"; }
+    GeneratorOutput output() { // of a bench that serves no more
+        end();
+        return bench_.generator().output();
+    }
+    AcquisitionReport run(const std::string& folder, const AcquisitionOptions& options = {}, double reopen = 5) {
+        Experiment experiment = parse_experiment(
+            experiment_text("", port(), "tcp:127.0.0.1:" + std::to_string(service_->tcp_port())), "sweep.toml");
+        experiment.generator.reopen = reopen;
+        const auto line = open_serial_line(experiment.serial);
+        const auto samples = open_tcp_line("127.0.0.1", service_->tcp_port());
+        TextSampleDevice device(*samples, experiment.sample_timeout, options.interrupted);
+        RecordFolder records(folder, experiment, 0);
+        return acquire(experiment, *line, device, records, options);
+    }
+
+private:
+    Folder folder_;
+    VirtualBench bench_;
+    std::optional<BenchService> service_;
+    std::atomic<bool> stop_{false};
+    std::thread thread_;
+};
+
+} // namespace
+
+TEST(SerialLine, IsSetAsItIsAskedFor) {
+    FarEnd far;
+    {
+        const auto line = open_serial_line(far.settings);
+        const termios set = far.attributes();
+        EXPECT_EQ(cfgetospeed(&set), static_cast<speed_t>(B9600));
+        EXPECT_NE(set.c_cflag & CSTOPB, 0U);
+        EXPECT_EQ(set.c_cflag & PARENB, 0U);
+        EXPECT_NE(set.c_iflag & IXON, 0U);
+    }
+    far.settings.baud = 19200;
+    far.settings.stop_bits = StopBits::one;
+    far.settings.flow = FlowControl::none;
+    const auto line = open_serial_line(far.settings);
+    const termios set = far.attributes();
+    EXPECT_EQ(cfgetospeed(&set), static_cast<speed_t>(B19200));
+    EXPECT_EQ(set.c_cflag & CSTOPB, 0U);
+    EXPECT_EQ(set.c_iflag & IXON, 0U);
+}
+
+TEST(SerialLine, CutsWhatComesIntoLines) {
+    FarEnd far;
+    const auto line = open_serial_line(far.settings);
+    line->send("VOLT?");
+    EXPECT_EQ(far.heard(), "VOLT?\n");
+    far.say("one\r\ntwo\n\r\nthr");
+    EXPECT_EQ(line->receive(1), "one");
+    EXPECT_EQ(line->receive(1), "two");
+    EXPECT_EQ(line->receive(0.02), std::nullopt);
+    far.say("ee\r");
+    EXPECT_EQ(line->receive(1), "three");
+    far.say("stale\nstale\nst");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    line->discard();
+    far.say("fresh\n");
+    EXPECT_EQ(line->receive(1), "fresh");
+}
+
+TEST(SerialLine, TellsWhenItIsCutOff) {
+    FarEnd far;
+    const auto line = open_serial_line(far.settings);
+    far.hang_up();
+    const auto ending = [&](auto work) {
+        try {
+            work();
+        } catch (const InstrumentError& error) {
+            return error.ending();
+        }
+        return AcquisitionEnding::complete;
+    };
+    EXPECT_EQ(ending([&] { line->receive(1); }), AcquisitionEnding::line_lost);
+    EXPECT_EQ(ending([&] { line->send("x"); }), AcquisitionEnding::line_lost);
+    EXPECT_EQ(ending([&] { line->reopen(); }), AcquisitionEnding::line_lost);
+    SerialSettings none;
+    none.port = "/nowhere";
+    EXPECT_EQ(ending([&] { open_serial_line(none); }), AcquisitionEnding::line_lost);
+    EXPECT_EQ(ending([&] { open_tcp_line("127.0.0.1", 1, 1); }), AcquisitionEnding::line_lost);
+}
+
+TEST(SerialLine, BearsLinesWithoutEndAndOnesThatNobodyReads) {
+    FarEnd far;
+    far.settings.flow = FlowControl::none;
+    const auto line = open_serial_line(far.settings);
+    std::atomic<bool> stop{false};
+    std::thread endless([&] {
+        const std::string much(1024, 'x');
+        for (int i = 0; i < 1000 && !stop; ++i)
+            far.say(much);
+    });
+    try {
+        for (;;)
+            line->receive(1);
+    } catch (const InstrumentError& error) {
+        EXPECT_EQ(error.ending(), AcquisitionEnding::garbled);
+        EXPECT_THAT(error.what(), HasSubstr("a line of more than 65536 bytes"));
+    }
+    stop = true;
+    line->discard(); // so that the thread can go on
+    endless.join();
+}
+
+TEST(Acquisition, OverAPseudoTerminalIsTheSameAsInTheProcess) {
+    const Folder folder;
+    Served one, other;
+    EXPECT_EQ(one.run(folder / "one").ending, AcquisitionEnding::complete);
+    std::size_t recorded = 0;
+    AcquisitionOptions options;
+    options.recorded = [&](const RecordEntry&) { ++recorded; };
+    options.interrupted = [&] { return recorded == 2; };
+    EXPECT_EQ(other.run(folder / "other", options).ending, AcquisitionEnding::interrupted);
+    const AcquisitionReport report = other.run(folder / "other");
+    EXPECT_EQ(report.ending, AcquisitionEnding::complete) << report.detail;
+    EXPECT_EQ(report.before, 2U);
+    EXPECT_EQ(different_files(folder / "one", folder / "other"), std::vector<std::string>());
+    EXPECT_EQ(one.output(), (GeneratorOutput{6.1, 0.1, 0}));
+}
+
+TEST(Acquisition, BearsALineThatLosesLetters) {
+    const Folder folder;
+    Served clean;
+    EXPECT_EQ(clean.run(folder / "clean").ending, AcquisitionEnding::complete);
+    ServiceSettings lossy;
+    lossy.drop = 0.004;
+    Served served(testbed_bench(), lossy);
+    const AcquisitionReport report = served.run(folder / "lossy");
+    EXPECT_EQ(report.ending, AcquisitionEnding::complete) << report.detail;
+    EXPECT_TRUE(report.safe);
+    EXPECT_EQ(different_files(folder / "clean", folder / "lossy"), std::vector<std::string>());
+}
+
+TEST(Acquisition, IsSafeAfterALineThatBreaks) {
+    const Folder folder;
+    ServiceSettings breaking;
+    breaking.lines = 30;
+    breaking.broken = 0.3;
+    Served served(testbed_bench(), breaking);
+    const AcquisitionReport report = served.run(folder / "records");
+    EXPECT_EQ(report.ending, AcquisitionEnding::line_lost) << report.detail;
+    EXPECT_TRUE(report.safe) << report.unsafe_because;
+    const AcquisitionReport rest = served.run(folder / "records");
+    EXPECT_EQ(rest.ending, AcquisitionEnding::complete) << rest.detail;
+    EXPECT_EQ(rest.before + rest.recorded, 6U);
+    EXPECT_EQ(served.output().amplitude, 0.1);
+}
+
+TEST(Acquisition, SaysWhenItCannotReachTheGeneratorAnyMore) {
+    const Folder folder;
+    ServiceSettings breaking;
+    breaking.lines = 30;
+    breaking.broken = 3600;
+    Served served(testbed_bench(), breaking);
+    const auto begin = std::chrono::steady_clock::now();
+    const AcquisitionReport report = served.run(folder / "records", {}, 0.3);
+    EXPECT_EQ(report.ending, AcquisitionEnding::line_lost);
+    EXPECT_FALSE(report.safe);
+    EXPECT_THAT(report.unsafe_because, HasSubstr("cannot be opened"));
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
+}
+
+TEST(Acquisition, IsSafeAfterSamplesThatBreakOff) {
+    const Folder folder;
+    ServiceSettings breaking;
+    breaking.rows = 1600;
+    Served served(testbed_bench(), breaking);
+    const AcquisitionReport report = served.run(folder / "records");
+    EXPECT_EQ(report.ending, AcquisitionEnding::line_lost) << report.detail;
+    EXPECT_TRUE(report.safe);
+    EXPECT_EQ(report.recorded, 2U); // 750 rows each
+    EXPECT_EQ(served.output().amplitude, 0.1);
+}
+
+} // namespace graze

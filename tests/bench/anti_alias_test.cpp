@@ -1,0 +1,44 @@
+#include "bench/anti_alias.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace graze {
+namespace {
+
+/// Amplitude of what comes out of a wave, when it has gone on for long.
+double gain(double corner, double frequency) {
+    AntiAlias filter(corner);
+    double sine = 0, cosine = 0;
+    constexpr int settled = 4000, taken = 100'000;
+    for (int i = 0; i < settled + taken; ++i) {
+        const double phase = 2 * std::numbers::pi * frequency * i, value = filter.filtered(std::sin(phase));
+        if (i >= settled) {
+            sine += value * std::sin(phase);
+            cosine += value * std::cos(phase);
+        }
+    }
+    return 2 * std::hypot(sine, cosine) / taken;
+}
+
+} // namespace
+
+TEST(AntiAlias, LetsThroughWhatButterworthSays) {
+    // |H|^2 = 1/(1 + (tan(pi f)/tan(pi f_c))^8); whole periods fit into the samples, so that only round-off is left.
+    for (const double corner : {0.01, 0.05, 0.2})
+        for (const double frequency : {0.002, 0.01, 0.05, 0.2, 0.4}) {
+            const double ratio = std::tan(std::numbers::pi * frequency) / std::tan(std::numbers::pi * corner);
+            EXPECT_NEAR(gain(corner, frequency), 1 / std::sqrt(1 + std::pow(ratio, 8)), 1e-9) << corner << frequency;
+        }
+}
+
+TEST(AntiAlias, SettlesAtOnceWhereItIsTold) {
+    AntiAlias filter(0.05);
+    filter.settle(3.5);
+    for (int i = 0; i < 10; ++i)
+        EXPECT_NEAR(filter.filtered(3.5), 3.5, 1e-12);
+}
+
+} // namespace graze

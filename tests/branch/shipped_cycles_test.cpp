@@ -1,0 +1,84 @@
+// Maps of whole cycles of the shipped models against exact simulation: their errors fall with the stated order.
+
+#include "cycle_error.hpp"
+#include "follow.hpp"
+
+#include <gtest/gtest.h>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+SpecialPoint first_touch(const Model& model, const char* section, const char* parameter, double least, double greatest,
+                         std::size_t cycles = 2000) {
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter(parameter);
+    settings.least = least;
+    settings.greatest = greatest;
+    settings.stop_at = {PointType::grazing};
+    const auto found =
+        of_type(follow_branch(model, settled(model, section, cycles).orbit, settings), PointType::grazing);
+    EXPECT_FALSE(found.empty()) << model.name;
+    return found.empty() ? SpecialPoint{} : found.front();
+}
+
+/// One coefficient of friction at rest and while sliding, so that the mass sticks for a moment.
+TEST(ShippedCycles, of_dry_friction_err_by_the_next_power_of_the_depth) {
+    Model model = load_model("dry-friction-oscillator");
+    model.set_parameter("friction_static", 0.3);
+    model.set_parameter("friction_dynamic", 0.3);
+    model.set_parameter("omega", 0.2);
+    const SpecialPoint touch = first_touch(model, "phase0", "omega", 0.15, 0.3);
+    const CycleMap map = map_at(model, touch);
+    EXPECT_EQ(map.contact.order, MapOrder::linear);
+    expect_rates(model, map, 1e-3);
+}
+
+TEST(ShippedCycles, err_by_the_next_power_of_the_depth) {
+    Model oscillator = load_model("impact-oscillator");
+    oscillator.set_parameter("sigma", 0.5);
+    oscillator.set_parameter("amplitude", 0.1);
+    oscillator.set_parameter("omega", 1.2);
+    expect_rates(oscillator, map_at(oscillator, first_touch(oscillator, "phase0", "amplitude", 0, 1)), 1e-5);
+
+    Model stops = load_model("impact-oscillator-two-stops");
+    stops.set_parameter("amplitude", 0.1);
+    expect_rates(stops, map_at(stops, first_touch(stops, "phase0", "amplitude", 0, 10)), 1e-5);
+
+    Model mems = load_model("mems-switch");
+    mems.set_parameter("V", 0.15);
+    mems.set_initial("q", 0);
+    expect_rates(mems, map_at(mems, first_touch(mems, "phase0", "V", 0, 0.4)), 1e-6);
+
+    Model testbed = load_model("electromagnetic-testbed");
+    testbed.set_parameter("V0", 3);
+    expect_rates(testbed, map_at(testbed, first_touch(testbed, "phase0", "V0", 0, 5.5, 600)), 1e-6);
+
+    Model actuator = load_model("impact-microactuator");
+    actuator.set_parameter("V", 0.1);
+    actuator.set_parameter("omega", 0.9189);
+    expect_rates(actuator, map_at(actuator, first_touch(actuator, "longest", "V", 0, 3, 4000)), 1e-6);
+
+    Model beam = load_model("microbeam");
+    beam.set_parameter("V", 0.01);
+    expect_rates(beam, map_at(beam, first_touch(beam, "phase0", "V", 0.005, 0.06)), 3e-5);
+
+    Model shaker = load_model("ball-and-shaker");
+    shaker.set_parameter("a", 0.65);
+    shaker.set_parameter("b", 0.65);
+    shaker.set_parameter("f", 6);
+    Orbit resting;
+    resting.signature = parse_signature(shaker, "free:phase0");
+    resting.parameters = shaker.parameter_values();
+    resting.starts = {{0, 0, 0}};
+    resting.durations = {1.0 / 6};
+    CycleMapOptions options;
+    options.next_order = true;
+    const auto touches = touches_of(shaker, resting);
+    ASSERT_EQ(touches.size(), 1U);
+    expect_rates(shaker, cycle_map(shaker, resting, touches.front(), options), 1e-5);
+}
+
+} // namespace
+} // namespace graze

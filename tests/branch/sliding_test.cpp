@@ -1,0 +1,226 @@
+// Orbits that touch a surface on which motions stick: grazing-sliding, on an oscillator that rubs on a moving belt.
+
+#include "cycle_error.hpp"
+#include "follow.hpp"
+
+#include "graze/grazing/trial.hpp"
+
+#include <iostream>
+#include <map>
+#include <random>
+#include <string>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+/// x'' + x = friction(1 - x') + amplitude cos(nu t), with a cubic law of friction (M. di Bernardo, P. Kowalczyk and A.
+/// B. Nordmark, Int. J. Bifurcation Chaos 13, 2003).
+Model belt() {
+    return model_from(R"toml(
+name = "belt"
+[parameters]
+alpha0 = 1.5
+alpha1 = 1.5
+alpha2 = 0.45
+amplitude = 0.1
+nu = 1.7
+[states]
+x = 1
+v = 0.9
+theta = { initial = 0, period = "2*pi" }
+[definitions]
+slip = "1 - v"
+force = "amplitude*cos(theta) - x"
+smooth = "force - alpha1*slip + alpha2*slip^3"
+[initial]
+mode = "below"
+[modes.below]
+watch = ["reach"]
+rates = { x = "v", v = "smooth + alpha0", theta = "nu" }
+[modes.above]
+watch = ["fall"]
+rates = { x = "v", v = "smooth - alpha0", theta = "nu" }
+[modes.stick]
+watch = ["slow", "fast"]
+rates = { x = 1, v = 0, theta = "nu" }
+[events]
+reach = "1 - v"
+fall = "v - 1"
+slow = "alpha0 + force"
+fast = "alpha0 - force"
+[jumps.stop]
+v = 1
+[[transitions]]
+mode = "below"
+event = "reach"
+jump = "stop"
+next = [{ when = "alpha0 - force >= 0", mode = "stick" }, { mode = "above" }]
+[[transitions]]
+mode = "above"
+event = "fall"
+jump = "stop"
+next = [{ when = "alpha0 + force >= 0", mode = "stick" }, { mode = "below" }]
+[[transitions]]
+mode = "stick"
+event = "slow"
+next = "below"
+[[transitions]]
+mode = "stick"
+event = "fast"
+next = "above"
+[sections.phase0]
+state = "theta"
+value = 0
+)toml");
+}
+
+BranchSettings along(const Model& model, const char* parameter, int direction, double least, double greatest) {
+    BranchSettings settings;
+    settings.parameter = model.independent_parameter(parameter);
+    settings.direction = direction;
+    settings.least = least;
+    settings.greatest = greatest;
+    return settings;
+}
+
+struct Judgement {
+    CycleMap map;
+    Verdict verdict;
+    Trial trial;
+};
+
+Judgement judgement(const Model& model, const SpecialPoint& point, ParameterId parameter) {
+    CycleMapOptions options;
+    options.parameter = parameter;
+    Judgement result;
+    result.map =
+        cycle_map(model, point.solution.orbit, {point.segment, point.event, point.time, point.at_end}, options);
+    result.verdict = verdict_of(result.map);
+    result.trial = try_verdict(model, result.map, result.verdict, parameter);
+    return result;
+}
+
+/// Both orbits go on, neither stable beyond: chaos at once.
+TEST(Sliding, on_a_belt_sets_off_chaos) {
+    Model model = belt();
+    model.set_parameter("nu", 1.711);
+    const BranchSettings settings = along(model, "nu", -1, 1.65, 1.72);
+    const Branch branch = follow_branch(model, settled(model, "phase0").orbit, settings);
+    const auto touches = of_type(branch, PointType::grazing);
+    ASSERT_FALSE(touches.empty());
+    const Judgement one = judgement(model, touches[0], settings.parameter);
+    ASSERT_EQ(one.map.contact.order, MapOrder::linear) << one.map.reason << one.map.contact.reason;
+    EXPECT_EQ(one.verdict.outcome, GrazingOutcome::persists) << one.verdict.reason;
+    EXPECT_EQ(one.verdict.border, BorderCollision::persistence);
+    EXPECT_TRUE(one.verdict.doubles);
+    EXPECT_EQ(one.verdict.attractor, AttractorKind::chaotic);
+    EXPECT_EQ(one.verdict.side, -1);
+    EXPECT_EQ(one.trial.outcome, TrialOutcome::agreed) << one.trial.reason;
+    // The slope of a tent map beyond its top, below -1/(the other one): no orbit of twice the period is stable either.
+    EXPECT_LT(-*one.verdict.leading * std::abs(one.map.multipliers[0]), -1);
+    expect_rates(model, map_at(model, touches[0]), 1e-4);
+}
+
+/// The branch of the orbit that sticks once more begins on the predicted side, with the predicted multiplier.
+TEST(Sliding, goes_on_with_dry_friction) {
+    Model model = load_model("dry-friction-oscillator");
+    model.set_parameter("friction_static", 0.3);
+    model.set_parameter("omega", 0.2);
+    const BranchSettings settings = along(model, "omega", 1, 0.15, 0.22);
+    const auto touches = of_type(follow_branch(model, settled(model, "phase0").orbit, settings), PointType::grazing);
+    ASSERT_EQ(touches.size(), 1U);
+    const Judgement one = judgement(model, touches[0], settings.parameter);
+    EXPECT_EQ(one.verdict.outcome, GrazingOutcome::persists) << one.verdict.reason;
+    EXPECT_EQ(one.verdict.border, BorderCollision::persistence);
+    EXPECT_EQ(one.verdict.attractor, AttractorKind::periodic);
+    EXPECT_EQ(one.verdict.in, 1U);
+    EXPECT_EQ(one.verdict.side, 1);
+    EXPECT_EQ(one.trial.outcome, TrialOutcome::agreed) << one.trial.reason;
+    const Branch beyond = follow(model, branches_at(model, touches[0], settings).at(0), settings);
+    ASSERT_GE(beyond.points.size(), 3U);
+    EXPECT_GT(beyond.points[1].parameter, touches[0].parameter);
+    const OrbitSolution& near = beyond.points[0].solution;
+    EXPECT_EQ(near.orbit.segments(), touches[0].solution.orbit.segments() + 2);
+    // It begins a thousandth of the usual speed beyond, and multipliers go with the speed.
+    EXPECT_NEAR(std::abs(near.half_multipliers.at(0)), *one.verdict.leading, 2e-3 * *one.verdict.leading);
+}
+
+/// The orbit that slides is there before the touch, and neither beyond it.
+TEST(Sliding, on_a_belt_folds) {
+    Model model = belt();
+    model.set_parameter("nu", 2.2);
+    const BranchSettings settings = along(model, "nu", -1, 2, 2.4);
+    const Branch branch = follow_branch(model, settled(model, "phase0").orbit, settings);
+    std::size_t folds = 0;
+    for (const SpecialPoint& point : of_type(branch, PointType::grazing)) {
+        const Judgement one = judgement(model, point, settings.parameter);
+        if (one.verdict.outcome == GrazingOutcome::undecided)
+            continue;
+        ++folds;
+        EXPECT_EQ(one.verdict.outcome, GrazingOutcome::lost);
+        EXPECT_EQ(one.verdict.border, BorderCollision::fold);
+        EXPECT_EQ(one.trial.outcome, TrialOutcome::agreed) << one.trial.reason;
+        expect_rates(model, map_at(model, point), 1e-4);
+    }
+    EXPECT_GE(folds, 1U);
+}
+
+/// Touches along branches of random belts, and what trials say of the verdicts.
+std::map<std::string, int> try_random(int count, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    std::map<std::string, int> counts;
+    for (int trial = 0; trial < count; ++trial) {
+        Model model = belt();
+        model.set_parameter("alpha0", 0.5 + 1.5 * uniform(random));
+        model.set_parameter("alpha1", 2 * uniform(random));
+        model.set_parameter("alpha2", 0.8 * uniform(random));
+        model.set_parameter("amplitude", 0.05 + uniform(random));
+        model.set_parameter("nu", 0.4 + 2.5 * uniform(random));
+        AttractorOptions settle;
+        settle.section = "phase0";
+        settle.cycles = 400;
+        OrbitSolution start;
+        try {
+            start = find_orbit(model, settle);
+        } catch (const InputError&) { // chaotic, or on a torus
+            ++counts["start without orbit"];
+            continue;
+        }
+        const double amplitude = model.parameter_values()[model.independent_parameter("amplitude").place()];
+        for (const int direction : {-1, 1}) {
+            BranchSettings settings = along(model, "amplitude", direction, 0.2 * amplitude, 3 * amplitude);
+            settings.steps = 100;
+            for (const SpecialPoint& point : of_type(follow_branch(model, start.orbit, settings), PointType::grazing)) {
+                const Judgement one = judgement(model, point, settings.parameter);
+                if (one.map.contact.order != MapOrder::linear) {
+                    ++counts["not grazing-sliding"];
+                    continue;
+                }
+                ++counts[fmt::format("{} ({}), {}", name_of(one.verdict.outcome), name_of(one.verdict.border),
+                                     name_of(one.trial.outcome))];
+                ++counts[std::string(name_of(one.trial.outcome))];
+                EXPECT_NE(one.trial.outcome, TrialOutcome::contradicted)
+                    << trial << ": " << name_of(one.verdict.outcome) << ", " << one.trial.reason;
+            }
+        }
+    }
+    for (const auto& [what, number] : counts)
+        std::cout << what << ": " << number << '\n';
+    return counts;
+}
+
+TEST(Sliding, verdicts_agree_with_simulation_on_random_belts) {
+    auto counts = try_random(12, 1);
+    EXPECT_GE(counts["agreed"], 3);
+}
+
+TEST(SlidingSlow, verdicts_agree_with_simulation_on_many_random_belts) {
+    auto counts = try_random(150, 2);
+    EXPECT_GE(counts["agreed"], 50);
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,181 @@
+#include "graze/identify/fit.hpp"
+
+#include "graze/model/model_file.hpp"
+#include "identify/recorded_motion.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace graze::testing {
+
+namespace {
+
+/// All that is computed is right to some 1e-13; numbers that follow from it are demanded to nine digits.
+constexpr double nine_digits = 1e-9;
+
+void expect_found(const RecordedMotion& motion, const FitSettings& settings = {}) {
+    const Fit fit = fit_model(motion.model, motion.task, settings);
+    EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
+    EXPECT_LE(motion.error(fit), nine_digits);
+}
+
+} // namespace
+
+TEST(Fit, FindsTheParametersOfAnImpactOscillator) {
+    RecordedMotion motion(load_model("impact-oscillator"), {"x", "v"}, 0, 0.05, 600);
+    for (const char* name : {"zeta", "omega", "amplitude", "sigma", "e"})
+        motion.forget(name, 1.1);
+    motion.forget_states();
+    expect_found(motion);
+}
+
+TEST(Fit, FindsTheParametersOfTheBallAndShaker) {
+    RecordedMotion motion(load_model("ball-and-shaker"), {"q"}, 0.4, 0.005, 400);
+    for (const char* name : {"zeta", "omega_n", "e", "a", "f"})
+        motion.forget(name, 1.03);
+    motion.forget_states();
+    expect_found(motion);
+}
+
+TEST(Fit, FindsTheParametersOfABouncingBall) {
+    RecordedMotion motion(load_model("bouncing-ball"), {"x"}, 0, 0.002, 400);
+    for (const char* name : {"g", "e", "a", "f"})
+        motion.forget(name, 1.03);
+    motion.forget_states();
+    expect_found(motion);
+}
+
+TEST(Fit, FindsTheParametersOfADryFrictionOscillator) {
+    RecordedMotion motion(load_model("dry-friction-oscillator"), {"x", "v"}, 0, 0.1, 500);
+    for (const char* name : {"zeta", "omega", "amplitude", "friction_static", "friction_dynamic"})
+        motion.forget(name, 1.05);
+    motion.task.records[0].unknown_states = {0, 2}; // it is at rest
+    expect_found(motion);
+}
+
+TEST(FitSlow, FindsTheParametersOfTheTestbedThroughChaos) {
+    Model model = load_model("electromagnetic-testbed");
+    RecordedMotion motion(model, {"q", "v", "I"}, 4, 0.002, 1500);
+    for (const char* name : {"V0", "zeta", "e", "beta1", "R", "w0"})
+        motion.forget(name, 1.05);
+    motion.forget_states();
+    expect_found(motion);
+}
+
+/// Records of different voltages, each with its own; gains and offsets that are not known.
+TEST(Fit, FindsGainsAndOffsetsFromSeveralRecords) {
+    Model model = load_model("impact-oscillator");
+    RecordedMotion motion(model, {"x", "v"}, 0, 0.05, 300);
+    motion.model.set_parameter("amplitude", 1.3);
+    motion.add_record({"v", "x"}, 1, 0.04, 400);
+    const ParameterId amplitude = model.independent_parameter("amplitude");
+    motion.task.records[0].known.emplace_back(amplitude, 1.0);
+    motion.task.records[1].known.emplace_back(amplitude, 1.3);
+    for (FitRecord& record : motion.task.records)
+        for (FitRecord::Readings& readings : record.readings)
+            for (double& value : readings.values)
+                value = readings.output == 0 ? 2.5e-6 * value + 3e-7 : value;
+    motion.task.outputs[0].gain = 2.3e-6;
+    motion.task.outputs[0].offset = 2e-7;
+    motion.task.outputs[0].gain_unknown = motion.task.outputs[0].offset_unknown = true;
+    for (const char* name : {"zeta", "omega", "sigma", "e"})
+        motion.forget(name, 1.05);
+    motion.forget_states();
+    const Fit fit = fit_model(motion.model, motion.task);
+    EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
+    EXPECT_LE(motion.error(fit), nine_digits);
+    ASSERT_EQ(fit.numbers.size(), 12U);
+    EXPECT_EQ(fit.numbers[4].name, "gain of x");
+    EXPECT_NEAR(fit.numbers[4].estimate.value, 2.5e-6, 2.5e-6 * nine_digits);
+    EXPECT_NEAR(fit.numbers[5].estimate.value, 3e-7, 3e-7 * nine_digits);
+    EXPECT_EQ(fit.numbers[11].name, "theta(0) of record 2");
+}
+
+/// x'' = -k/m x: nothing tells k and m but their ratio.
+TEST(Fit, TellsWhatIsNotDetermined) {
+    const Model model = parse_model(R"(
+name = "swing"
+[parameters]
+m = 2
+k = 8
+[states]
+x = { initial = 1 }
+v = { initial = 0 }
+[modes.swing]
+rates = { x = "v", v = "-k/m*x" }
+)",
+                                    "swing.toml");
+    RecordedMotion motion(model, {"x"}, 0, 0.1, 50);
+    motion.forget("m", 1.1);
+    motion.forget("k", 1.05);
+    motion.task.records[0].unknown_states = {0};
+    const Fit fit = fit_model(motion.model, motion.task);
+    EXPECT_EQ(name_of(fit.ending), "undetermined");
+    ASSERT_EQ(fit.free.size(), 1U);
+    EXPECT_LT(fit.free[0].strength, 1e-9);
+    ASSERT_EQ(fit.free[0].parts.size(), 2U);
+    EXPECT_NEAR(fit.free[0].parts[0].change / fit.free[0].parts[1].change, 1, 1e-6);
+    EXPECT_THAT(fit.detail, ::testing::HasSubstr("m (+1 %)"));
+    EXPECT_THAT(fit.detail, ::testing::HasSubstr("k (+1 %)"));
+    EXPECT_EQ(fit.numbers[0].estimate.freedom, 0);
+    EXPECT_NEAR(fit.numbers[1].estimate.value / fit.numbers[0].estimate.value, 4, 4 * nine_digits);
+    EXPECT_GT(fit.numbers[2].estimate.freedom, 0) << "the amplitude is known all the same";
+}
+
+/// The same motion in nano- and in megaunits.
+TEST(Fit, UnitsMakeNoDifference) {
+    const auto swing = [](double length, double time) {
+        Model model = parse_model(R"(
+name = "swing"
+[parameters]
+c = 0.2
+k = 4
+wall = 0.5
+e = 0.7
+[states]
+x = { initial = "-4*wall" }
+v = { initial = 0 }
+[modes.swing]
+rates = { x = "v", v = "-k*x - c*v" }
+watch = ["hit"]
+[events.hit]
+function = "wall - x"
+[jumps.bounce]
+v = "-e*v"
+[[transitions]]
+mode = "swing"
+event = "hit"
+jump = "bounce"
+next = "swing"
+)",
+                                  "swing.toml");
+        model.set_parameter("c", 0.2 / time);
+        model.set_parameter("k", 4 / (time * time));
+        model.set_parameter("wall", 0.5 * length);
+        RecordedMotion motion(model, {"x"}, 0.01 * time, 0.02 * time, 300);
+        for (const char* name : {"c", "k", "wall", "e"})
+            motion.forget(name, 1.1);
+        motion.forget_states();
+        motion.add_noise(1e-3, 7);
+        return std::pair(motion, fit_model(motion.model, motion.task));
+    };
+    const auto [motion, usual] = swing(1, 1);
+    EXPECT_EQ(name_of(usual.ending), "converged") << usual.detail;
+    EXPECT_GT(usual.records[0].contacts, 1U);
+    for (const auto& [length, time] : {std::pair(1e-9, 1e6), std::pair(1e6, 1e-9)}) {
+        const Fit other = swing(length, time).second;
+        EXPECT_EQ(name_of(other.ending), "converged") << other.detail;
+        const std::array<double, 6> units{1 / time, 1 / (time * time), length, 1, length, length / time};
+        for (std::size_t j = 0; j < units.size(); ++j) {
+            // Stationary to a hundredth of the error at most.
+            const double error = usual.numbers[j].estimate.error;
+            EXPECT_NEAR(other.numbers[j].estimate.value / units[j], usual.numbers[j].estimate.value, 0.02 * error);
+            EXPECT_NEAR(other.numbers[j].estimate.error / units[j], error, 1e-3 * error);
+        }
+    }
+}
+
+} // namespace graze::testing

@@ -1,0 +1,109 @@
+#pragma once
+
+#include "graze/identify/fit.hpp"
+#include "graze/model/catalogue.hpp"
+#include "graze/trajectory/recorder.hpp"
+#include "graze/trajectory/trajectory.hpp"
+#include "identify/noise.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace graze::testing {
+
+/// A motion of a model and what an instrument reads of it, without noise: as a task in which nothing is unknown yet.
+struct RecordedMotion {
+    Model model;
+    FitTask task;
+    std::vector<double> first; ///< state at the first reading
+    std::size_t contacts = 0;
+
+    /// @param channels states or quantities. @param skipped time before the first reading
+    RecordedMotion(Model measured, const std::vector<std::string>& channels, double skipped, double spacing,
+                   std::size_t count, double tolerance = 1e-14)
+        : model(std::move(measured)) {
+        add_record(channels, skipped, spacing, count, tolerance);
+    }
+    void add_record(const std::vector<std::string>& channels, double skipped, double spacing, std::size_t count,
+                    double tolerance = 1e-14) {
+        FitRecord record;
+        std::vector<Expression> values;
+        for (const std::string& name : channels) {
+            MeasuredOutput output;
+            output.name = name;
+            const auto quantity = model.find_quantity(name);
+            output.value = quantity ? model.quantities[*quantity].value : model.symbol(name);
+            values.push_back(output.value);
+            FitRecord::Readings readings;
+            readings.output = task.records.empty() ? task.outputs.size() : readings_of(name);
+            record.readings.push_back(readings);
+            if (task.records.empty())
+                task.outputs.push_back(output);
+        }
+        const Function outputs = model.function_of(values);
+        const std::vector<double> parameters = model.parameter_values();
+        Sampler sampler(skipped, spacing, count, model.periods(),
+                        [&](double time, std::size_t mode, std::span<const double> state) {
+                            if (record.times.empty()) {
+                                record.mode = mode;
+                                first.assign(state.begin(), state.end());
+                            }
+                            record.times.push_back(time);
+                            std::vector<double> inputs(state.begin(), state.end());
+                            inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+                            const std::vector<double> read = outputs(inputs);
+                            for (std::size_t c = 0; c < read.size(); ++c)
+                                record.readings[c].values.push_back(read[c]);
+                        });
+        Recorder recorder;
+        Relay relay({&sampler, &recorder});
+        const Simulation simulation(model, {}, {}, {.tolerance = tolerance});
+        Trajectory trajectory(simulation, parameters, relay);
+        trajectory.start(model.initial_state(), model.initial_mode, 0, skipped + spacing * static_cast<double>(count));
+        JetSet jets(simulation, LaneKind::single);
+        run(trajectory, jets);
+        contacts = recorder.contacts().size();
+        task.records.push_back(std::move(record));
+    }
+    std::size_t readings_of(const std::string& name) const {
+        for (std::size_t o = 0; o < task.outputs.size(); ++o)
+            if (task.outputs[o].name == name)
+                return o;
+        return 0;
+    }
+    /// Its value is not known any more, but by a factor.
+    void forget(const std::string& parameter, double factor) {
+        UnknownParameter unknown;
+        unknown.parameter = model.independent_parameter(parameter);
+        unknown.guess = factor * model.parameter_values()[unknown.parameter.place()];
+        task.parameters.push_back(unknown);
+    }
+    void forget_states() {
+        for (FitRecord& record : task.records)
+            for (std::size_t i = 0; i < model.states.size(); ++i)
+                record.unknown_states.push_back(i);
+    }
+    void add_noise(double deviation_by_range, std::uint64_t seed) {
+        Noise noise(seed);
+        for (FitRecord& record : task.records)
+            for (FitRecord::Readings& readings : record.readings) {
+                const auto [least, greatest] = std::minmax_element(readings.values.begin(), readings.values.end());
+                const double deviation = deviation_by_range * (*greatest - *least);
+                for (double& value : readings.values)
+                    value += deviation * noise.normal();
+            }
+    }
+    double truth(std::size_t parameter) const {
+        return model.parameter_values()[task.parameters[parameter].parameter.place()];
+    }
+    /// Largest relative error of the parameters.
+    double error(const Fit& fit) const {
+        double largest = 0;
+        for (std::size_t j = 0; j < task.parameters.size(); ++j)
+            largest = std::max(largest, std::abs(fit.numbers[j].estimate.value / truth(j) - 1));
+        return largest;
+    }
+};
+
+} // namespace graze::testing
