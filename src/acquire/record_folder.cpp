@@ -26,7 +26,7 @@ namespace graze {
 
 namespace {
 
-constexpr const char* list_name = "manifest.csv";
+constexpr const char* list_name = "manifest.txt";
 constexpr const char* settings_name = "settings.txt";
 constexpr std::string_view part_prefix = ".part.";
 constexpr std::string_view heading =

@@ -29,6 +29,8 @@ TextSampleDevice::TextSampleDevice(InstrumentLine& line, double timeout, std::fu
     line_->send("STOP");
     drain();
     const std::string channels = asked("CHANNELS");
+    if (channels.starts_with("ERROR"))
+        refuse(channels, "");
     try {
         header_ = parse_record_header(channels, Place{who, 0, 0});
     } catch (const InputError&) {

@@ -1,6 +1,7 @@
 #include "graze/branch/located_value.hpp"
 
 #include "branch/point_kind.hpp"
+#include "branch/touched_once.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
 #include "orbit/certify.hpp"
@@ -312,6 +313,8 @@ private:
         const Certificate certificate = certify(equations_, at_, held_limit_of(point_));
         result.admissible = certificate.admissible;
         result.problem = certificate.reason;
+        if (options_.map && result.admissible && point_.type == PointType::grazing && !point_.at_end)
+            result.map = maps_.map(equations_, at_, certificate, point_.event);
     }
 
     LocatedValueOptions options_;
@@ -326,6 +329,7 @@ private:
     Eigen::MatrixXd neighbour_directions_; ///< of the unknowns there, a column for each of the others
     double value_ = 0;
     std::vector<double> values_, derivatives_;
+    TouchedOnce maps_;
 };
 
 LocatedValue::LocatedValue(const System& system, const SpecialPoint& point, ParameterId control,

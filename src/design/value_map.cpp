@@ -22,6 +22,11 @@ double spread_over(double least, double greatest, std::size_t i, std::size_t poi
                            : least + (greatest - least) * (static_cast<double>(i) / static_cast<double>(points - 1));
 }
 
+LocatedValueOptions with_map(LocatedValueOptions options) {
+    options.map = true;
+    return options;
+}
+
 MappedValue mapped(const TripPoint& trip, LocatedValue& located, std::span<const double> values) {
     MappedValue result;
     result.x = values[0];
@@ -33,7 +38,9 @@ MappedValue mapped(const TripPoint& trip, LocatedValue& located, std::span<const
         return result;
     result.value = solution.value;
     result.admissible = solution.admissible;
-    if (solution.admissible)
+    if (solution.map)
+        result.outcome = verdict_of(*solution.map).outcome;
+    else if (solution.admissible)
         result.outcome = class_at(moved_to(trip, solution.orbit)).outcome;
     return result;
 }
@@ -50,7 +57,7 @@ void begin_tile(const TripPoint& trip, LocatedValue& located, std::span<const do
         return;
     middle = moved_to(trip, solution.orbit);
     try {
-        near.emplace(middle->system, middle->point, middle->control, located.others(), settings.solver);
+        near.emplace(middle->system, middle->point, middle->control, located.others(), with_map(settings.solver));
     } catch (const InputError&) { // nothing follows from others there
         middle.reset();
     }
@@ -66,7 +73,7 @@ public:
     void each(std::size_t count, const Work& work) {
         const auto share = [&](bool tells) {
             try {
-                LocatedValue located(trip_->system, trip_->point, trip_->control, others_, settings_->solver);
+                LocatedValue located(trip_->system, trip_->point, trip_->control, others_, with_map(settings_->solver));
                 for (std::size_t i; !stopped_ && (i = next_++) < count;) {
                     if (settings_->interrupted && settings_->interrupted()) {
                         stopped_ = true;

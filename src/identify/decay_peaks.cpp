@@ -97,7 +97,16 @@ std::vector<Period> periods_of(const Samples& samples, const RecordHeader& heade
 /// Where an oscillation comes to rest, and the noise about it.
 struct Rest {
     double value = 0, error = 0;
-    double noise = 0; ///< standard deviation of a sample
+    double noise = 0;              ///< standard deviation of a sample
+    double peak = 0, distance = 1; ///< time of one of the oscillation's peaks, and from one to the next
+    double height = 0, decay = 0;  ///< of that one, and how the others' logarithms fall with time
+
+    double height_at(double time) const { return height * std::exp(-decay * (time - peak)); }
+
+    double peak_in(const Period& period) const {
+        const double middle = 0.5 * (period.begin + period.end);
+        return peak + distance * std::round((middle - peak) / distance);
+    }
 };
 
 /// c + exp(-decay s) (a cos(turn s) + b sin(turn s)) through the samples of whole periods by least squares, with s from
@@ -112,6 +121,8 @@ public:
                 places_.push_back((samples.times[i] - begin) / (end - begin));
                 values_.push_back(samples.values[channel][i] - level);
             }
+        begin_ = begin;
+        length_ = end - begin;
         turn_ = 2 * std::numbers::pi * static_cast<double>(periods.size());
         decay_ = 0;
         if (periods.size() > 1)
@@ -128,7 +139,8 @@ public:
         Eigen::MatrixXd slopes(rows, unknowns);
         Eigen::VectorXd left(rows);
         Eigen::VectorXd linear = Eigen::VectorXd::Zero(3); // c, a, b
-        constexpr int steps = 30;
+        constexpr int steps = 100;
+        constexpr double longest = 0.5; // change of the phase in a step, at the end
         double before = std::numeric_limits<double>::infinity();
         for (int step = 0; step < steps; ++step) {
             fill(slopes, left, linear);
@@ -139,13 +151,14 @@ public:
             const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(slopes);
             const Eigen::VectorXd change = factors.solve(left);
             linear += change.head(3);
-            turn_ += change[3];
-            decay_ += change[4];
             const double size = std::abs(change[3]) + std::abs(change[4]);
-            if (!std::isfinite(size) || size > std::numbers::pi)
+            if (!std::isfinite(size))
                 return std::nullopt;
-            constexpr double enough = 1e-13;
-            if (size < enough * turn_ || (size < 1e-9 * turn_ && size >= before))
+            const double share = std::min(1.0, longest / size);
+            turn_ += share * change[3];
+            decay_ += share * change[4];
+            constexpr double enough = 1e-13, nearly = 1e-9;
+            if (size < enough * turn_ || (size < nearly * turn_ && size >= before))
                 return rest_of(slopes, left, linear);
             before = size;
         }
@@ -170,10 +183,17 @@ private:
         const double variance = left.squaredNorm() / static_cast<double>(left.size() - slopes.cols());
         const Eigen::MatrixXd normal = slopes.transpose() * slopes;
         const double of_rest = normal.ldlt().solve(Eigen::VectorXd::Unit(slopes.cols(), 0))[0];
-        return {level_ + linear[0], std::sqrt(variance * std::max(0.0, of_rest)), std::sqrt(variance)};
+        const double lag = std::atan(decay_ / turn_), top = std::atan2(linear[2], linear[1]) - lag; // of the phase
+        return {level_ + linear[0],
+                std::sqrt(variance * std::max(0.0, of_rest)),
+                std::sqrt(variance),
+                begin_ + top / turn_ * length_,
+                2 * std::numbers::pi / turn_ * length_,
+                std::hypot(linear[1], linear[2]) * std::exp(-decay_ * top / turn_) * std::cos(lag),
+                decay_ / length_};
     }
 
-    double level_, turn_ = 0, decay_ = 0;
+    double level_, begin_ = 0, length_ = 1, turn_ = 0, decay_ = 0;
     std::vector<double> places_, values_;
 };
 
@@ -225,7 +245,11 @@ bool fit_peak(const Period& period, std::size_t channel, const Rest& rest, PeakF
         --first;
     while (last + 1 < values.size() && values[last + 1] > nearly)
         ++last;
-    const double middle = 0.5 * (times[first] + times[last]), width = reach * period.duration();
+    // Where there is much, the highest sample says little, and it takes more of the wave to see that it bends.
+    constexpr double much = 0.02, wider = 0.25;
+    const bool noisy = rest.noise > much * (values[highest] - rest.value);
+    const double middle = noisy ? rest.peak_in(period) : 0.5 * (times[first] + times[last]);
+    const double width = (noisy ? wider : reach) * rest.distance;
     std::vector<double> places, heights;
     for (std::size_t i = 0; i < times.size(); ++i)
         if (std::abs(times[i] - middle) <= width) {
@@ -235,9 +259,10 @@ bool fit_peak(const Period& period, std::size_t channel, const Rest& rest, PeakF
     constexpr std::size_t fewest = 4;
     if (places.size() < fewest)
         return false;
+    constexpr std::size_t parabola = 2; // leaves the same part of all heights
     const double of_mean = rest.noise / std::sqrt(static_cast<double>(places.size()));
-    const LocalPolynomial fit(places,
-                              std::min(powers_for(of_mean / (values[highest] - rest.value)), places.size() / 2));
+    const std::size_t degree = noisy ? parabola : powers_for(of_mean / (values[highest] - rest.value));
+    const LocalPolynomial fit(places, std::min(degree, places.size() / 2));
     const std::vector<double> powers = fit.powers(heights.data());
     double x = 0;
     constexpr int steps = 50;
@@ -262,8 +287,9 @@ bool fit_peak(const Period& period, std::size_t channel, const Rest& rest, PeakF
     for (std::size_t k = 0; k <= fit.degree(); ++k)
         squares += fit.at_zero(k) * fit.at_zero(k);
     peak.noise = rest.noise * std::sqrt(squares);
+    // By the height that the oscillation has there: by its own, those that noise has raised would be taken.
     constexpr double stands_out = 5;
-    return std::abs(x) < 1 && peak.height(peak.time) > stands_out * peak.noise;
+    return std::abs(x) < 1 && rest.height_at(peak.time) > stands_out * peak.noise;
 }
 
 /// The heights are those at times as far from one another as all of them say: at its own top each polynomial is too

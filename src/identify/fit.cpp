@@ -14,7 +14,9 @@ namespace graze {
 
 namespace {
 
-constexpr double last_joint = 1e5;
+/// Gaps are then some millionth of what readings are off; the larger it is, the shorter steps have to be along the
+/// curved set of motions that join.
+constexpr double last_joint = 3e3;
 
 /// Pieces join more and more.
 std::vector<FitStage> stages_of(const FitRows& rows, const FitSettings& settings) {
@@ -27,10 +29,10 @@ std::vector<FitStage> stages_of(const FitRows& rows, const FitSettings& settings
     if (!joined)
         return {last};
     std::vector<FitStage> stages;
-    for (const double joint : {1.0, 30.0, 1e3}) {
+    for (const double joint : {1.0, 30.0, 100.0, 300.0, 1e3}) {
         FitStage stage;
         stage.joint = joint;
-        stage.tolerance = 1e-6;
+        stage.tolerance = 1e-8;
         stage.most_iterations = std::min(few, settings.most_iterations);
         stages.push_back(stage);
     }
@@ -84,7 +86,9 @@ private:
         const int count = static_cast<int>(stages.size());
         StageReport report = begin(fit);
         for (int s = 0; s + 1 < count && !report.interrupted; ++s) {
-            report = make(stages[static_cast<std::size_t>(s)], s + 1, count + 1, fit);
+            FitStage stage = stages[static_cast<std::size_t>(s)];
+            stage.prior = s == 0 ? prior() : 0;
+            report = make(stage, s + 1, count + 1, fit);
             merge_bound(rows_, point_);
             update_modes(rows_, point_);
             if (!report.interrupted)
@@ -126,6 +130,7 @@ private:
     /// to, so that a wrong frequency, say, does not add up to a wrong phase.
     StageReport begin(Fit& fit) {
         StageReport report;
+        usual_costs_.clear();
         std::size_t done = 0;
         for (std::size_t count = 1; done < most_pieces() && !report.interrupted; count *= 2) {
             for (std::size_t k = 0; k < pieces().size(); ++k) {
@@ -137,22 +142,64 @@ private:
                 }
                 if (!pieces()[k].opening)
                     continue_from(rows_, point_, k);
-                FitStage alone = soft_stage();
-                alone.active.assign(pieces().size(), false);
-                alone.active[k] = true;
-                alone.states_only = true;
-                alone.prior = 0.03;
-                report = best_opening(alone, k, fit);
+                report = begin_piece(k, fit);
             }
             FitStage together = soft_stage();
             for (std::size_t k = 0; k < pieces().size(); ++k)
                 together.active.push_back(ordinal(k) < count);
-            together.prior = 0.01;
+            together.prior = prior();
             report = make(together, 0, 5, fit);
             update_modes(rows_, point_);
             done = count;
         }
         return report;
+    }
+
+    FitStage alone(std::size_t piece) {
+        FitStage stage = soft_stage();
+        stage.active.assign(pieces().size(), false);
+        stage.active[piece] = true;
+        stage.states_only = true;
+        stage.prior = 0.03;
+        return stage;
+    }
+
+    /// Finds the first state of a piece. Where it meets its readings far worse than others do a contact is amiss, as
+    /// noise can make it near the piece's beginning: then it begins otherwise, or becomes part of the one before.
+    StageReport begin_piece(std::size_t& piece, Fit& fit) {
+        constexpr double amiss = 3;
+        StageReport report = best_opening(alone(piece), piece, fit);
+        const auto readings = [&](std::size_t k) { return static_cast<double>(pieces()[k].last - pieces()[k].first); };
+        if (pieces()[piece].opening || usual_costs_.empty() || report.interrupted ||
+            report.cost < amiss * readings(piece) * usual_cost()) {
+            usual_costs_.push_back(report.cost / readings(piece));
+            return report;
+        }
+        const Eigen::VectorXd first = point_.states[piece];
+        continue_from(rows_, point_, piece, false);
+        if (const StageReport other = make(alone(piece), 0, 5, fit); other.cost < report.cost)
+            report = other;
+        else
+            point_.states[piece] = first;
+        if (report.cost < amiss * readings(piece) * usual_cost())
+            return report;
+        const FitPoint apart = point_;
+        const FitLayout layout = rows_.layout;
+        merge(rows_, point_, piece);
+        const StageReport merged = make(alone(piece - 1), 0, 5, fit);
+        if (merged.cost < report.cost) {
+            --piece;
+            return merged;
+        }
+        point_ = apart;
+        rows_.layout = layout;
+        return report;
+    }
+    /// By reading, of half of the pieces.
+    double usual_cost() {
+        const auto middle = usual_costs_.begin() + static_cast<std::ptrdiff_t>(usual_costs_.size() / 2);
+        std::nth_element(usual_costs_.begin(), middle, usual_costs_.end());
+        return *middle;
     }
 
     /// From each of the states in which a piece might begin: the one that meets its readings best.
@@ -173,6 +220,13 @@ private:
         }
         point_.states[piece] = found;
         return best;
+    }
+
+    /// While little is known, a change by a tenth counts as much as one reading's noise: what noise alone would move
+    /// far stays near.
+    double prior() const {
+        constexpr double usual_change = 0.1;
+        return rows_.unit() / usual_change;
     }
 
     static FitStage soft_stage() {
@@ -250,6 +304,7 @@ private:
     const FitSettings* settings_;
     FitRows rows_;
     FitPoint point_;
+    std::vector<double> usual_costs_; ///< by reading, of pieces that have begun
 };
 
 } // namespace

@@ -211,31 +211,8 @@ void describe_outputs(FitRows& rows, const Rests& rests, Fit& fit) {
     }
 }
 
-} // namespace
-
-void describe(FitRows& rows, const FitPoint& point, double joint, Fit& fit) {
-    const FitTask& task = rows.task();
-    fit.records.assign(task.records.size(), {});
-    const Rests rests = rests_at(rows, point, &fit);
-    fit.readings = readings_of(task);
-    fit.freedom = static_cast<double>(fit.readings) - static_cast<double>(unknowns_of(rows));
-    fit.pieces = rows.layout.pieces.size();
-    for (std::size_t r = 0; r < task.records.size(); ++r)
-        for (std::size_t c = 0; c < task.records[r].readings.size(); ++c) {
-            std::vector<double> fitted = task.records[r].readings[c].values;
-            for (std::size_t i = 0; i < fitted.size(); ++i)
-                fitted[i] += rests.of_record[r][c][i];
-            fit.records[r].fitted.push_back(std::move(fitted));
-        }
-    for (std::size_t k = 0; k < rows.layout.pieces.size(); ++k)
-        if (const FitPiece& piece = rows.layout.pieces[k]; piece.opening)
-            fit.records[piece.record].start = rows.first_state(piece, point.shared, point.states[k]);
-    fit.parameters = task.values.empty() ? rows.system().model().parameter_values() : task.values;
-    for (std::size_t j = 0; j < task.parameters.size(); ++j)
-        fit.parameters[task.parameters[j].parameter.place()] =
-            point.shared[static_cast<Eigen::Index>(j)] * rows.layout.shared_scale[static_cast<Eigen::Index>(j)];
-    describe_outputs(rows, rests, fit);
-
+/// Numbers with errors and correlations, and what is not told.
+void describe_numbers(FitRows& rows, const FitPoint& point, double joint, double variance, Fit& fit) {
     std::vector<double> scales;
     std::vector<FittedNumber> numbers = numbers_at(rows, point, scales);
     std::vector<bool> held;
@@ -246,7 +223,6 @@ void describe(FitRows& rows, const FitPoint& point, double joint, Fit& fit) {
     std::vector<std::size_t> order(numbers.size());
     for (std::size_t i = 0; i < order.size(); ++i)
         order[i] = i < states ? shared + i : i - states;
-    const double variance = variance_at(rows, rests, fit.freedom);
     const bool robust = rows.robust;
     rows.robust = false;
     const FitDecomposition parts = decompose(information_of(rows, point, joint), held);
@@ -275,6 +251,33 @@ void describe(FitRows& rows, const FitPoint& point, double joint, Fit& fit) {
         if (FreeCombination free = combination(parts, static_cast<Eigen::Index>(k), fit.numbers, scales, order);
             !free.parts.empty())
             fit.free.push_back(std::move(free));
+}
+
+} // namespace
+
+void describe(FitRows& rows, const FitPoint& point, double joint, Fit& fit) {
+    const FitTask& task = rows.task();
+    fit.records.assign(task.records.size(), {});
+    const Rests rests = rests_at(rows, point, &fit);
+    fit.readings = readings_of(task);
+    fit.freedom = static_cast<double>(fit.readings) - static_cast<double>(unknowns_of(rows));
+    fit.pieces = rows.layout.pieces.size();
+    for (std::size_t r = 0; r < task.records.size(); ++r)
+        for (std::size_t c = 0; c < task.records[r].readings.size(); ++c) {
+            std::vector<double> fitted = task.records[r].readings[c].values;
+            for (std::size_t i = 0; i < fitted.size(); ++i)
+                fitted[i] += rests.of_record[r][c][i];
+            fit.records[r].fitted.push_back(std::move(fitted));
+        }
+    for (std::size_t k = 0; k < rows.layout.pieces.size(); ++k)
+        if (const FitPiece& piece = rows.layout.pieces[k]; piece.opening)
+            fit.records[piece.record].start = rows.first_state(piece, point.shared, point.states[k]);
+    fit.parameters = task.values.empty() ? rows.system().model().parameter_values() : task.values;
+    for (std::size_t j = 0; j < task.parameters.size(); ++j)
+        fit.parameters[task.parameters[j].parameter.place()] =
+            point.shared[static_cast<Eigen::Index>(j)] * rows.layout.shared_scale[static_cast<Eigen::Index>(j)];
+    describe_outputs(rows, rests, fit);
+    describe_numbers(rows, point, joint, variance_at(rows, rests, fit.freedom), fit);
 }
 
 FitChecks check_point(FitRows& rows, const FitPoint& point, double joint) {

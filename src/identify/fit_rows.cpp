@@ -33,6 +33,25 @@ std::vector<double> ranges_of(const FitTask& task) {
     return ranges;
 }
 
+/// What noise at most makes of readings, by their third differences: smooth motion has small ones, and contacts are
+/// few.
+double rough_noise(const FitTask& task, std::size_t output, double range) {
+    constexpr double of_normal = 1.4826, least = 1e-3, greatest = 0.05;
+    const double spread = std::sqrt(20.0); // 1, 3, 3, 1
+    std::vector<double> sizes;
+    for (const FitRecord& record : task.records)
+        for (const FitRecord::Readings& readings : record.readings)
+            for (std::size_t i = 3; readings.output == output && i < readings.values.size(); ++i) {
+                const double* at = &readings.values[i - 3];
+                sizes.push_back(std::abs(at[3] - 3 * at[2] + 3 * at[1] - at[0]));
+            }
+    if (sizes.empty())
+        return greatest * range;
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    return std::clamp(of_normal * *middle / spread, least * range, greatest * range);
+}
+
 double usual_distance(const FitTask& task) {
     std::vector<double> distances;
     for (const FitRecord& record : task.records)
@@ -85,7 +104,7 @@ FitRows::FitRows(const System& system, const FitTask& task, const FitSettings& s
         if (task.outputs[o].offset_unknown)
             layout.offsets.push_back(o);
         outputs_.push_back(system.with_gradient(task.outputs[o].value));
-        noise.push_back(task.outputs[o].noise > 0 ? task.outputs[o].noise : 0.05 * ranges_[o]);
+        noise.push_back(task.outputs[o].noise > 0 ? task.outputs[o].noise : rough_noise(task, o, ranges_[o]));
     }
     std::size_t room = system.workspace();
     for (const State& state : system.model().states)

@@ -190,6 +190,10 @@ StageReport minimise(FitRows& rows, FitPoint& point, const FitStage& stage, cons
     options.function_tolerance = stage.tolerance;
     if (stage.tolerance < 1e-12)
         options.initial_trust_region_radius = 1e10; // near the end already: what is hardly told must move, too
+    // Where pieces hardly give way, a step along the curved set of joined ones is uphill for a moment (N. Maratos).
+    constexpr double stiff = 10;
+    options.use_nonmonotonic_steps = stage.joint > stiff;
+    options.max_consecutive_nonmonotonic_steps = 10;
     options.gradient_tolerance = 1e-300;
     options.parameter_tolerance = 1e-15;
     options.logging_type = ceres::SILENT;

@@ -9,7 +9,7 @@ namespace graze {
 
 OrbitScales::OrbitScales(std::size_t states, std::vector<double> usual, std::vector<double> ranges)
     : states_(states), usual_(std::move(usual)), ranges_(std::move(ranges)), largest_(usual_.size(), 0.0),
-      coupling_(Eigen::MatrixXd::Zero(index(states), index(states))),
+      coupling_(Eigen::MatrixXd::Zero(index(states), index(states))), arcs_(coupling_),
       effects_(Eigen::VectorXd::Zero(index(usual_.size()))) {
     ranges_.resize(usual_.size(), 0.0);
 }
@@ -34,7 +34,7 @@ Eigen::VectorXd OrbitScales::choose(const OrbitLayout& layout, const Eigen::Vect
         }
     }
     Eigen::VectorXd scales = Eigen::VectorXd::Ones(index(layout.unknowns()));
-    const std::vector<double> chosen = states_.choose(periods, coupling_);
+    const std::vector<double> chosen = states_.choose(periods, coupling_, arcs_);
     for (std::size_t k = 0; k < layout.pieces(); ++k) {
         std::copy(chosen.begin(), chosen.end(), scales.data() + layout.start_of(k));
         scales[index(layout.duration_of(k))] = time > 0 ? time : 1;

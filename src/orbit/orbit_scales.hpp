@@ -23,7 +23,13 @@ public:
 
     /// How strongly states act on one another over some time: the greatest derivatives count.
     void note_coupling(const Eigen::MatrixXd& derivatives) { coupling_ = coupling_.cwiseMax(derivatives.cwiseAbs()); }
+    /// The same along an arc rather than by a jump.
+    void note_arc(const Eigen::MatrixXd& derivatives) {
+        arcs_ = arcs_.cwiseMax(derivatives.cwiseAbs());
+        note_coupling(derivatives);
+    }
     const Eigen::MatrixXd& coupling() const { return coupling_; }
+    const Eigen::MatrixXd& arcs() const { return arcs_; }
     /// What the free parameters do to the equations, in units of the states' scales.
     void note_effects(const Eigen::VectorXd& effects) { effects_ = effects; }
 
@@ -38,7 +44,7 @@ private:
     StateScales states_;
     std::vector<double> usual_, ranges_;
     std::vector<double> largest_; ///< that the free parameters have been
-    Eigen::MatrixXd coupling_;
+    Eigen::MatrixXd coupling_, arcs_;
     Eigen::VectorXd effects_;
 };
 

@@ -35,7 +35,7 @@ bool Shooting::run_noting(std::size_t mode, std::span<double> state, double dura
         if (run(flow(), mode, state, duration / parts, part) != ModeFlow::Ending::done)
             return false;
         sizes.note(state);
-        orbit_scales().note_coupling(part.leftCols(n));
+        orbit_scales().note_arc(part.leftCols(n));
         derivatives = part.leftCols(n) * derivatives;
     }
     return true;
@@ -65,7 +65,7 @@ std::vector<std::size_t> Shooting::split(const Orbit& orbit) {
             derivatives[s].resize(0, 0);
         note_jump(s, state);
     }
-    const std::vector<double> chosen = sizes.choose(ends().periods(), orbit_scales().coupling());
+    const std::vector<double> chosen = sizes.choose(ends().periods(), orbit_scales().coupling(), orbit_scales().arcs());
     const Eigen::Map<const Eigen::VectorXd> units(chosen.data(), index(chosen.size()));
     std::vector<std::size_t> counts;
     for (const Eigen::MatrixXd& one : derivatives) {

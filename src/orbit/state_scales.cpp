@@ -30,11 +30,13 @@ bool StateScales::rests(std::size_t i) const {
 /// fold that is all there is: they do not act on it.
 /// @return 0 for states that are of a size of their own, or act on others that do not rest
 double StateScales::scale_by_effect(std::size_t i, std::span<const double> own, std::span<const double> periods,
-                                    const Eigen::MatrixXd& coupling) const {
+                                    const Eigen::MatrixXd& arcs) const {
     constexpr double no_effect = 1e-10, share = 1e-3;
     double least = std::numeric_limits<double>::infinity();
+    if (rests(i) && sizes_[i] > 0) // it has a size of its own
+        return 0;
     for (std::size_t j = 0; j < own.size(); ++j) {
-        const double acts = coupling(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(i));
+        const double acts = arcs(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(i));
         if (j == i || periods[j] > 0 || !(acts > 0) || !(own[j] > 0))
             continue;
         if (!rests(j) || !(own[i] * acts < no_effect * own[j]))
@@ -44,7 +46,8 @@ double StateScales::scale_by_effect(std::size_t i, std::span<const double> own, 
     return periods[i] == 0 && std::isfinite(least) ? share * least : 0;
 }
 
-std::vector<double> StateScales::choose(std::span<const double> periods, const Eigen::MatrixXd& coupling) {
+std::vector<double> StateScales::choose(std::span<const double> periods, const Eigen::MatrixXd& coupling,
+                                        const Eigen::MatrixXd& arcs) {
     constexpr double smallest_share = 1e-3; // of the size, for what hardly moves
     constexpr double smallest_scale = 1e-2; // of the largest so far
     // What is smaller than the others by this is zero, by a symmetry, but for what has not decayed yet.
@@ -77,7 +80,7 @@ std::vector<double> StateScales::choose(std::span<const double> periods, const E
             scales[i] =
                 std::max(scales[i], round_off_share *
                                         coupling(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * own[j]);
-        scales[i] = std::max(scales[i], scale_by_effect(i, own, periods, coupling));
+        scales[i] = std::max(scales[i], scale_by_effect(i, own, periods, arcs));
         largest_[i] = std::max(largest_[i], scales[i]);
         scales[i] = std::max(scales[i], smallest_scale * largest_[i]);
     }

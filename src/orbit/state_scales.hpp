@@ -18,13 +18,14 @@ public:
     void begin();
     void note(std::span<const double> state);
     /// @param periods of cyclic states, 0 for others
-    /// @param coupling greatest derivatives of states with respect to earlier ones
-    std::vector<double> choose(std::span<const double> periods, const Eigen::MatrixXd& coupling);
+    /// @param coupling greatest derivatives of states with respect to earlier ones @param arcs those along arcs alone
+    std::vector<double> choose(std::span<const double> periods, const Eigen::MatrixXd& coupling,
+                               const Eigen::MatrixXd& arcs);
 
 private:
     bool rests(std::size_t i) const;
     double scale_by_effect(std::size_t i, std::span<const double> own, std::span<const double> periods,
-                           const Eigen::MatrixXd& coupling) const;
+                           const Eigen::MatrixXd& arcs) const;
 
     std::vector<double> least_, greatest_, sizes_, largest_;
 };

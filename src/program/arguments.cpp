@@ -4,6 +4,7 @@
 #include "program/branch_arguments.hpp"
 #include "program/declared_option.hpp"
 #include "program/design_arguments.hpp"
+#include "program/experiment_arguments.hpp"
 #include "program/help_arguments.hpp"
 #include "program/identify_arguments.hpp"
 #include "program/record_arguments.hpp"
@@ -321,6 +322,7 @@ void declare_arguments(CLI::App& app, Arguments& arguments) {
     declare_design_command(app, arguments);
     declare_record_commands(app, arguments);
     declare_identify_command(app, arguments);
+    declare_experiment_commands(app, arguments);
     declare_help_commands(app, arguments);
 }
 

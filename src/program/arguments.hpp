@@ -157,6 +157,35 @@ struct IdentifyArguments {
     double gap_error = 0, stiffness_error = 0, clamped = 0;
     std::vector<double> noise; ///< of displacement and current; empty: not given
     std::string beta1, beta2;
+    // Of fits: NAME=VALUE and the like, still to be split.
+    std::vector<std::string> free, set, start, known, meanings, gains, offsets, noises, own;
+    std::string mode, loss = "squares", piece, table = "numbers", save;
+};
+
+/// Lists are of NAME=VALUE, still to be split.
+struct BenchArguments {
+    std::string model;
+    std::vector<std::string> set, from;
+    std::string amplitude = "V0", frequency = "f", offset;
+    double time_unit = 1;
+    std::vector<std::string> channels, noise, bias, drift, range;
+    int bits = 16;
+    double anti_alias = 0;
+    std::size_t seed = 1;
+    std::string port;
+    unsigned tcp = 0;
+    double speed = 1;
+    bool on_demand = false;
+    std::optional<double> clip;
+    double drop = 0, delay = 0, break_for = 1;
+    std::size_t break_after = 0, break_samples = 0;
+};
+
+struct AcquireArguments {
+    std::string experiment, port, device, folder;
+    bool dry_run = false, progress = false;
+    std::string live, reference, channel;
+    double phase = 0;
 };
 
 struct InfoArguments {
@@ -190,6 +219,8 @@ struct Arguments {
     DesignArguments design;
     RecordArguments record;
     IdentifyArguments identify;
+    BenchArguments bench;
+    AcquireArguments acquire;
     CheckArguments check;
     ModelsArguments models;
     SimulateArguments simulate;

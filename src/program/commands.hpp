@@ -24,6 +24,8 @@ int tolerance_command(const ToleranceArguments& arguments, const Console& consol
 int design_command(const DesignArguments& arguments, const Console& console);
 int record_command(const RecordArguments& arguments, const Console& console);
 int identify_command(const IdentifyArguments& arguments, const Console& console);
+int bench_command(const BenchArguments& arguments, const Console& console);
+int acquire_command(const AcquireArguments& arguments, const Console& console);
 
 /// Hands a table to the user: for people the columns that fit a terminal, unless all are asked for.
 /// @param kept names of columns that are shown in any case

@@ -59,8 +59,9 @@ std::string with_unit(const std::string& label, const std::string& unit) {
 }
 
 std::string firm_blanks(std::string markup) {
-    const std::string blank = "\u00a0";
-    for (const auto& [soft, firm] : {std::pair{std::string("} "), "}" + blank}, {" {", blank + "{"}})
+    // librsvg drops every kind of blank at the end of a span, but not before a mark of no width.
+    const std::string blank = "\u00a0", mark = "\u200b";
+    for (const auto& [soft, firm] : {std::pair{std::string("} "), "}" + mark + blank}, {" {", blank + mark + "{"}})
         for (std::size_t at = markup.find(soft); at != std::string::npos; at = markup.find(soft, at))
             markup.replace(at, soft.size(), firm);
     return markup;

@@ -21,7 +21,7 @@ std::string unit_text(const std::string& unit);
 std::string name_text(const std::string& name);
 /// A label with its unit in parentheses.
 std::string with_unit(const std::string& label, const std::string& unit);
-/// Markup whose blanks beside changes of the letters are not breaking: viewers of SVG drop those that are.
+/// Markup in which viewers of SVG keep the blanks beside changes of the letters.
 std::string firm_blanks(std::string markup);
 std::string number_text(double value);
 

@@ -16,6 +16,7 @@ WHAT is one of
   restitution  coefficient of restitution from impacts in a velocity, a record for each set of conditions
   coupling     constants of an electromagnet from equilibria: each row of the records is one
   impedance    resistance and inductance of a coil whose mass is clamped, under a sinusoidal voltage
+  fit          any parameters and initial states of a model, named before the records: least squares through impacts
 Each value comes with its standard error and the interval that covers the truth with a probability of 95 %. The picture
 shows what was measured, what was fitted, and what is left.)";
 
@@ -23,7 +24,9 @@ constexpr const char* identify_examples = R"(Examples:
   graze identify decrement release*.csv --channel v --plot decay.svg
   graze identify restitution run1.csv run2.csv --channel v --displacement q
   graze identify coupling static.csv --gap 4.79e-3 --stiffness 5948
-  graze identify impedance clamped.csv --voltage V --current I --format json)";
+  graze identify impedance clamped.csv --voltage V --current I --format json
+  graze identify fit impact-oscillator run.csv --free zeta,e=0.7 --save found.toml
+  graze simulate impact-oscillator --set @found.toml --from @found.toml --time 100)";
 
 void declare_channels(CLI::App& command, IdentifyArguments& arguments) {
     const char* group = "Channels";
@@ -74,23 +77,62 @@ void declare_known(CLI::App& command, IdentifyArguments& arguments) {
                    "Impedance: displacement at which the mass is held (0)");
 }
 
+void declare_fit(CLI::App& command, IdentifyArguments& arguments) {
+    const char* group = "Fit";
+    declare_option(command, group, "--free", arguments.free, "NAME[=GUESS][:LEAST:GREATEST]",
+                   "Parameters to be found, from these guesses (the model's values), within these bounds");
+    declare_option(command, group, "--set", arguments.set, "NAME=VALUE", "Values of other parameters");
+    declare_option(command, group, "--with", arguments.own, "FILE:NAME=VALUE",
+                   "Parameters that one record has of its own");
+    declare_option(command, group, "--start", arguments.start, "STATE=VALUE",
+                   "Guesses of states at the first time (from readings, or the model)");
+    declare_option(command, group, "--known", arguments.known, "STATE,...",
+                   "States that begin as --start or the model says, and are not to be found; `all`: none are")
+        ->check(not_empty());
+    declare_option(command, group, "--mode", arguments.mode, "MODE", "Mode at the first time (the model's initial one)")
+        ->check(not_empty());
+    declare_option(command, group, "--reading", arguments.meanings, "CHANNEL=EXPRESSION",
+                   "What a channel measures (the state or quantity of its name; other channels are not used)");
+    declare_option(command, group, "--gain", arguments.gains, "CHANNEL[=GUESS]",
+                   "Channels whose gain is to be found, too (1)");
+    declare_option(command, group, "--offset", arguments.offsets, "CHANNEL[=GUESS]",
+                   "Channels whose offset is to be found, too (0)");
+    declare_option(command, group, "--deviation", arguments.noises, "CHANNEL=VALUE",
+                   "Standard deviation of a channel's noise (found from what is left)");
+    declare_option(command, group, "--loss", arguments.loss, "LOSS",
+                   "How far readings count: squares (default), huber, cauchy")
+        ->check(one_of({"squares", "huber", "cauchy"}));
+    declare_option(command, group, "--piece", arguments.piece, "T",
+                   "Length of the pieces into which records are cut (some thirty readings)")
+        ->check(not_empty());
+    declare_option(command, group, "--table", arguments.table, "TABLE",
+                   "numbers (default), outputs, correlations or readings")
+        ->check(one_of({"numbers", "outputs", "correlations", "readings"}));
+    declare_option(command, group, "--save", arguments.save, "FILE",
+                   "Keep what was found, for --set @FILE and --from @FILE")
+        ->check(not_empty());
+}
+
 } // namespace
 
 std::vector<std::string> identify_kinds() {
-    return {"decrement", "restitution", "coupling", "impedance"};
+    return {"decrement", "restitution", "coupling", "impedance", "fit"};
 }
 
 void declare_identify_command(CLI::App& app, Arguments& all) {
     IdentifyArguments& arguments = all.identify;
     CLI::App& command = *app.add_subcommand("identify", identify_text);
     command.footer(identify_examples);
-    command.add_option("WHAT", arguments.what, "decrement, restitution, coupling or impedance")
+    command.add_option("WHAT", arguments.what, "decrement, restitution, coupling, impedance or fit")
         ->type_name("")
         ->check(one_of(identify_kinds()))
         ->required();
-    command.add_option("FILE", arguments.reading.files, "Records")->type_name("")->required();
+    command.add_option("FILE", arguments.reading.files, "Records; of a fit, the model before them")
+        ->type_name("")
+        ->required();
     declare_channels(command, arguments);
     declare_known(command, arguments);
+    declare_fit(command, arguments);
     declare_table(command, arguments.reading.output);
     declare_option(command, "Picture", "--plot", arguments.reading.plot, "FILE",
                    "Draw what was fitted, too, as svg, png or pdf");

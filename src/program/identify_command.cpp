@@ -1,6 +1,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/figure.hpp"
+#include "program/identify_fit.hpp"
 #include "program/identify_kinds.hpp"
 #include "program/picture.hpp"
 
@@ -14,6 +15,8 @@ int identify_command(const IdentifyArguments& arguments, const Console& console)
     const std::string& plot = arguments.reading.plot;
     if (!plot.empty())
         picture_ending(plot, "--plot", {"svg", "png", "pdf"});
+    if (arguments.what == "fit")
+        return identify_fit(arguments, console);
     const Identified found = arguments.what == "decrement"     ? identify_decrement(arguments)
                              : arguments.what == "restitution" ? identify_restitution(arguments)
                              : arguments.what == "coupling"    ? identify_coupling(arguments)

@@ -2,6 +2,7 @@
 #include "program/program.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -23,8 +24,8 @@ std::size_t width_of_terminal() {
 
 /// Commands that end in order when they are interrupted; others are broken off, and have nothing to lose.
 bool ends_in_order(int count, char** values) {
-    return count > 1 && (std::string_view(values[1]) == "run" || std::string_view(values[1]) == "simulate" ||
-                         std::string_view(values[1]) == "ladder");
+    constexpr std::array<std::string_view, 5> commands{"run", "simulate", "ladder", "bench", "acquire"};
+    return count > 1 && std::find(commands.begin(), commands.end(), values[1]) != commands.end();
 }
 
 } // namespace

@@ -67,6 +67,10 @@ int dispatch(std::span<const std::string> words, const Console& console) {
         return record_command(arguments.record, console);
     if (app.got_subcommand("identify"))
         return identify_command(arguments.identify, console);
+    if (app.got_subcommand("bench"))
+        return bench_command(arguments.bench, console);
+    if (app.got_subcommand("acquire"))
+        return acquire_command(arguments.acquire, console);
     return simulate_command(arguments.simulate, console);
 }
 

@@ -1,6 +1,7 @@
 #include "program/values.hpp"
 
 #include "graze/model/named_value.hpp"
+#include "graze/model/parameter_file.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/parser.hpp"
 
@@ -36,6 +37,26 @@ Assignment parse_assignment(const std::string& item, const std::string& option) 
     result.text = item.substr(equals + 1);
     result.place = {fmt::format("{} {}", option, item), 1, static_cast<int>(equals) + 2};
     return result;
+}
+
+/// What options ask for, with what is in files that they name: `@FILE`.
+std::vector<std::string> with_files(const std::vector<std::string>& assignments,
+                                    ParameterFile::Values ParameterFile::*part, const char* option) {
+    std::vector<std::string> all;
+    for (std::string& item : split_list(assignments)) {
+        if (!item.starts_with('@')) {
+            all.push_back(std::move(item));
+            continue;
+        }
+        const std::string path = item.substr(1);
+        const ParameterFile file = read_parameter_file(path);
+        if ((file.*part).empty())
+            throw InputError(Place{path, 0, 0}, fmt::format("it has nothing for {}", option),
+                             fmt::format("leave {} {} out", option, item));
+        for (const auto& [name, value] : file.*part)
+            all.push_back(fmt::format("{}={}", name, value));
+    }
+    return all;
 }
 
 } // namespace
@@ -83,7 +104,7 @@ void require_new(std::set<std::string>& names, const std::string& name, const ch
 
 void set_parameters(Model& model, const std::vector<std::string>& assignments) {
     std::set<std::string> names;
-    for (const std::string& item : split_list(assignments)) {
+    for (const std::string& item : with_files(assignments, &ParameterFile::set, "--set")) {
         const Assignment assignment = parse_assignment(item, "--set");
         if (!model.find_parameter(assignment.name) && model.find_state(assignment.name))
             throw InputError({"--set", 0, 0}, fmt::format("'{}' is a state, not a parameter", assignment.name),
@@ -98,7 +119,7 @@ void set_parameters(Model& model, const std::vector<std::string>& assignments) {
 std::vector<std::pair<std::string, double>> parameter_values(const std::vector<std::string>& assignments) {
     std::vector<std::pair<std::string, double>> values;
     std::set<std::string> names;
-    for (const std::string& item : split_list(assignments)) {
+    for (const std::string& item : with_files(assignments, &ParameterFile::set, "--set")) {
         const Assignment assignment = parse_assignment(item, "--set");
         require_new(names, assignment.name, "--set");
         values.emplace_back(assignment.name, value_of_text(Model(), assignment.text, assignment.place));
@@ -108,7 +129,7 @@ std::vector<std::pair<std::string, double>> parameter_values(const std::vector<s
 
 void set_initial_state(Model& model, const std::vector<std::string>& assignments) {
     std::set<std::string> names;
-    for (const std::string& item : split_list(assignments)) {
+    for (const std::string& item : with_files(assignments, &ParameterFile::from, "--from")) {
         const Assignment assignment = parse_assignment(item, "--from");
         if (!model.find_state(assignment.name) && model.find_parameter(assignment.name))
             throw InputError({"--from", 0, 0}, fmt::format("'{}' is a parameter, not a state", assignment.name),

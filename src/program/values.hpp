@@ -23,12 +23,13 @@ double positive_value_of(const Model& model, std::string_view text, const std::s
 /// The independent parameter that `--parameter NAME` asks for. @throws InputError for another name
 ParameterId asked_parameter(const Model& model, const std::string& name);
 
-/// Carries out `--set NAME=EXPRESSION ...`, one after the other. @throws InputError
+/// Carries out `--set NAME=EXPRESSION ...`, one after the other; `@FILE` stands for all that a file of parameters
+/// sets. @throws InputError
 void set_parameters(Model& model, const std::vector<std::string>& assignments);
 /// Names and values of `--set NAME=NUMBER ...` for models that are not known yet: expressions without names.
 /// @throws InputError
 std::vector<std::pair<std::string, double>> parameter_values(const std::vector<std::string>& assignments);
-/// Carries out `--from STATE=EXPRESSION ...`. @throws InputError
+/// Carries out `--from STATE=EXPRESSION ...`, with `@FILE` likewise. @throws InputError
 void set_initial_state(Model& model, const std::vector<std::string>& assignments);
 /// What `--disturbance STATE=EXPRESSION ...` adds to each state of the model; empty without any. @throws InputError
 std::vector<double> disturbance_of(const Model& model, const std::vector<std::string>& assignments);

@@ -45,8 +45,8 @@ TEST(Acquisition, RecordsAllLevelsAndLeavesTheOutputSafe) {
     EXPECT_FALSE(bench.generator().is_remote());
     const auto files = files_of(folder / "records");
     EXPECT_EQ(files.size(), 8U);
-    EXPECT_THAT(files.at("manifest.csv"), HasSubstr("\n3,0003_f6100mHz_a9600mV_up.csv,6.1,9.6,1,9.6,1,0.5,500,"));
-    EXPECT_THAT(files.at("manifest.csv"), HasSubstr("\n6,0006_f6100mHz_a9400mV_down.csv,6.1,9.4,-1,9.4,1,0.5,500,"));
+    EXPECT_THAT(files.at("manifest.txt"), HasSubstr("\n3,0003_f6100mHz_a9600mV_up.csv,6.1,9.6,1,9.6,1,0.5,500,"));
+    EXPECT_THAT(files.at("manifest.txt"), HasSubstr("\n6,0006_f6100mHz_a9400mV_down.csv,6.1,9.4,-1,9.4,1,0.5,500,"));
     const auto record = open_record(folder / "records/0003_f6100mHz_a9600mV_up.csv");
     const Samples samples = read_all(*record, 1000);
     EXPECT_EQ(samples.rows(), 500U);
@@ -151,7 +151,7 @@ TEST(Acquisition, WaitsUntilSectionsRepeat) {
     const AcquisitionReport report = run_on(bench, text, folder / "records");
     EXPECT_EQ(report.ending, AcquisitionEnding::complete) << report.detail;
     EXPECT_EQ(report.unsettled, 0U);
-    const std::string list = contents(folder / "records/manifest.csv");
+    const std::string list = contents(folder / "records/manifest.txt");
     EXPECT_THAT(list, HasSubstr("a2000mV_up.csv"));
     VirtualBench chaotic(settings); // where nothing repeats so closely
     std::string noisy = text;
@@ -159,7 +159,7 @@ TEST(Acquisition, WaitsUntilSectionsRepeat) {
     noisy.replace(noisy.find("most = 20"), 9, "most = 2");
     const AcquisitionReport given_up = run_on(chaotic, noisy, folder / "noisy");
     EXPECT_EQ(given_up.unsettled, 2U);
-    EXPECT_THAT(contents(folder / "noisy/manifest.csv"), HasSubstr(",0,2,500,"));
+    EXPECT_THAT(contents(folder / "noisy/manifest.txt"), HasSubstr(",0,2,500,"));
 }
 
 TEST(Acquisition, AsksTheDeviceForItsChannelsBeforeAnythingIsSent) {

@@ -108,7 +108,7 @@ TEST(Decrement, OfNoisyRecordsUsesThePeaksThatStandOut) {
     for (std::size_t seed = 0; seed < experiments; ++seed) {
         Noise noise(seed);
         std::vector<DecayPeaks> releases;
-        for (int r = 0; r < 10; ++r)
+        for (int r = 0; r < 4; ++r)
             releases.push_back(peaks_of(noise, 0.02, 1000));
         const Decrement found = logarithmic_decrement(releases);
         frequencies += std::abs(found.frequency.value - frequency) < found.frequency.half_width() ? 1 : 0;

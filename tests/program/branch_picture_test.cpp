@@ -174,7 +174,8 @@ TEST_F(BranchPicture, GrazePlotDrawsThem) {
     };
     EXPECT_THAT(plotted({"--run", "first,second", "--y", "period"}), HasSubstr("set label \"second\""));
     EXPECT_THAT(plotted({}), HasSubstr("set label \"first\"")); // all branches together
-    EXPECT_THAT(plotted({"--run", "first", "--point", "GR1"}), HasSubstr("GR1:\u00a0{/:Italic g}\u00a0= 1.6 m/s^{2}"));
+    EXPECT_THAT(plotted({"--run", "first", "--point", "GR1"}),
+                HasSubstr("GR1:\u00a0\u200b{/:Italic g}\u200b\u00a0= 1.6 m/s^{2}"));
     EXPECT_THAT(plotted({"--run", "first", "--kind", "scatter", "--x", "g", "--y", "height"}), HasSubstr("height"));
     EXPECT_GT(std::filesystem::file_size(folder / "p.svg"), 2'000U);
 }

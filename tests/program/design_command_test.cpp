@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -79,6 +80,54 @@ TEST_F(DesignCommand, MeetsWishesOrSaysThatItCannot) {
     EXPECT_THAT(printed.out, HasSubstr("wishes,unmet"));
 }
 
+TEST_F(DesignCommand, LeavesNoTablesOfAnotherDesignInItsFolder) {
+    const std::string results = folder / "results";
+    ASSERT_EQ(run_graze({"design", design(small_design()), "--output", results, "--quiet"}).code, 0);
+    // Of another's work it takes nothing away, whatever it is called.
+    const std::string mine = results + "/curve-mine.csv";
+    std::ofstream(mine) << "t,q\n0,1\n";
+    std::string other = small_design();
+    for (const std::string part :
+         {"adjustable = \"delta\"\n", "[dimensions.zeta]\nrange = [0.01, 0.03]\n", "tolerance = \"1%\"\n"})
+        other.erase(other.find(part), part.size());
+    ASSERT_EQ(run_graze({"design", design(other), "--output", results, "--quiet", "--no-pictures"}).code, 0);
+    for (const char* name :
+         {"curve-zeta.csv", "plane-delta-zeta.csv", "tuning.csv", "devices.csv", "page.svg", "page.pdf"})
+        EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(results) / name)) << name;
+    for (const char* name : {"curve-delta.csv", "facts.csv", "results.sqlite", "curve-mine.csv"})
+        EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(results) / name)) << name;
+}
+
+TEST_F(DesignCommand, SaysThatAnAllowanceOfCyclesDecidesNothing) {
+    std::string text = small_design();
+    text.replace(text.find("overshoots"), 0, "cycles = 2\n");
+    const Printed printed =
+        run_graze({"design", design(text), "--output", folder / "results", "--no-pictures", "--format", "csv"});
+    EXPECT_EQ(printed.code, 3);
+    EXPECT_THAT(printed.out, HasSubstr("trial,undecided"));
+    EXPECT_THAT(printed.err, HasSubstr("not checked by simulation"));
+    EXPECT_THAT(printed.err, HasSubstr("give more trip.cycles than 2"));
+}
+
+TEST_F(DesignCommand, SaysWhereARangeBeginsThatComesFromBeyondAnotherTouch) {
+    const auto refusal = [&](const std::string& model, const std::string& control, const std::string& range) {
+        const Printed printed =
+            run_graze({"design",
+                       design("name = \"small\"\nmodel = \"" + model + "\"\ncontrol = \"" + control + "\"\nset = { " +
+                              (model == "mems-switch" ? "zeta = 0.02" : "zeta = 0.1, omega = 0.5") +
+                              " }\n[approach]\nrange = " + range + "\n[dimensions.zeta]\nrange = [0.01, 0.3]\n"),
+                       "--output", folder / "refused", "--no-pictures"});
+        EXPECT_EQ(printed.code, 2) << printed.out;
+        return printed.err;
+    };
+    const std::string beyond = refusal("impact-oscillator", "amplitude", "[-1, 1]");
+    EXPECT_THAT(beyond,
+                HasSubstr("small.toml:6:1: at amplitude = -1, where the range begins, the motion has contacts"));
+    const std::string lost = refusal("mems-switch", "V", "[0.6, 0.9]");
+    EXPECT_THAT(lost,
+                HasSubstr("small.toml:6:1: at V = 0.6, where the range begins, there is no orbit: the motion does"));
+}
+
 TEST_F(DesignCommand, ListsAndShowsThoseThatComeWithIt) {
     EXPECT_THAT(run_graze("design --list").out, HasSubstr("mems-switch"));
     EXPECT_THAT(run_graze("design mems-switch --show").out, HasSubstr("[dimensions.delta]"));
@@ -93,6 +142,21 @@ TEST_F(DesignCommand, RefusesMistakesWithTheirPlaces) {
     EXPECT_THAT(printed.err, HasSubstr("small.toml:22:9"));
     EXPECT_THAT(printed.err, HasSubstr("small.toml:23:"));
     EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+    const auto refusal = [&](const std::string& from, const std::string& to) {
+        std::string text = small_design();
+        text.replace(text.find(from), from.size(), to);
+        const Printed refused = run_graze({"design", design(text), "--output", folder / "none"});
+        EXPECT_EQ(refused.code, 2);
+        return refused.err;
+    };
+    // A dimension that is there, but wrong, is not missing.
+    const std::string turned = refusal("[0.5, 0.7]", "[0.7, 0.5]");
+    EXPECT_THAT(turned, HasSubstr("small.toml:11:9: dimensions.delta.range goes from 0.7 to 0.5"));
+    EXPECT_EQ(std::count(turned.begin(), turned.end(), '\n'), 1) << turned;
+    EXPECT_THAT(refusal("\"1%\"", "\"1% gaussian\""), HasSubstr("12:13: 'gaussian' is no way in which devices differ"));
+    EXPECT_THAT(refusal("[0.5, 0.7]", "[0.5, \"0,7\"]"), HasSubstr("decimals are written with a point"));
+    EXPECT_THAT(refusal("control = \"V\"", "control ="), HasSubstr("docs/design.md shows how a design is written"));
+    EXPECT_THAT(refusal("adjustable = \"delta\"", "adjustable = \"omega\""), HasSubstr("no dimension 'omega'"));
 }
 
 } // namespace graze::testing

@@ -71,6 +71,31 @@ TEST_F(IdentifyCommand, FindsFrequencyAndDamping) {
     EXPECT_EQ(table.number(0, "freedom"), 17);
 }
 
+TEST_F(IdentifyCommand, FindsWhereAReleaseComesToRest) {
+    const double damped = natural * std::sqrt(1 - damping * damping);
+    std::string text = "t [s], q [mm]\n";
+    for (int i = 0; i < 1500; ++i) {
+        const double t = i * 1e-3;
+        text += fmt::format("{},{}\n", t, 3 - std::exp(-damping * natural * t) * std::sin(damped * t));
+    }
+    const Csv table = identified("decrement " + written("offset.csv", text) + " --channel q");
+    EXPECT_NEAR(table.number(1, "value"), damping, 1e-9);
+    EXPECT_EQ(table.text(4, "name"), "rest_position");
+    EXPECT_EQ(table.text(4, "unit"), "mm");
+    EXPECT_NEAR(table.number(4, "value"), 3, 1e-9);
+}
+
+TEST_F(IdentifyCommand, TellsTheFrequencyOfAnImpedanceAndWarnsOfSigns) {
+    const Csv table = identified("impedance " + clamped(20));
+    EXPECT_EQ(table.text(2, "name"), "frequency");
+    EXPECT_EQ(table.text(2, "unit"), "Hz");
+    EXPECT_NEAR(table.number(2, "value"), 20 / (2 * std::acos(-1.0)), 1e-9);
+    const Printed turned = run_graze("identify impedance " + clamped(20) + " --scale I=-1");
+    EXPECT_EQ(turned.code, 3);
+    EXPECT_THAT(turned.err, HasSubstr("warning: "));
+    EXPECT_THAT(turned.err, HasSubstr("the resistance comes out below zero"));
+}
+
 TEST_F(IdentifyCommand, FindsTheCoupling) {
     const Csv table = identified("coupling " + equilibria() + fmt::format(" --gap {} --stiffness {}", gap, stiffness));
     EXPECT_EQ(table.text(0, "unit"), "H m");

@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <fcntl.h>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -43,6 +44,39 @@ TEST_P(Interrupt, WritesWhatWasComputed) {
     EXPECT_EQ(WEXITSTATUS(status), GetParam() == SIGINT ? exit_interrupted : exit_terminated);
     EXPECT_THAT(contents(messages), ::testing::HasSubstr("graze: interrupted at time"));
     EXPECT_GT(Csv(contents(file)).rows.size(), 100U);
+    EXPECT_EQ(folder.files(), 2U);
+}
+
+/// The program is stopped while it writes a record: nothing of that is left.
+TEST_P(Interrupt, LeavesNoPartOfARecord) {
+    const Folder folder;
+    const std::string record = folder / "in.csv", file = folder / "out.csv", messages = folder / "messages";
+    {
+        std::ofstream rows(record);
+        rows << "t,q\n";
+        for (int i = 0; i < 1'000'000; ++i)
+            rows << i << ',' << i % 1000 << '\n';
+    }
+    std::vector<std::string> words{GRAZE_PROGRAM, "record", record, "--derivative", "q", "--write", file};
+    std::vector<char*> pointers;
+    for (std::string& word : words)
+        pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, messages.c_str(), O_WRONLY | O_CREAT, 0666);
+    pid_t child = 0;
+    ASSERT_EQ(posix_spawn(&child, GRAZE_PROGRAM, &actions, nullptr, pointers.data(), environ), 0);
+    posix_spawn_file_actions_destroy(&actions);
+    constexpr std::size_t with_its_own = 3; // the record, the messages, and what is being written
+    for (int i = 0; i < 10'000 && folder.files() < with_its_own; ++i)
+        usleep(1000);
+    kill(child, GetParam());
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), GetParam() == SIGINT ? exit_interrupted : exit_terminated);
+    EXPECT_THAT(contents(messages), ::testing::HasSubstr("is not written"));
     EXPECT_EQ(folder.files(), 2U);
 }
 

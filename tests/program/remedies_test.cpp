@@ -85,8 +85,8 @@ std::vector<Text> texts() {
 std::map<std::string, std::string> commands() {
     std::map<std::string, std::string> result;
     for (const char* name :
-         {"models", "check", "simulate", "run", "points", "orbit", "grazing", "trip", "ladder", "tolerance", "design",
-          "record", "identify", "export", "plot", "info", "help", "completion"}) {
+         {"models", "check",  "simulate", "run",   "points",  "orbit",  "grazing", "trip", "ladder", "tolerance",
+          "design", "record", "identify", "bench", "acquire", "export", "plot",    "info", "help",   "completion"}) {
         const Printed help = run_graze(std::string(name) + " --help");
         EXPECT_EQ(help.code, 0) << name;
         result[name] = help.out;

@@ -85,6 +85,11 @@ TEST_F(TripCommand, SaysWhereTheEndHasNotCome) {
     const Csv csv = table({results, "GR1", "--overshoot", "1e-6", "--until", "end", "--cycles", "2"}, 3);
     EXPECT_EQ(csv.text(0, "ending"), "end-time");
     EXPECT_EQ(csv.text(0, "end_time"), "");
+    const Printed printed =
+        run_graze({"trip", results, "GR1", "--overshoot", "1e-6", "--until", "end", "--cycles", "2"});
+    EXPECT_EQ(printed.code, 3);
+    EXPECT_THAT(printed.err, HasSubstr("the trip at the overshoot 1e-06 has not come to its end"));
+    EXPECT_THAT(printed.err, HasSubstr("give more --cycles"));
 }
 
 TEST_F(TripCommand, RefusesWhereThereIsNoTrip) {
@@ -99,6 +104,8 @@ TEST_F(TripCommand, RefusesWhereThereIsNoTrip) {
     expect_refusal({results, "GR1", "--beside", "no_impact:EP1"}, "--beside: the orbit at EP1 touches nothing");
     expect_refusal({results, "GR1", "--disturbance", "w=1"}, "'w' is not a state; choose one of q, v, theta");
     expect_refusal({results, "GR1", "--until", "q"}, "it names no level");
+    expect_refusal({results, "GR1", "--until", ""}, "--until: its value is empty");
+    expect_refusal({results, "GR1", "--parameter", "nope"}, "--parameter: ");
     expect_refusal({results, "GR1", "--until", "qq=1"}, "qq");
     expect_refusal({results, "GR1", "--until", "end", "--greatest-speed", "1"}, "--until");
     expect_refusal({results, "GR1", "--data", "file"}, "--plot");
@@ -210,7 +217,12 @@ TEST_F(TripCommand, TellsWhereARampTrips) {
     EXPECT_EQ(late.text(0, "value"), "");
     expect_refusal({results, "touching:GR1", "--ramp", "-1e-5"}, "give a positive rate");
     expect_refusal({results, "touching:GR1", "--ramp", "0"}, "give a positive rate");
-    expect_refusal({results, "touching:GR1", "--ramp", "1e-5", "--at", "0.21"}, "is not before the point");
+    expect_refusal({results, "touching:GR1", "--ramp", "1e-5", "--at", "0.21"},
+                   "--at: V = 0.21 is not before the point");
+    expect_refusal({results, "touching:GR1", "--ramp", "1"}, "--ramp: the ramp would begin at V = -");
+    const Printed words =
+        run_graze({"trip", results, "folding:SN1", "--ramp", "1e-8", "--until", "q+delta=0", "--cycles", "10"});
+    EXPECT_THAT(words.err, HasSubstr("the ramp of 1e-08 has not come to its end"));
     expect_refusal({results, "touching:GR1", "--at", "0.19"}, "nothing changes in time");
     expect_refusal({results, "folding:SN1", "--ramp", "1e-6"}, "give --until EXPR=LEVEL or --until end");
     expect_refusal({results, "folding:SN1", "--ramp", "1e-6", "--greatest-speed", "1"}, "a fold has no contact");

@@ -57,6 +57,7 @@ TEST(PictureStyle, IsAsTheStudySays) {
 }
 
 TEST(PictureStyle, WhatCannotBeDrawnIsRefused) {
+    EXPECT_THAT(problem_of("size = \"250x140\""), HasSubstr("is a text, not a width"));
     EXPECT_THAT(problem_of("size = 5"), HasSubstr("width of 5 mm"));
     EXPECT_THAT(problem_of("size = [85, 5000]"), HasSubstr("height of 5000 mm"));
     EXPECT_THAT(problem_of("size = [85]"), HasSubstr("width and a height"));

@@ -454,6 +454,69 @@ TEST(ShippedFigures, distance_of_the_fold_from_the_touch) {
     EXPECT_LT(before, 0.01);
 }
 
+/// Fig. 3.2: between touch and fold, and beyond it, contacts are roots of one cubic. In units of its fold it is
+/// beta = 3 tau^2 - 2 tau^3, whatever alpha is.
+TEST(ShippedFigures, root_manifold_of_a_compliant_contact) {
+    ShippedResults results("microbeam-stops");
+    double before = 0;
+    for (const int stiffness : {1000, 2000, 5000, 10000}) {
+        const std::string run = "roots_" + std::to_string(stiffness);
+        results.run({run});
+        // What the study's monitor measures from is the touch itself.
+        EXPECT_NEAR(results.point("no_contact", "GR1").parameter, 0.030040810557599, 1e-14);
+        const SpecialPoint fold = results.point(run, "SN1");
+        double largest = 0;
+        std::size_t beyond = 0;
+        for (const OrbitRecord& record : results.file().orbits(run, false)) {
+            const double tau = record.point.monitors.at(0) / fold.monitors.at(0),
+                         beta = record.point.monitors.at(1) / fold.monitors.at(1);
+            largest = std::max(largest, std::abs(beta - tau * tau * (3 - 2 * tau)));
+            beyond += tau > 1.1 ? 1 : 0;
+        }
+        EXPECT_GT(beyond, 3U) << stiffness;
+        EXPECT_LT(largest, 100.0 / stiffness) << stiffness; // the next order is by one over the stiffness
+        if (before > 0) {
+            EXPECT_LT(largest, before) << stiffness;
+        }
+        before = largest;
+    }
+}
+
+/// Pull-in by the gap: static equilibria by the balance of forces alone, whose voltage is greatest at the fold.
+TEST(ShippedFigures, pull_in_by_the_gap) {
+    ShippedResults results("microbeam-stops");
+    results.run({"static_pull_in", "dynamic_pull_in"});
+    Model model = load_model("microbeam-steady");
+    std::size_t points = 0;
+    for (const OrbitRecord& record : results.file().orbits("static_pull_in", false)) {
+        const std::vector<double>& parameters = record.point.solution.orbit.parameters;
+        const double gap = parameters[model.independent_parameter("g0").place()],
+                     q = record.point.solution.orbit.starts[0][0];
+        model.set_parameter("g0", gap);
+        const Function rate = model.function_of(std::vector<Expression>{model.modes[0].rates[1]});
+        const auto voltage_at = [&](double deflection) {
+            std::vector<double> inputs{deflection, 0, 0};
+            const std::vector<double> values = model.parameter_values();
+            inputs.insert(inputs.end(), values.begin(), values.end());
+            double& voltage = inputs[3 + model.independent_parameter("V").place()];
+            voltage = 0;
+            const double elastic = rate(inputs)[0];
+            voltage = 1;
+            return std::sqrt(-elastic / (rate(inputs)[0] - elastic));
+        };
+        EXPECT_NEAR(record.point.parameter, gap, 1e-14);
+        EXPECT_NEAR(parameters[model.independent_parameter("V").place()], voltage_at(q), 1e-10) << gap;
+        const double step = 1e-4 * q; // it is flat there
+        EXPECT_LT(std::abs(voltage_at(q + step) - voltage_at(q - step)), 1e-9 * voltage_at(q)) << gap;
+        ++points;
+    }
+    EXPECT_GT(points, 10U);
+    // At the shipped gap of 0.04 the orbit under pulses folds at two thirds of that.
+    EXPECT_NEAR(
+        results.point("dynamic_pull_in", "EP1").solution.orbit.parameters[model.independent_parameter("V").place()],
+        0.036662363851355, 1e-11);
+}
+
 TEST(ShippedFiguresSlow, stops_of_three_stiffnesses_and_nine_modes) {
     ShippedResults results("microbeam-stops");
     results.run({"nine_contact_500", "nine_contact_5000"});

@@ -20,7 +20,7 @@ struct RecordEntry {
     std::uint64_t bytes = 0;
 };
 
-/// A folder with an experiment's records and their list, manifest.csv. A record and its line in the list come into
+/// A folder with an experiment's records and their list, manifest.txt. A record and its line in the list come into
 /// being together, whenever the process or the machine stops: the list is written first, and a record that is whole but
 /// has not got its name yet gets it when the folder is opened again.
 class RecordFolder {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "graze/branch/special_point.hpp"
+#include "graze/grazing/cycle_map.hpp"
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +15,7 @@ namespace graze {
 struct LocatedValueOptions {
     OrbitOptions orbit;       ///< by which it is integrated and corrected; no error is estimated
     std::size_t halvings = 6; ///< of the way from the neighbour, where Newton's method does not reach as far
+    bool map = false;         ///< whether solutions come with the map of the cycle
     /// @throws InputError naming the option that is out of range
     void validate() const;
 };
@@ -26,6 +29,9 @@ struct LocatedSolution {
     std::string problem;        ///< why it has not been found, or is not admissible
     std::size_t parts = 0;      ///< into which the way has been divided
     std::size_t iterations = 0; ///< of Newton's method, of all parts
+    /// Of a touch, if asked for and found and admissible, with respect to the control parameter and to leading order.
+    /// None where something else is touched too, or the contact is not rigid: then `cycle_map` says what it is.
+    std::optional<CycleMap> map{};
 };
 
 /// The value of one parameter, the control parameter, at which a special point lies, as a function of the others: the

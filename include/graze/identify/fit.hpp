@@ -61,7 +61,6 @@ struct FitProgress {
     int stage = 0, stages = 0;
     int iteration = 0;
     double misfit = 0; ///< root of the mean square of what is left, relative to the ranges of the outputs
-    double gap = 0;    ///< largest jump between pieces, relative to the sizes of the states
 };
 
 struct FitSettings {

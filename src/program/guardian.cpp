@@ -1,0 +1,95 @@
+#include "program/guardian.hpp"
+
+#include "graze/acquire/generator_client.hpp"
+#include "graze/acquire/serial_line.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <fcntl.h>
+#include <string>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace graze {
+
+namespace {
+
+void say(const std::string& text) {
+    const ssize_t ignored = write(STDERR_FILENO, text.data(), text.size());
+    static_cast<void>(ignored);
+}
+
+void make_safe(const Experiment& experiment) {
+    std::string problem;
+    bool safe = false;
+    try {
+        const auto line = open_serial_line(experiment.serial);
+        GeneratorOptions options = experiment.generator;
+        options.interrupted = nullptr;
+        safe = GeneratorClient(*line, options).make_safe(experiment.safe, problem);
+    } catch (const std::exception& error) {
+        problem = error.what();
+    }
+    say(safe ? fmt::format("graze: acquire was killed; the generator is at its safe amplitude, {} V\n", experiment.safe)
+             : fmt::format("graze: acquire was killed, and the generator could not be brought to its safe amplitude "
+                           "({}): switch it off by hand\n",
+                           problem));
+}
+
+/// Reads what it is told until nobody can tell anything any more.
+[[noreturn]] void watch(int pipe, const Experiment& experiment) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT})
+        std::signal(signal, SIG_IGN); // of a terminal they come to all its processes
+    close(STDIN_FILENO);
+    close(STDOUT_FILENO);
+    bool armed = false;
+    for (;;) {
+        char word = 0;
+        const ssize_t count = read(pipe, &word, 1);
+        if (count == 1)
+            armed = word == 'a';
+        else if (count == 0 || errno != EINTR)
+            break;
+    }
+    if (armed)
+        make_safe(experiment);
+    _exit(0);
+}
+
+} // namespace
+
+Guardian::Guardian(const Experiment& experiment) {
+    int ends[2] = {-1, -1};
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        throw std::system_error(errno, std::generic_category(), "no pipe can be made");
+    process_ = fork();
+    if (process_ == 0) {
+        close(ends[1]);
+        watch(ends[0], experiment);
+    }
+    const int reason = errno;
+    close(ends[0]);
+    pipe_ = ends[1];
+    if (process_ < 0) {
+        close(pipe_);
+        throw std::system_error(reason, std::generic_category(), "no process can be started");
+    }
+}
+
+Guardian::~Guardian() {
+    close(pipe_);
+    while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR)
+        continue;
+}
+
+void Guardian::tell(char word) const {
+    while (write(pipe_, &word, 1) < 0 && errno == EINTR)
+        continue;
+}
+
+} // namespace graze

@@ -1,0 +1,246 @@
+#include "program/identify_fit.hpp"
+
+#include "graze/model/parameter_file.hpp"
+#include "graze/study/figure.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "program/commands.hpp"
+#include "program/figure.hpp"
+#include "program/fit_request.hpp"
+#include "program/interrupt.hpp"
+#include "program/output_file.hpp"
+#include "program/status_line.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
+
+Table numbers_table(const Fit& fit, const FitRequest& request) {
+    Table table({{"name", ""}, {"unit", ""}, {"value", ""}, {"error", ""}, {"low", ""}, {"high", ""}, {"note", ""}});
+    for (const FittedNumber& number : fit.numbers) {
+        const Estimate& estimate = number.estimate;
+        const bool known = estimate.freedom > 0;
+        const std::string unit =
+            number.kind == FittedNumber::Kind::offset ? request.channels[number.index].unit : number.unit;
+        table.add(number.name);
+        table.add(unit);
+        table.add(estimate.value);
+        table.add(known ? estimate.error : nothing);
+        table.add(known ? estimate.value - estimate.half_width() : nothing);
+        table.add(known ? estimate.value + estimate.half_width() : nothing);
+        table.add(std::string(number.at_bound ? "at its bound" : known ? "" : "not determined"));
+    }
+    return table;
+}
+
+Table outputs_table(const Fit& fit, const FitRequest& request) {
+    Table table({{"output", ""},
+                 {"unit", ""},
+                 {"readings", ""},
+                 {"deviation", ""},
+                 {"share", ""},
+                 {"chi_square", ""},
+                 {"correlation", ""},
+                 {"outliers", ""}});
+    for (std::size_t o = 0; o < fit.outputs.size(); ++o) {
+        const FittedOutput& output = fit.outputs[o];
+        table.add(output.name);
+        table.add(request.channels[o].unit);
+        table.add(static_cast<double>(output.readings));
+        table.add(output.deviation);
+        table.add(output.share);
+        table.add(request.task.outputs[o].noise > 0 ? output.chi_square : nothing);
+        table.add(output.correlation);
+        table.add(static_cast<double>(output.outliers));
+    }
+    return table;
+}
+
+Table correlations_table(const Fit& fit) {
+    std::vector<Table::Column> columns{{"name", ""}};
+    for (const FittedNumber& number : fit.numbers)
+        columns.push_back({number.name, ""});
+    Table table(columns);
+    for (std::size_t i = 0; i < fit.numbers.size(); ++i) {
+        table.add(fit.numbers[i].name);
+        for (std::size_t j = 0; j < fit.numbers.size(); ++j) {
+            const bool known = fit.numbers[i].estimate.freedom > 0 && fit.numbers[j].estimate.freedom > 0;
+            table.add(known ? fit.correlations[i * fit.numbers.size() + j] : nothing);
+        }
+    }
+    return table;
+}
+
+Table readings_table(const Fit& fit, const FitRequest& request) {
+    std::vector<Table::Column> columns{{"record", ""}, {request.time.name, request.time.unit}};
+    for (const Channel& channel : request.channels) {
+        columns.push_back({channel.name, channel.unit});
+        columns.push_back({channel.name + "_fitted", channel.unit});
+    }
+    Table table(columns);
+    for (std::size_t r = 0; r < request.task.records.size(); ++r) {
+        const FitRecord& record = request.task.records[r];
+        for (std::size_t i = 0; i < record.times.size(); ++i) {
+            table.add(static_cast<double>(r + 1));
+            table.add(record.times[i]);
+            for (std::size_t o = 0; o < request.channels.size(); ++o) {
+                double read = nothing, fitted = nothing;
+                for (std::size_t c = 0; c < record.readings.size(); ++c)
+                    if (record.readings[c].output == o) {
+                        read = record.readings[c].values[i];
+                        fitted = fit.records[r].fitted[c][i];
+                    }
+                table.add(read);
+                table.add(fitted);
+            }
+        }
+    }
+    return table;
+}
+
+/// What was read and what was fitted, over time, and below what is left: two panels for each output.
+Figure fit_figure(const Fit& fit, const FitRequest& request) {
+    using Style = FigureSeries::Style;
+    Figure figure;
+    for (std::size_t o = 0; o < request.channels.size(); ++o) {
+        FigurePanel panel, rest;
+        for (FigurePanel* one : {&panel, &rest}) {
+            one->x_label = request.time.name;
+            one->x_unit = request.time.unit;
+            one->y_unit = request.channels[o].unit;
+            one->roomy_x = one->roomy_y = true;
+        }
+        panel.y_label = request.channels[o].name;
+        rest.y_label = request.channels[o].name + ": fitted less measured";
+        FigureSeries read{"measured", Style::dots, 0, {}}, fitted{"fitted", Style::line, 1, {}},
+            left{"", Style::dots, 0, {}};
+        for (std::size_t r = 0; r < request.task.records.size(); ++r) {
+            const FitRecord& record = request.task.records[r];
+            for (std::size_t c = 0; c < record.readings.size(); ++c) {
+                if (record.readings[c].output != o)
+                    continue;
+                for (std::size_t i = 0; i < record.times.size(); ++i) {
+                    const double t = record.times[i], y = record.readings[c].values[i], f = fit.records[r].fitted[c][i];
+                    read.points.push_back({t, y});
+                    fitted.points.push_back({t, f});
+                    left.points.push_back({t, f - y});
+                }
+                fitted.points.push_back({nothing, nothing});
+            }
+        }
+        panel.series = {std::move(read), std::move(fitted)};
+        rest.series = {std::move(left)};
+        figure.panels.push_back(std::move(panel));
+        figure.panels.push_back(std::move(rest));
+    }
+    return figure;
+}
+
+ParameterFile parameter_file(const Fit& fit, const FitRequest& request) {
+    ParameterFile file;
+    file.model = request.model.name;
+    file.text = fmt::format("graze identify fit, {} from {} readings of {}", name_of(fit.ending), fit.readings,
+                            fmt::join(request.files, ", "));
+    const std::vector<std::string> names = request.model.independent_parameters();
+    for (const FittedNumber& number : fit.numbers) {
+        if (number.kind != FittedNumber::Kind::parameter)
+            continue;
+        file.set.emplace_back(number.name, number.estimate.value);
+        if (number.estimate.freedom > 0)
+            file.errors.emplace_back(number.name, number.estimate.error);
+    }
+    for (std::size_t i = 0; i < request.model.states.size(); ++i)
+        file.from.emplace_back(request.model.states[i].name, fit.records.front().start[i]);
+    return file;
+}
+
+/// What makes one doubt the errors, or the model.
+void warn(const Fit& fit, const Console& console) {
+    const auto say = [&](const std::string& text) { console.err << "graze: warning: " << text << '\n'; };
+    for (const FreeCombination& free : fit.free)
+        say(fmt::format("readings do not tell {}", free.text));
+    std::size_t misplaced = 0;
+    for (const FittedRecord& record : fit.records)
+        misplaced += record.misplaced;
+    if (misplaced > 0)
+        say(fmt::format("at {} times readings were on the other side of a contact", misplaced));
+    for (const FittedOutput& output : fit.outputs) {
+        if (!output.independent && output.share < 1 - 1e-15)
+            say(fmt::format("what is left of '{}' is no noise (neighbours have a correlation of {:.2g}): the model "
+                            "misses something, and errors are larger than told",
+                            output.name, output.correlation));
+        constexpr double deviations = 5;
+        if (output.chi_square > 1 + deviations * std::sqrt(2 / static_cast<double>(output.readings)))
+            say(fmt::format("what is left of '{}' is {:.3g} times as large as its noise", output.name,
+                            std::sqrt(output.chi_square)));
+    }
+}
+
+Fit run_fit(const FitRequest& request, const Console& console) {
+    const InterruptGuard guard;
+    StatusLine line(console, console.terminal);
+    FitSettings settings = request.settings;
+    settings.progress = [&](const FitProgress& progress) {
+        if (line.wanted() && line.is_due())
+            line.show(fmt::format("stage {} of {}, iteration {}: {:.3g} of the range is left", progress.stage + 1,
+                                  progress.stages, progress.iteration, progress.misfit));
+        return !InterruptGuard::requested();
+    };
+    return fit_model(request.model, request.task, settings);
+}
+
+} // namespace
+
+int identify_fit(const IdentifyArguments& arguments, const Console& console) {
+    const FitRequest request = fit_request(arguments);
+    std::vector<NamedFile> files{{"--save", arguments.save},
+                                 {"--output", arguments.reading.output.file},
+                                 {"--plot", arguments.reading.plot},
+                                 {"--data", arguments.reading.data}};
+    for (const std::string& file : request.files)
+        files.push_back({"a record", file});
+    require_distinct(files);
+    if (!arguments.save.empty())
+        require_writable(arguments.save);
+    const Fit fit = run_fit(request, console);
+    if (fit.ending == FitEnding::interrupted) {
+        console.err << "graze: interrupted: the fit had not converged, and nothing is written\n";
+        return InterruptGuard::exit_code();
+    }
+    JsonObject heading;
+    heading.add("graze", GRAZE_VERSION);
+    heading.add("what", arguments.what);
+    heading.add("model", request.model.name);
+    heading.add("table", arguments.table);
+    heading.add("ending", std::string(name_of(fit.ending)));
+    heading.add("readings", static_cast<double>(fit.readings));
+    heading.add("freedom", fit.freedom);
+    heading.add("iterations", static_cast<double>(fit.iterations));
+    heading.add("pieces", static_cast<double>(fit.pieces));
+    heading.add("condition", fit.condition);
+    heading.add("probability", 0.95);
+    const Table table = arguments.table == "outputs"        ? outputs_table(fit, request)
+                        : arguments.table == "correlations" ? correlations_table(fit)
+                        : arguments.table == "readings"     ? readings_table(fit, request)
+                                                            : numbers_table(fit, request);
+    if (!arguments.reading.plot.empty())
+        draw_figure(fit_figure(fit, request), arguments.reading.plot, arguments.reading.data);
+    deliver(table, arguments.reading.output, heading, console);
+    const bool usable = fit.ending == FitEnding::converged;
+    if (!arguments.save.empty() && usable)
+        write_file(arguments.save, write_parameter_file(parameter_file(fit, request)));
+    warn(fit, console);
+    if (!usable)
+        console.err << fmt::format("graze: {}: {}{}\n", name_of(fit.ending), fit.detail,
+                                   arguments.save.empty() ? "" : "; nothing is saved");
+    return usable ? exit_success : exit_irregular;
+}
+
+} // namespace graze

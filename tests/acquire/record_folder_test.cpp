@@ -1,0 +1,124 @@
+#include "graze/acquire/record_folder.hpp"
+
+#include "acquire/bench_experiment.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace graze {
+namespace {
+
+using testing::contents;
+using testing::experiment_text;
+using testing::files_of;
+using testing::Folder;
+using ::testing::HasSubstr;
+
+const RecordHeader header{{"t", "s"}, {{"x", ""}}};
+
+/// Writes a record, up to where it would count.
+void write(RecordFolder& records, const Level& level) {
+    const auto writer = records.begin(level, header);
+    writer->write({{0, 1}, {{2, static_cast<double>(level.number)}}});
+    writer->close();
+}
+
+void commit(RecordFolder& records, const Level& level) {
+    write(records, level);
+    RecordEntry entry;
+    entry.level = level;
+    entry.samples = 2;
+    records.commit(entry);
+}
+
+std::string message(const std::string& path, const Experiment& experiment) {
+    try {
+        const RecordFolder records(path, experiment, 0);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST(RecordFolder, KnowsWhatItHas) {
+    const Folder folder;
+    const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
+    {
+        RecordFolder records(folder / "a/b", experiment, 0);
+        commit(records, experiment.levels[0]);
+        write(records, experiment.levels[1]); // which never counts
+    }
+    RecordFolder records(folder / "a/b", experiment, 0);
+    EXPECT_TRUE(records.has(experiment.levels[0]));
+    EXPECT_FALSE(records.has(experiment.levels[1]));
+    EXPECT_EQ(files_of(folder / "a/b").size(), 3U) << "what was begun is gone";
+    EXPECT_EQ(contents(records.path_of(experiment.levels[0])), "t [s], x\n0,2\n1,1\n");
+    EXPECT_EQ(records.entries().at(1).bytes, 17U);
+}
+
+TEST(RecordFolder, GivesARecordItsNameThatTheListHasAlready) {
+    const Folder folder;
+    const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
+    const std::string name = experiment.record_name(experiment.levels[0]);
+    {
+        RecordFolder records(folder / "r", experiment, 0);
+        commit(records, experiment.levels[0]);
+        commit(records, experiment.levels[1]);
+    }
+    // As it is when the power goes between the two.
+    std::filesystem::rename(folder / ("r/" + name), folder / ("r/.part." + name));
+    { EXPECT_TRUE(RecordFolder(folder / "r", experiment, 0).has(experiment.levels[0])); }
+    EXPECT_EQ(contents(folder / ("r/" + name)), "t [s], x\n0,2\n1,1\n");
+    // One that was cut short does not count.
+    std::filesystem::resize_file(folder / ("r/" + name), 5);
+    EXPECT_THAT(message(folder / "r", experiment), "");
+    { EXPECT_FALSE(RecordFolder(folder / "r", experiment, 0).has(experiment.levels[0])); }
+    EXPECT_THAT(contents(folder / "r/manifest.txt"), HasSubstr("\n2,0002"));
+}
+
+TEST(RecordFolder, BelongsToOneExperimentAndOneProcess) {
+    const Folder folder;
+    const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
+    RecordFolder records(folder / "r", experiment, 0);
+    EXPECT_THAT(message(folder / "r", experiment), HasSubstr("another experiment is recorded into this folder"));
+    std::string text = experiment_text();
+    text.replace(text.find("rate = 500"), 10, "rate = 250");
+    const Experiment other = parse_experiment(text, "e.toml");
+    RecordFolder(folder / "other", other, 0);
+    EXPECT_THAT(message(folder / "other", experiment),
+                HasSubstr("the folder has records of other settings: 'rate 250' there, 'rate 500' here"));
+    EXPECT_NE(records.identity(), RecordFolder(folder / "third", experiment, 0).identity());
+}
+
+TEST(RecordFolder, FollowsNoLinksAndReplacesNothing) {
+    const Folder folder;
+    const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
+    std::ofstream(folder / "mine") << "mine";
+    std::filesystem::create_directory(folder / "r");
+    const std::string name = experiment.record_name(experiment.levels[0]);
+    for (const std::string& link : {".part." + name, std::string(".part.manifest.txt")})
+        std::filesystem::create_symlink(folder / "mine", folder / ("r/" + link));
+    RecordFolder records(folder / "r", experiment, 0);
+    commit(records, experiment.levels[0]);
+    EXPECT_EQ(contents(folder / "mine"), "mine");
+    std::ofstream(records.path_of(experiment.levels[1])) << "somebody's";
+    EXPECT_THROW(records.begin(experiment.levels[1], header), InputError);
+    EXPECT_EQ(contents(records.path_of(experiment.levels[1])), "somebody's");
+}
+
+TEST(RecordFolder, RefusesAListThatIsNone) {
+    const Folder folder;
+    const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
+    { RecordFolder records(folder / "r", experiment, 0); }
+    for (const char* line :
+         {"x", "1,../../x,1,1,1,1,1,1,1,1", "99,0099_f6100mHz_a9400mV_up.csv,1,1,1,1,1,1,1,1", ",,,,,,,,,"}) {
+        std::ofstream(folder / "r/manifest.txt") << "heading\n" << line << "\n";
+        EXPECT_THAT(message(folder / "r", experiment), HasSubstr("manifest.txt:2:1: this is no line of a list"))
+            << line;
+    }
+    EXPECT_THAT(message("/dev/null/x", experiment), HasSubstr("it cannot be opened as a folder"));
+}
+
+} // namespace graze

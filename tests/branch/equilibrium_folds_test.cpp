@@ -1,0 +1,84 @@
+// Folds of equilibria, given as orbits of a clock that turns beside them. Their velocities are nought, and at the fold
+// displacements do not act on them: nothing but what they do to displacements says how large a velocity is.
+
+#include "maps.hpp"
+
+#include "graze/branch/located_value.hpp"
+#include "graze/model/model_file.hpp"
+#include "graze/orbit/solve.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace graze {
+namespace {
+
+using namespace testing;
+
+/// A plate on a spring that is attracted through a gap: it is pulled in at V^2 = 4 k d^3/27.
+Model plate(double gap, double stiffness, double time) {
+    return parse_model(fmt::format(R"(
+[parameters]
+V = {:.17g}
+k = {:.17g}
+d = {:.17g}
+c = {:.17g}
+[states]
+q = 0
+v = 0
+theta = {{ initial = 0, period = "2*pi" }}
+[modes.free.rates]
+q = "v"
+v = "-c*v - k*q + V^2/(d - q)^2"
+theta = "{:.17g}"
+[sections.phase0]
+state = "theta"
+value = 0
+)",
+                                   0.1 * std::sqrt(stiffness * std::pow(gap, 3)), stiffness, gap, 0.3 / time, 1 / time),
+                       "plate.toml");
+}
+
+} // namespace
+
+TEST(EquilibriumFolds, AreFollowedInTwoParametersInAnyUnits) {
+    for (const double gap : {1.0, 1e-9, 1e6})
+        for (const double time : {1.0, 1e-6}) {
+            const double stiffness = 1 / (time * time);
+            const Model model = plate(gap, stiffness, time);
+            AttractorOptions settle;
+            settle.section = "phase0";
+            settle.cycles = 1000;
+            const OrbitSolution rest = find_orbit(System(model), settle);
+            ASSERT_EQ(rest.outcome, OrbitOutcome::converged) << rest.detail;
+            const auto pulled_in = [&](double k) { return std::sqrt(4 * k * std::pow(gap, 3) / 27); };
+            BranchSettings settings;
+            settings.parameter = model.independent_parameter("V");
+            settings.greatest = 2 * pulled_in(stiffness);
+            settings.stop_at = {PointType::fold};
+            const Branch branch = follow_branch(model, rest.orbit, settings);
+            const auto folds = of_type(branch, PointType::fold);
+            ASSERT_EQ(folds.size(), 1U) << branch.detail;
+            EXPECT_NEAR(folds[0].parameter / pulled_in(stiffness), 1, 1e-10);
+            BranchSettings along;
+            along.parameter = model.independent_parameter("k");
+            along.least = 0.5 * stiffness;
+            along.greatest = 2 * stiffness;
+            const Branch curve = curve_of(model, folds[0], along, "V", 0, 4 * pulled_in(stiffness), 1);
+            EXPECT_EQ(curve.outcome, BranchOutcome::bound) << gap << ", " << time << ": " << curve.detail;
+            for (const BranchPoint& point : curve.points)
+                EXPECT_NEAR(value_of(model, point.solution, "V") / pulled_in(point.parameter), 1, 1e-9);
+            // The exact derivatives, too: V goes with the root of k and the power 3/2 of d, and does not depend on c.
+            const LocatedValue located(
+                model, folds[0], settings.parameter,
+                {model.independent_parameter("k"), model.independent_parameter("d"), model.independent_parameter("c")});
+            const double value = pulled_in(stiffness);
+            EXPECT_NEAR(located.derivatives()[0] * stiffness / value, 0.5, 1e-8);
+            EXPECT_NEAR(located.derivatives()[1] * gap / value, 1.5, 1e-8);
+            EXPECT_NEAR(located.derivatives()[2] * (0.3 / time) / value, 0, 1e-8);
+        }
+}
+
+} // namespace graze

@@ -1,0 +1,197 @@
+#include "graze/identify/fit.hpp"
+
+#include "graze/model/model_file.hpp"
+#include "identify/recorded_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace graze::testing {
+
+namespace {
+
+/// A damped oscillator that hits a wall: quick, and through three impacts.
+RecordedMotion wall_motion(std::size_t readings = 120) {
+    const Model model = parse_model(R"(
+name = "wall"
+[parameters]
+c = 0.1
+k = 4
+wall = 0.5
+e = 0.7
+[states]
+x = { initial = -2 }
+v = { initial = 0 }
+[modes.swing]
+rates = { x = "v", v = "-k*x - c*v" }
+watch = ["hit"]
+[events.hit]
+function = "wall - x"
+[jumps.bounce]
+v = "-e*v"
+[[transitions]]
+mode = "swing"
+event = "hit"
+jump = "bounce"
+next = "swing"
+)",
+                                    "wall.toml");
+    RecordedMotion motion(model, {"x", "v"}, 0.013, 6.0 / static_cast<double>(readings), readings);
+    for (const char* name : {"c", "k", "wall", "e"})
+        motion.forget(name, 1.02);
+    motion.forget_states();
+    return motion;
+}
+
+} // namespace
+
+/// Intervals of 95 % cover the truth in 90 to 99 % of 200 experiments, of every parameter.
+TEST(FitErrorsSlow, IntervalsCoverTheTruth) {
+    const RecordedMotion exact = wall_motion();
+    ASSERT_GE(exact.contacts, 3U);
+    std::vector<std::size_t> covered(exact.task.parameters.size());
+    for (std::size_t seed = 1; seed <= experiments; ++seed) {
+        RecordedMotion motion = exact;
+        motion.add_noise(0.01, seed);
+        const Fit fit = fit_model(motion.model, motion.task);
+        EXPECT_EQ(name_of(fit.ending), "converged") << seed << ": " << fit.detail;
+        for (std::size_t j = 0; j < covered.size(); ++j) {
+            const Estimate& estimate = fit.numbers[j].estimate;
+            covered[j] += std::abs(estimate.value - motion.truth(j)) <= estimate.half_width() ? 1 : 0;
+        }
+    }
+    for (std::size_t j = 0; j < covered.size(); ++j)
+        expect_coverage(covered[j], exact.model.independent_parameters()[j].c_str());
+}
+
+/// What is left, drawn anew and added to what was fitted, scatters the estimates as their errors say (B. Efron).
+TEST(FitErrorsSlow, AreThoseOfTheBootstrap) {
+    constexpr std::size_t draws = 150;
+    RecordedMotion motion = wall_motion();
+    motion.add_noise(0.01, 11);
+    const Fit fit = fit_model(motion.model, motion.task);
+    ASSERT_EQ(name_of(fit.ending), "converged") << fit.detail;
+    std::vector<double> sums(4), squares(4);
+    Noise chance(5);
+    for (std::size_t draw = 0; draw < draws; ++draw) {
+        FitTask task = motion.task;
+        FitRecord& record = task.records[0];
+        for (std::size_t c = 0; c < record.readings.size(); ++c) {
+            const std::vector<double>&read = motion.task.records[0].readings[c].values,
+                  &fitted = fit.records[0].fitted[c];
+            for (std::size_t i = 0; i < read.size(); ++i) {
+                const auto k = static_cast<std::size_t>(chance.uniform() * static_cast<double>(read.size()));
+                record.readings[c].values[i] = fitted[i] + read[k] - fitted[k];
+            }
+        }
+        const Fit again = fit_model(motion.model, task);
+        for (std::size_t j = 0; j < sums.size(); ++j) {
+            const double change = again.numbers[j].estimate.value - fit.numbers[j].estimate.value;
+            sums[j] += change;
+            squares[j] += change * change;
+        }
+    }
+    for (std::size_t j = 0; j < sums.size(); ++j) {
+        const double mean = sums[j] / draws, deviation = std::sqrt(squares[j] / draws - mean * mean);
+        // A standard deviation of 150 draws is known to 6 %.
+        EXPECT_NEAR(deviation, fit.numbers[j].estimate.error, 0.25 * fit.numbers[j].estimate.error)
+            << fit.numbers[j].name;
+    }
+}
+
+/// Of independent readings of a constant rate the errors are known in closed form: x = x0 + r t.
+TEST(FitErrors, AreThoseOfAStraightLine) {
+    const Model model = parse_model("name = \"line\"\n[parameters]\nr = 3\n[states]\nx = { initial = 1 }\n"
+                                    "[modes.m]\nrates = { x = \"r\" }\n",
+                                    "line.toml");
+    constexpr std::size_t count = 50;
+    RecordedMotion motion(model, {"x"}, 0, 0.1, count);
+    motion.add_noise(0.02, 3);
+    motion.forget("r", 0.5);
+    motion.forget_states();
+    const Fit fit = fit_model(motion.model, motion.task);
+    ASSERT_EQ(name_of(fit.ending), "converged") << fit.detail;
+    const FitRecord& record = motion.task.records[0];
+    double t = 0, x = 0, tt = 0, tx = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        t += record.times[i] / count;
+        x += record.readings[0].values[i] / count;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        tt += (record.times[i] - t) * (record.times[i] - t);
+        tx += (record.times[i] - t) * (record.readings[0].values[i] - x);
+    }
+    const double rate = tx / tt, start = x - rate * t;
+    double left = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        left += std::pow(record.readings[0].values[i] - start - rate * record.times[i], 2);
+    const double variance = left / (count - 2);
+    // Where the sum of squares changes by 1e-15 of itself no more, estimates do by 1e-7 of their errors, some 0.01.
+    EXPECT_NEAR(fit.numbers[0].estimate.value, rate, 1e-9);
+    EXPECT_NEAR(fit.numbers[1].estimate.value, start, 1e-9);
+    EXPECT_NEAR(fit.numbers[0].estimate.error, std::sqrt(variance / tt), 1e-10);
+    EXPECT_NEAR(fit.numbers[1].estimate.error, std::sqrt(variance * (1.0 / count + t * t / tt)), 1e-10);
+    EXPECT_NEAR(fit.correlations[1], -t / std::sqrt(tt / count + t * t), 1e-9);
+    EXPECT_EQ(fit.numbers[0].estimate.freedom, count - 2);
+    EXPECT_NEAR(fit.outputs[0].deviation, std::sqrt(variance), 1e-11);
+}
+
+/// One reading in twenty is wild: squares are led astray, other losses are not.
+TEST(FitErrors, RobustLossesBearWildReadings) {
+    RecordedMotion motion = wall_motion();
+    motion.add_noise(0.005, 21);
+    Noise chance(8);
+    for (FitRecord::Readings& readings : motion.task.records[0].readings)
+        for (double& value : readings.values)
+            value += chance.uniform() < 0.05 ? 2 * (chance.uniform() - 0.3) : 0;
+    FitSettings settings;
+    const auto worst = [&](const Fit& fit) {
+        double largest = 0;
+        for (std::size_t j = 0; j < 4; ++j)
+            largest = std::max(largest, std::abs(fit.numbers[j].estimate.value / motion.truth(j) - 1));
+        return largest;
+    };
+    const double squares = worst(fit_model(motion.model, motion.task, settings));
+    for (const FitLoss loss : {FitLoss::huber, FitLoss::cauchy}) {
+        settings.loss = loss;
+        const Fit fit = fit_model(motion.model, motion.task, settings);
+        EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
+        EXPECT_LT(worst(fit), 0.5 * squares);
+        for (std::size_t j = 0; j < 4; ++j)
+            EXPECT_LE(std::abs(fit.numbers[j].estimate.value - motion.truth(j)), 4 * fit.numbers[j].estimate.error)
+                << fit.numbers[j].name;
+    }
+}
+
+TEST(FitErrors, BoundsHold) {
+    RecordedMotion motion = wall_motion();
+    motion.add_noise(0.005, 2);
+    motion.task.parameters[3].greatest = 0.6; // the truth is 0.7
+    motion.task.parameters[3].guess = 0.55;
+    const Fit fit = fit_model(motion.model, motion.task);
+    EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
+    EXPECT_TRUE(fit.numbers[3].at_bound);
+    EXPECT_NEAR(fit.numbers[3].estimate.value, 0.6, 1e-9);
+    EXPECT_EQ(fit.numbers[3].estimate.freedom, 0);
+    EXPECT_FALSE(fit.outputs[1].independent) << "what is left tells that the model misses something";
+}
+
+/// Chaotic motion with noise: each parameter within four of its errors.
+TEST(FitErrorsSlow, ChaosBearsNoise) {
+    RecordedMotion motion(load_model("electromagnetic-testbed"), {"q", "v", "I"}, 4, 0.002, 1000);
+    for (const char* name : {"V0", "zeta", "e", "R"})
+        motion.forget(name, 1.05);
+    motion.forget_states();
+    motion.add_noise(0.01, 4);
+    const Fit fit = fit_model(motion.model, motion.task);
+    EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
+    for (std::size_t j = 0; j < 4; ++j)
+        EXPECT_LE(std::abs(fit.numbers[j].estimate.value - motion.truth(j)), 4 * fit.numbers[j].estimate.error)
+            << fit.numbers[j].name;
+}
+
+} // namespace graze::testing

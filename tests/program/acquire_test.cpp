@@ -1,0 +1,253 @@
+#include "graze/acquire/serial_line.hpp"
+#include "run_graze.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <map>
+#include <random>
+#include <sys/file.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace graze::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// The program in a process of its own, which ends with the test.
+class Process {
+public:
+    /// @param log for what it prints; @param most bytes of a file that it may write; 0: any
+    Process(const std::string& line, std::string log, rlim_t most = 0) : log_(std::move(log)) {
+        std::vector<std::string> words = split(GRAZE_PROGRAM " " + line, ' ');
+        std::vector<char*> arguments;
+        for (std::string& word : words)
+            arguments.push_back(word.data());
+        arguments.push_back(nullptr);
+        process_ = fork();
+        if (process_ != 0)
+            return;
+        const int file = open(log_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+        dup2(file, STDOUT_FILENO);
+        dup2(file, STDERR_FILENO);
+        if (most > 0) {
+            const rlimit limit{most, most};
+            setrlimit(RLIMIT_FSIZE, &limit);
+            std::signal(SIGXFSZ, SIG_IGN); // so that writing fails as on a full disk
+        }
+        execv(arguments[0], arguments.data());
+        _exit(127);
+    }
+    ~Process() {
+        signal(SIGKILL);
+        wait();
+    }
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+
+    void signal(int number) const {
+        if (process_ > 0)
+            kill(process_, number);
+    }
+    /// The exit status, 128 and the signal where one has ended it.
+    int wait() {
+        int status = 0;
+        if (process_ <= 0)
+            return -1;
+        waitpid(process_, &status, 0);
+        process_ = -1;
+        return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+    }
+    std::string printed() const { return contents(log_); }
+
+private:
+    std::string log_;
+    pid_t process_ = -1;
+};
+
+/// A bench of the testbed that serves in a process of its own, and an experiment with it.
+class Experiment {
+public:
+    explicit Experiment(const std::string& options = "", const std::string& steps = "0.1")
+        : bench_("bench electromagnetic-testbed --port " + port() +
+                     " --on-demand --channel V=voltage:V --channel v --noise v=0.002 --range v=1" + options,
+                 folder_ / "bench.txt") {
+        for (int i = 0; i < 1000 && bench_.printed().find("samples ") == std::string::npos; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        const std::string said = bench_.printed();
+        const std::size_t at = said.find("samples ") + 8;
+        std::ofstream(folder_ / "sweep.toml")
+            << "name = \"sweep\"\n[generator]\nport = \"" << port()
+            << "\"\ntimeout = 0.5\nidentity = \"33120A\"\n[limits]\namplitude = 10\nsafe = 0.1\n[samples]\ndevice = \""
+            << said.substr(at, said.find('\n', at) - at)
+            << "\"\nrate = 1000\n[sweep]\nfrequency = 6.1\namplitude = { from = 9.5, to = 10, step = " << steps
+            << ", back = true }\n[settle]\ntime = 0.1\n[record]\ntime = 2\n";
+    }
+    std::string port() const { return folder_ / "generator"; }
+    std::string path(const std::string& name) const { return folder_ / name; }
+    std::string command(const std::string& records) const {
+        return "acquire " + path("sweep.toml") + " --output " + path(records);
+    }
+    /// What the generator gives, when nobody works with the records any more.
+    double amplitude(const std::string& records) const {
+        if (const int lock = open(path(records).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); lock >= 0) {
+            flock(lock, LOCK_EX);
+            close(lock);
+        }
+        SerialSettings settings;
+        settings.port = port();
+        const auto line = open_serial_line(settings);
+        line->discard();
+        line->send("VOLT?");
+        return std::strtod(line->receive(2).value_or("99").c_str(), nullptr);
+    }
+    std::map<std::string, std::string> files(const std::string& records) const {
+        std::map<std::string, std::string> result;
+        for (const auto& entry : std::filesystem::directory_iterator(path(records)))
+            result[entry.path().filename().string()] = contents(entry.path());
+        return result;
+    }
+
+private:
+    Folder folder_;
+    Process bench_;
+};
+
+bool same(const std::map<std::string, std::string>& one, const std::map<std::string, std::string>& other) {
+    for (const auto& [name, text] : one)
+        if (const auto found = other.find(name); found == other.end() || found->second != text) {
+            ADD_FAILURE() << name << " differs";
+            return false;
+        }
+    return one.size() == other.size();
+}
+
+/// Kills the program at random moments, until it has come to its end. @return how many times
+int killed(const Experiment& experiment, const std::string& records, unsigned seed, int longest, int at_most) {
+    std::mt19937 random(seed);
+    for (int times = 0;; ++times) {
+        Process process(experiment.command(records), experiment.path("said.txt"));
+        const int signal = times % 2 == 0 ? SIGKILL : SIGTERM;
+        if (times < at_most) {
+            std::this_thread::sleep_for(std::chrono::microseconds(random() % static_cast<unsigned>(longest)));
+            process.signal(signal);
+        }
+        const int code = process.wait();
+        EXPECT_LE(experiment.amplitude(records), 0.1) << process.printed();
+        if (code == 0)
+            return times;
+        if (times >= at_most) {
+            ADD_FAILURE() << code << process.printed();
+            return times;
+        }
+        EXPECT_EQ(code, 128 + signal) << process.printed();
+    }
+}
+
+} // namespace
+
+TEST(Acquire, CarriesOutAnExperimentAndIsDoneTheSecondTime) {
+    const Experiment experiment;
+    Process first(experiment.command("records"), experiment.path("said.txt"));
+    EXPECT_EQ(first.wait(), 0);
+    EXPECT_EQ(first.printed(), experiment.path("records") + ": 12 of 12 records\n");
+    EXPECT_EQ(experiment.files("records").size(), 14U);
+    EXPECT_EQ(experiment.amplitude("records"), 0.1);
+    const Printed again = run_graze(experiment.command("records"));
+    EXPECT_EQ(again.code, 0) << again.err;
+    const Printed sections = run_graze("record " + experiment.path("records/0003_f6100mHz_a9700mV_up.csv") +
+                                       " --what sections --reference V --channel v --format csv");
+    EXPECT_EQ(sections.code, 0) << sections.err;
+    EXPECT_EQ(Csv(sections.out).rows.size(), 11U); // 2 s at 6.1 Hz
+}
+
+TEST(Acquire, GoesOnAfterItHasBeenKilledWithTheSameRecords) {
+    const Experiment experiment;
+    Process whole(experiment.command("whole"), experiment.path("said.txt"));
+    ASSERT_EQ(whole.wait(), 0) << whole.printed();
+    const Experiment another;
+    EXPECT_GT(killed(another, "parts", 3, 150'000, 6), 2);
+    const auto parts = another.files("parts");
+    EXPECT_TRUE(same(experiment.files("whole"), parts));
+}
+
+TEST(AcquireSlow, GoesOnAfterFiftyKillsWithTheSameRecords) {
+    const std::string fine = "0.005"; // some two hundred records
+    const Experiment experiment("", fine);
+    Process whole(experiment.command("whole"), experiment.path("said.txt"));
+    ASSERT_EQ(whole.wait(), 0) << whole.printed();
+    for (const unsigned seed : {1U, 2U}) {
+        const Experiment another("", fine);
+        EXPECT_EQ(killed(another, "parts", seed, 100'000, 50), 50) << "it was done before";
+        EXPECT_TRUE(same(experiment.files("whole"), another.files("parts")));
+    }
+}
+
+TEST(Acquire, KeepsWhatItHasWhenTheDiskIsFull) {
+    const Experiment experiment;
+    // The list of records grows beyond what a file may have only later than a record does.
+    Process full(experiment.command("records"), experiment.path("said.txt"), 60'000);
+    EXPECT_EQ(full.wait(), 2);
+    EXPECT_EQ(experiment.amplitude("records"), 0.1);
+    EXPECT_EQ(experiment.files("records").count("0001_f6100mHz_a9500mV_up.csv"), 0U);
+    const std::string said = contents(experiment.path("said.txt"));
+    EXPECT_THAT(said, HasSubstr("the record cannot be written; look at the permissions of the folder and the room"));
+    Process roomy(experiment.command("records"), experiment.path("said.txt"));
+    EXPECT_EQ(roomy.wait(), 0) << roomy.printed();
+    EXPECT_EQ(experiment.files("records").size(), 14U);
+}
+
+TEST(Acquire, TellsAGeneratorThatGivesLess) {
+    const Experiment experiment(" --clip 9.7");
+    const Printed clipped = run_graze(experiment.command("records"));
+    EXPECT_EQ(clipped.code, 3);
+    EXPECT_THAT(clipped.err, HasSubstr("clipped: the generator gives an amplitude of 9.7 V instead of 9.8 V"));
+    EXPECT_EQ(clipped.out, experiment.path("records") + ": 3 of 12 records\n");
+    EXPECT_EQ(experiment.amplitude("records"), 0.1);
+}
+
+TEST(Acquire, SaysWhatIsNotThere) {
+    const Folder folder;
+    std::ofstream(folder / "e.toml") << "name = \"e\"\n[generator]\n[limits]\namplitude = 1\nsafe = 0.1\n[samples]\n"
+                                        "rate = 10\n[sweep]\nfrequency = 1\namplitude = 0.5\n[record]\ntime = 1\n";
+    const std::string start = "acquire " + (folder / "e.toml") + " --output " + (folder / "records");
+    EXPECT_THAT(run_graze(start).err, HasSubstr("nothing says where the generator is"));
+    EXPECT_EQ(run_graze(start + " --port /nowhere").code, 2);
+    const Printed nowhere = run_graze(start + " --port /nowhere --device tcp:127.0.0.1:1");
+    EXPECT_EQ(nowhere.code, 3);
+    EXPECT_THAT(nowhere.err, HasSubstr("line-lost: serial line '/nowhere' cannot be opened"));
+    EXPECT_EQ(run_graze(start + " --dry-run").code, 0);
+    EXPECT_EQ(run_graze(start + " --port x --device nothing").code, 2);
+    EXPECT_THAT(run_graze(start + " --phase 0.5").err, HasSubstr("--phase"));
+    EXPECT_EQ(run_graze("acquire /nowhere.toml").code, 2);
+    std::ofstream(folder / "e.toml", std::ios::app) << "format = \"h5\"\n";
+    EXPECT_THAT(run_graze(start + " --port /nowhere --device tcp:127.0.0.1:1").err,
+                HasSubstr("the folder has records of other settings: 'format csv' there, 'format h5' here"));
+}
+
+TEST(Bench, SaysWhatItCannotBe) {
+    const Folder folder;
+    const std::string port = " --port " + (folder / "port");
+    for (const auto& [options, message] : std::vector<std::pair<std::string, std::string>>{
+             {"impact-oscillator" + port, "--amplitude: there is no parameter 'V0'"},
+             {"electromagnetic-testbed", "the serial line has no name; give one by --port PATH"},
+             {"electromagnetic-testbed" + port + " --noise w=1", "--noise: there is no channel 'w'"},
+             {"electromagnetic-testbed" + port + " --noise v", "--noise: 'v' gives no value"},
+             {"electromagnetic-testbed" + port + " --channel x=nothing", "unknown name 'nothing'"},
+             {"electromagnetic-testbed" + port + " --drop 2", "--drop"},
+             {"electromagnetic-testbed" + port + " --on-demand --speed 2", "--speed"},
+             {"electromagnetic-testbed" + port + " --bits 12", "--bits"},
+             {"electromagnetic-testbed --port /nowhere/port", "no serial line can be made"},
+         }) {
+        const Printed refused = run_graze("bench " + options);
+        EXPECT_EQ(refused.code, 2) << options;
+        EXPECT_THAT(refused.err, HasSubstr(message));
+    }
+    EXPECT_EQ(folder.files(), 0U);
+}
+
+} // namespace graze::testing

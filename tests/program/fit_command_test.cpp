@@ -1,0 +1,136 @@
+#include "run_graze.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace graze::testing {
+
+using ::testing::HasSubstr;
+
+namespace {
+
+constexpr double decay = 0.3, frequency = 2, displacement = 1.5;
+
+/// x'' = -2 c x' - k x from x(0) = 1.5 at rest, in closed form: records of it are right to the last digit.
+class FitCommand : public ::testing::Test {
+protected:
+    FitCommand() {
+        written("swing.toml", R"(
+name = "swing"
+time_unit = "s"
+[parameters]
+c = { value = 0.2, unit = "1/s" }
+k = { value = 3.5, unit = "1/s^2" }
+spare = 1
+[states]
+x = { initial = 1.2, unit = "m" }
+v = { initial = 0, unit = "m/s" }
+[modes.swing]
+rates = { x = "v", v = "-2*c*v - k*x" }
+[quantities]
+force = { value = "-k*x", unit = "m/s^2" }
+)");
+    }
+    std::string record(const std::string& name, double factor, const std::string& unit, int rows = 80) const {
+        std::string text = fmt::format("t [s], x [{}], other [V]\n", unit);
+        for (int i = 0; i < rows; ++i) {
+            const double t = 0.1 * i;
+            text += fmt::format("{},{},{}\n", t,
+                                factor * displacement * std::exp(-decay * t) *
+                                    (std::cos(frequency * t) + decay / frequency * std::sin(frequency * t)),
+                                i);
+        }
+        return written(name, text);
+    }
+    std::string written(const std::string& name, const std::string& text) const {
+        std::ofstream(folder / name) << text;
+        return folder / name;
+    }
+    std::string fit(const std::string& rest) const { return "identify fit " + (folder / "swing.toml") + " " + rest; }
+    const Folder folder;
+    const double stiffness = frequency * frequency + decay * decay;
+};
+
+} // namespace
+
+TEST_F(FitCommand, FindsParametersThatOtherCommandsTake) {
+    const std::string found = folder / "found.toml";
+    const Printed printed = run_graze(fit(record("a.csv", 1, "m") + " --free c,k=3:1:10 --format csv --save " + found));
+    EXPECT_EQ(printed.code, 0) << printed.err;
+    const Csv table(printed.out);
+    EXPECT_EQ(table.text(0, "name"), "c");
+    EXPECT_EQ(table.text(1, "unit"), "1/s^2");
+    EXPECT_NEAR(table.number(0, "value"), decay, 1e-9 * decay);
+    EXPECT_NEAR(table.number(1, "value"), stiffness, 1e-9 * stiffness);
+    EXPECT_EQ(table.text(2, "name"), "x(0)");
+    EXPECT_NEAR(table.number(2, "value"), displacement, 1e-9 * displacement);
+    EXPECT_LE(table.number(0, "low"), table.number(0, "value"));
+    const Printed motion = run_graze(fmt::format("simulate {} --set @{} --from @{} --time 5 --samples 2 --format csv",
+                                                 folder / "swing.toml", found, found));
+    EXPECT_EQ(motion.code, 0) << motion.err;
+    const Csv states(motion.out);
+    EXPECT_NEAR(states.number(states.rows() - 1, "x"),
+                displacement * std::exp(-decay * 5) *
+                    (std::cos(frequency * 5) + decay / frequency * std::sin(frequency * 5)),
+                1e-8);
+}
+
+TEST_F(FitCommand, ConvertsReadingsAndFindsGains) {
+    const std::string a = record("a.csv", 1000, "mm");
+    for (const char* options :
+         {"--scale x=0.001:m", "--reading x=1000*x", "--reading x=1000*x --gain x=1.2 --known x --start x=1.5"}) {
+        const Printed printed = run_graze(fit(a + " --free c,k --format csv " + options));
+        EXPECT_EQ(printed.code, 0) << options << printed.err;
+        EXPECT_NEAR(Csv(printed.out).number(1, "value"), stiffness, 1e-8 * stiffness) << options;
+    }
+    for (const char* shown : {"outputs", "correlations", "readings"})
+        EXPECT_EQ(run_graze(fit(record("b.csv", 1, "m") + " --free c,k --format json --table " + shown)).code, 0);
+}
+
+TEST_F(FitCommand, WhatIsNotDeterminedIsNoSuccess) {
+    const std::string found = folder / "found.toml";
+    const Printed printed = run_graze(fit(record("a.csv", 1, "m") + " --free c,k,spare --save " + found));
+    EXPECT_EQ(printed.code, 3);
+    EXPECT_THAT(printed.err, HasSubstr("spare (+1 %)"));
+    EXPECT_THAT(printed.out, HasSubstr("not determined"));
+    EXPECT_FALSE(std::ifstream(found).good());
+}
+
+TEST_F(FitCommand, MistakesAreOneLineWithARemedy) {
+    const std::string a = record("a.csv", 1, "m"), millimetres = record("mm.csv", 1000, "mm"),
+                      brief = record("brief.csv", 1, "m", 3), one = record("one.csv", 1, "m", 1);
+    const std::vector<std::pair<std::string, std::string>> mistakes{
+        {a, "nothing"},
+        {"--free c", "write graze identify fit MODEL RECORD"},
+        {a + " --free cc", "--free: "},
+        {a + " --free x", "--free: "},
+        {a + " --free k=20:1:10", "not within its bounds"},
+        {a + " --free k:1", "write NAME=GUESS:LEAST:GREATEST"},
+        {a + " --free c,c", "found twice"},
+        {a + " --free c --reading y=x", "--reading: the record has no channel 'y'"},
+        {a + " --free c --reading other=y", "--reading other"},
+        {a + " --free c --gain v", "--gain: 'v' is no channel that is used"},
+        {a + " --free c --known y", "--known: 'y' is not a state"},
+        {a + " --free c --deviation x=0", "write CHANNEL=VALUE"},
+        {a + " --free c --with b.csv:k=1", "is none of the records"},
+        {a + " --free c --channel x", "--channel has no effect beside WHAT fit"},
+        {millimetres + " --free c", "--scale x=FACTOR:m"},
+        {brief + " --free c,k", "3 readings cannot tell 4 numbers"},
+        {one + " --free c", "fewer than two rows"},
+        {(folder / "none.csv") + " --free c", "none.csv: the record cannot be read"},
+        {a + " --free c --save " + a, "same file"},
+    };
+    for (const auto& [rest, message] : mistakes) {
+        const Printed printed = run_graze(fit(rest));
+        EXPECT_EQ(printed.code, 2) << rest;
+        EXPECT_THAT(printed.err, HasSubstr(message)) << rest;
+        EXPECT_THAT(printed.err, HasSubstr(";")) << rest;
+        EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
+    }
+    EXPECT_EQ(run_graze("identify decrement " + a + " --free c").code, 2);
+}
+
+} // namespace graze::testing
