@@ -101,6 +101,11 @@ private:
             const std::vector<double> before = rows_.noise;
             if (report.interrupted || report.failed)
                 break;
+            // Steps that end at a bound hide what the other numbers should do.
+            FitStage bounded = stages.back();
+            bounded.held = bounded_at(rows_, point_);
+            if (!bounded.held.empty())
+                report = make(bounded, count, count + 1, fit);
             const bool merged = merge_bound(rows_, point_), switched = update_modes(rows_, point_) || merged;
             const std::vector<double> noise = noise_at(rows_, point_);
             if (!switched && is_settled(noise, before, rows_))
