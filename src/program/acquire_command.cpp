@@ -58,6 +58,9 @@ std::unique_ptr<InstrumentLine> open_device(const Experiment& experiment) {
         return open_tcp_line(address.name, address.port);
     SerialSettings settings;
     settings.port = address.name;
+    settings.baud = experiment.sample_baud;
+    settings.stop_bits = StopBits::one;
+    settings.flow = FlowControl::none;
     return open_serial_line(settings);
 }
 
