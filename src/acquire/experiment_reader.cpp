@@ -214,11 +214,13 @@ void ExperimentReader::read_limits(const TomlEntry& entry) {
 }
 
 void ExperimentReader::read_samples(const TomlEntry& entry) {
-    const Keys keys = keys_of(entry, {"device", "rate", "timeout", "channels"});
+    const Keys keys = keys_of(entry, {"device", "baud", "rate", "timeout", "channels"});
     with(keys, "device", [&](const TomlEntry& e) {
         experiment_.device = toml_.line(e);
         device_address(experiment_.device, toml_.place(*e.node));
     });
+    with(keys, "baud",
+         [&](const TomlEntry& e) { experiment_.sample_baud = static_cast<unsigned>(count(e, 50, 4'000'000)); });
     if (!keys.contains("rate"))
         throw InputError(entry.place, fmt::format("{} has no rate", entry.path), "give rate = 1000, in a second");
     experiment_.rate = number(keys.at("rate"), 1e-3, most_rate);

@@ -1,5 +1,7 @@
 #include "graze/bench/bench_service.hpp"
 
+#include "bench/descriptor.hpp"
+#include "bench/line_cutter.hpp"
 #include "bench/terminal.hpp"
 #include "graze/bench/sample_protocol.hpp"
 #include "symbolic/random_number.hpp"
@@ -27,57 +29,6 @@ namespace {
 
 constexpr std::size_t most_to_send = std::size_t{1} << 18; ///< bytes that wait for whoever reads
 constexpr std::size_t most_on_line = 4096;                 ///< a serial line loses what nobody takes
-
-/// A file of the system that is closed in time.
-class Descriptor {
-public:
-    explicit Descriptor(int file = -1) : file_(file) {}
-    ~Descriptor() { reset(); }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    int get() const { return file_; }
-    void reset(int file = -1) {
-        if (file_ >= 0)
-            close(file_);
-        file_ = file;
-    }
-
-private:
-    int file_;
-};
-
-/// Cuts what comes into lines; carriage returns and line feeds end them.
-class LineCutter {
-public:
-    explicit LineCutter(std::size_t longest) : longest_(longest) {}
-    /// @param take is given lines, and whether each was too long, in which case its end is missing
-    template <class Take>
-    void add(std::string_view text, const Take& take) {
-        for (const char letter : text) {
-            if (letter == '\n' || letter == '\r') {
-                if (!line_.empty())
-                    take(line_, too_long_);
-                line_.clear();
-                too_long_ = false;
-            } else if (line_.size() > longest_) {
-                too_long_ = true;
-            } else {
-                line_ += letter;
-            }
-        }
-    }
-    /// Whether the line that is coming is too long already.
-    bool is_too_long() const { return too_long_; }
-    void clear() {
-        line_.clear();
-        too_long_ = false;
-    }
-
-private:
-    std::size_t longest_;
-    std::string line_;
-    bool too_long_ = false;
-};
 
 void require_between(double value, double least, double most, const char* what) {
     if (!(value >= least && value <= most))

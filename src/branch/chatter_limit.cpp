@@ -84,11 +84,50 @@ class Approach {
 public:
     explicit Approach(AccumulatingOrbit orbit) : orbit_(std::move(orbit)) {}
 
+    /// The more contacts, the better the guess has to be, and the nearer the first solution is to it: where others do
+    /// not follow from the first one, it is tried with more or fewer.
     /// @param state near that in which contacts accumulate
     bool run(double guess, std::size_t contacts, const std::vector<double>& state, ChatterLimit& limit) {
+        std::size_t followed = 0;
+        for (const std::size_t number : numbers_near(contacts)) {
+            if (!orbit_.begin(guess, number, state, limit.problem))
+                return false;
+            if (!orbit_.solve())
+                continue;
+            come_near(limit);
+            followed = std::max(followed, orbit_.contacts_of_solution());
+            const auto orbit = limit.direct ? orbit_.shown(limit.gap) : std::nullopt;
+            if (!orbit)
+                continue;
+            limit.orbit = *orbit;
+            limit.orbit.parameters[orbit_.along().place()] = limit.direct->first;
+            return true;
+        }
+        limit.direct.reset();
+        limit.problem = followed == 0
+                            ? "no orbit with accumulating contacts was found"
+                            : fmt::format("an orbit with accumulating contacts was followed over {} of them before the "
+                                          "rest, which is too few to tell the limit",
+                                          followed);
+        return false;
+    }
+
+private:
+    static std::vector<std::size_t> numbers_near(std::size_t contacts) {
+        std::vector<std::size_t> numbers;
+        for (const std::size_t more : {0U, 4U, 8U, 16U, 32U, 64U, 128U})
+            numbers.push_back(std::max<std::size_t>(contacts, 4) + more);
+        for (std::size_t fewer = numbers.front() - 1; fewer > 1; --fewer)
+            numbers.push_back(fewer);
+        return numbers;
+    }
+
+    /// From a solution, with ever more contacts, as long as that tells more.
+    void come_near(ChatterLimit& limit) {
         constexpr std::size_t most_contacts = 80, fewest = 6;
-        if (!start(guess, contacts, state, limit.problem))
-            return false;
+        values_.clear();
+        noise_.clear();
+        limit.direct.reset();
         std::vector<std::pair<double, double>> estimates;
         double least = std::numeric_limits<double>::infinity();
         while (values_.size() < most_contacts && orbit_.has_solution()) {
@@ -108,35 +147,6 @@ public:
             orbit_.add_contacts(stride(limit.contacts));
             orbit_.solve();
         }
-        const auto orbit = limit.direct ? orbit_.shown(limit.gap) : std::nullopt;
-        if (!orbit) {
-            limit.direct.reset();
-            limit.problem = fmt::format("an orbit with accumulating contacts was followed over {} of them before the "
-                                        "rest, which is too few to tell the limit",
-                                        orbit_.contacts_of_solution());
-            return false;
-        }
-        limit.orbit = *orbit;
-        limit.orbit.parameters[orbit_.along().place()] = limit.direct->first;
-        return true;
-    }
-
-private:
-    /// The more contacts, the better the guess has to be, and the nearer the first solution is to it.
-    bool start(double guess, std::size_t contacts, const std::vector<double>& state, std::string& problem) {
-        std::vector<std::size_t> numbers;
-        for (const std::size_t more : {0U, 4U, 8U, 16U, 32U, 64U, 128U})
-            numbers.push_back(std::max<std::size_t>(contacts, 4) + more);
-        for (std::size_t fewer = numbers.front() - 1; fewer > 1; --fewer)
-            numbers.push_back(fewer);
-        for (const std::size_t number : numbers) {
-            if (!orbit_.begin(guess, number, state, problem))
-                return false;
-            if (orbit_.solve())
-                return true;
-        }
-        problem = "no orbit with accumulating contacts was found";
-        return false;
     }
 
     /// The last estimate, with the greatest of the last errors and how far the last estimates are apart: a small error

@@ -36,7 +36,7 @@ template <PointType Type>
 void test_degeneracy(const TestedPoint& point, std::vector<BranchTest>& tests) {
     for (const Degeneracy& one : point.degeneracies)
         if (one.type == Type)
-            tests.push_back({.type = Type, .value = one.value});
+            tests.push_back({.type = Type, .value = one.value, .noise = one.noise});
 }
 
 } // namespace graze

@@ -255,13 +255,19 @@ std::optional<double> cusp_coefficient(const OrbitEquations& equations, const Or
 }
 
 std::optional<double> torus_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    SecondVariation variation(equations);
+    const auto form = torus_form(equations, at, variation);
+    return form ? std::optional(form->real()) : std::nullopt;
+}
+
+std::optional<Complex> torus_form(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                  SecondVariation& variation) {
     const VectorXd ones = VectorXd::Ones(index(equations.layout().start_of(at.pieces.size())));
     const auto multiplier = pair_on_circle(CyclicMatrix(at.system, 1, ones, ones).multipliers());
     if (!multiplier)
         return std::nullopt;
-    SecondVariation variation(equations);
     const auto cubic = cubic_coefficient(equations, at, *multiplier, variation);
-    return cubic ? std::optional((std::conj(*multiplier) * *cubic).real() / 2) : std::nullopt;
+    return cubic ? std::optional(std::conj(*multiplier) * *cubic / 2.0) : std::nullopt;
 }
 
 std::optional<Complex> pair_on_circle(const std::vector<Complex>& multipliers) {

@@ -29,6 +29,10 @@ std::optional<double> flip_coefficient(const OrbitEquations& equations, const Or
 /// Coefficient d of the torus, |w| -> |w| (1 + d |w|^2): it is stable for d < 0 (supercritical), likewise.
 /// @param at evaluation at an orbit with two multipliers on the unit circle
 std::optional<double> torus_coefficient(const OrbitEquations& equations, const OrbitEvaluation& at);
+/// The same as the real part of w -> mu w (1 + D |w|^2), whose imaginary one says how the angle changes, with second
+/// derivatives that have been compiled before.
+std::optional<std::complex<double>> torus_form(const OrbitEquations& equations, const OrbitEvaluation& at,
+                                               SecondVariation& variation);
 
 /// What happens at a fold, w -> w + b (p - p_0) + a w^2: two orbits on one side of the parameter, of which one is
 /// stable if there is no other unstable direction, at w^2 = -b (p - p_0)/a to first order.

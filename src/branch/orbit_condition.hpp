@@ -16,6 +16,7 @@ namespace graze {
 struct Degeneracy {
     PointType type = PointType::end;
     double value = 0; ///< NaN where it has no meaning
+    double noise = 0; ///< up to which its sign says nothing, as it may be zero on whole curves
 };
 
 /// A number of an orbit as a function of the unknowns of its equations, with its exact gradient, that is zero where the

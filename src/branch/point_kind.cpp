@@ -141,6 +141,12 @@ constexpr std::array table{
                        .mark = 11},
               .test = test_degeneracy<PointType::generalised>,
               .confirm = confirm_generalised},
+    PointRule{.kind = {.type = PointType::generalised_torus,
+                       .short_name = "GT",
+                       .name = "generalised torus",
+                       .may_stop = true,
+                       .mark = 11},
+              .test = test_degeneracy<PointType::generalised_torus>},
     PointRule{
         .kind =
             {.type = PointType::resonance_1, .short_name = "R1", .name = "1:1 resonance", .may_stop = true, .mark = 6},

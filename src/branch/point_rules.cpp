@@ -115,9 +115,10 @@ void drop_parts_of_sensitivity(std::vector<SpecialPoint>& found, double length) 
     for (SpecialPoint& whole : found) {
         if (whole.type != PointType::sensitivity)
             continue;
-        for (const SpecialPoint& one : found)
-            if (is_part(one) && std::abs(one.arclength - whole.arclength) <= same_place * length)
-                whole.detail += "; " + one.detail;
+        for (const PointType type : {PointType::fold_degenerate, PointType::flip_degenerate})
+            for (const SpecialPoint& one : found)
+                if (one.type == type && std::abs(one.arclength - whole.arclength) <= same_place * length)
+                    whole.detail += "; " + one.detail;
     }
     const std::vector<SpecialPoint> all = found;
     std::erase_if(found, [&](const SpecialPoint& one) {

@@ -175,11 +175,20 @@ void TorusCondition::renew(const OrbitEquations&, const OrbitEvaluation&) {
     kept_product_ = product_;
 }
 
-std::vector<Degeneracy> TorusCondition::degeneracies(const OrbitEquations&, const OrbitEvaluation&) {
+std::vector<Degeneracy> TorusCondition::degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at) {
+    // Digits of third derivatives: where the model is conservative the real part is all round-off, which grows towards
+    // the resonances at 1 and -1, where two multipliers are one.
+    constexpr double digits = 1e-5, least_apart = 1e-6;
+    const double apart = 1 - sum_ * sum_ / 4; // the square of the imaginary part
+    const auto form = apart > least_apart ? torus_form(equations, at, variation()) : std::nullopt;
+    const Degeneracy generalised =
+        form ? Degeneracy{PointType::generalised_torus, form->real(), digits * std::abs(*form) / apart}
+             : Degeneracy{PointType::generalised_torus, std::numeric_limits<double>::quiet_NaN()};
     return {{PointType::resonance_1, sum_ - 2},
             {PointType::resonance_2, sum_ + 2},
             {PointType::resonance_3, sum_ + 1},
-            {PointType::resonance_4, sum_}};
+            {PointType::resonance_4, sum_},
+            generalised};
 }
 
 } // namespace graze

@@ -70,7 +70,7 @@ public:
     bool evaluate(const OrbitEquations& equations, const OrbitEvaluation& at) override;
     /// The pair is the one nearest to where it was here, not at a trial that has led nowhere.
     void renew(const OrbitEquations& equations, const OrbitEvaluation& at) override;
-    /// Resonances 1:1 to 1:4.
+    /// Resonances 1:1 to 1:4, and the generalised torus.
     std::vector<Degeneracy> degeneracies(const OrbitEquations& equations, const OrbitEvaluation& at) override;
 
 private:

@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/input_error.hpp"
 #include "grazing/end_watch.hpp"
+#include "grazing/pass_times.hpp"
 #include "grazing/trip_start.hpp"
 #include "orbit/certify.hpp"
 
@@ -38,9 +39,12 @@ TripTime follow(const System& system, const CycleMap& map, Beginning begin, cons
             return trip;
         }
     }
-    // The image of a touch, at the end of half of an orbit, may be one of another event.
+    // The image of a touch, at the end of half of an orbit, may be one of another event. Contacts that the orbit has
+    // anyway do not count.
+    const double period = map.half ? map.time : map.period;
     const auto counts = [&](const Contact& contact) {
-        return contact.event == map.touch.event || (map.half && !is_harmless(system, contact.transition));
+        return (contact.event == map.touch.event || (map.half && !is_harmless(system, contact.transition))) &&
+               is_at_touch(map, contact.time - early, period);
     };
     EndWatch watch(end, counts, options.interrupted);
     TripTime trip =

@@ -1,16 +1,15 @@
 #include "graze/grazing/trial.hpp"
 
-#include "flow/cyclic.hpp"
 #include "graze/grazing/map_motion.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/trajectory/trajectory.hpp"
+#include "grazing/pass_times.hpp"
 #include "orbit/newton.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace graze {
 
@@ -55,16 +54,7 @@ public:
     double depth() const { return depth_; }
 
 private:
-    bool is_new(double time) const {
-        const double phase = within_period(time - start_, map_.period);
-        const auto distance = [&](const std::vector<double>& times) {
-            double least = std::numeric_limits<double>::infinity();
-            for (const double one : times)
-                least = std::min(least, std::abs(without_turns(phase - one, map_.period)));
-            return least;
-        };
-        return distance(map_.touch_times) < distance(map_.contact_times);
-    }
+    bool is_new(double time) const { return is_at_touch(map_, time - start_, map_.period); }
 
     const System& system_;
     const CycleMap& map_;

@@ -52,8 +52,8 @@ namespace {
 class Passes {
 public:
     Passes(const CycleMap& map, double overshoot, std::span<const double> disturbance)
-        : acceleration_(map.contact.acceleration), overshoot_(overshoot),
-          unit_(disturbance.empty() ? std::abs(overshoot) : 1) {
+        : slides_(map.contact.order == MapOrder::linear), acceleration_(map.contact.acceleration),
+          overshoot_(overshoot), unit_(disturbance.empty() ? std::abs(overshoot) : 1) {
         const Eigen::Index n = index(map.active.size());
         matrix_.resize(n, n);
         for (Eigen::Index i = 0; i < n; ++i)
@@ -79,7 +79,9 @@ public:
         before_ = state_ * unit_;
         speed_before_ = speed_;
         if (speed_ > 0) {
-            state_ = (state_ * unit_ + impact_ * speed_).eval();
+            // What slides gains by the depth.
+            const double gained = slides_ ? speed_ * speed_ / (2 * acceleration_) : speed_;
+            state_ = (state_ * unit_ + impact_ * gained).eval();
             unit_ = 1;
             clearance_ = rate_ * overshoot_;
         }
@@ -135,6 +137,7 @@ private:
         return speed_ > 0;
     }
 
+    bool slides_;
     double acceleration_, overshoot_, unit_, rate_ = 0, clearance_ = 0, speed_ = 0, speed_before_ = 0, cycle_ = 0;
     Eigen::MatrixXd matrix_;
     Eigen::VectorXd impact_, gradient_, state_, before_;
@@ -182,10 +185,8 @@ TouchMeeting meeting_of(const CycleMap& map, double overshoot, std::span<const d
 constexpr double trusted_share = 0.1;
 
 double level_of_map(const CycleMap& map, const Verdict& verdict) {
-    if (verdict.outcome == GrazingOutcome::lost && map.contact.order == MapOrder::linear)
-        throw InputError("the times of trips are those of rigid contacts, and here the motion slides",
-                         "simulate it instead, with the parameter beyond the touch");
-    if (verdict.outcome != GrazingOutcome::lost || !verdict.reach)
+    const bool slides = map.contact.order == MapOrder::linear;
+    if (verdict.outcome != GrazingOutcome::lost || (!verdict.reach && !slides))
         throw InputError(fmt::format("the verdict is {}{}: there is no trip", name_of(verdict.outcome),
                                      verdict.reason.empty() ? "" : " (" + verdict.reason + ")"),
                          "choose a grazing at which the motion is lost");
@@ -193,7 +194,8 @@ double level_of_map(const CycleMap& map, const Verdict& verdict) {
     const TouchState& touch = map.contact.touch;
     for (std::size_t i = 0; i < touch.state.size(); ++i)
         size += std::abs(map.contact.gradient[i]) * touch.scales[i];
-    return trusted_share * std::min(*verdict.reach, std::sqrt(2 * map.contact.acceleration * size));
+    const double fastest = std::sqrt(2 * map.contact.acceleration * size);
+    return trusted_share * (slides ? fastest : std::min(*verdict.reach, fastest));
 }
 
 PredictedTrip predicted_trip(const CycleMap& map, const Verdict& verdict, double overshoot,

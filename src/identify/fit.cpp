@@ -14,7 +14,9 @@ namespace graze {
 
 namespace {
 
-constexpr double last_joint = 1e5;
+/// Gaps are then some millionth of what readings are off; the larger it is, the shorter steps have to be along the
+/// curved set of motions that join.
+constexpr double last_joint = 3e3;
 
 /// Pieces join more and more.
 std::vector<FitStage> stages_of(const FitRows& rows, const FitSettings& settings) {
@@ -27,10 +29,10 @@ std::vector<FitStage> stages_of(const FitRows& rows, const FitSettings& settings
     if (!joined)
         return {last};
     std::vector<FitStage> stages;
-    for (const double joint : {1.0, 30.0, 1e3}) {
+    for (const double joint : {1.0, 30.0, 100.0, 300.0, 1e3}) {
         FitStage stage;
         stage.joint = joint;
-        stage.tolerance = 1e-6;
+        stage.tolerance = 1e-8;
         stage.most_iterations = std::min(few, settings.most_iterations);
         stages.push_back(stage);
     }
@@ -65,6 +67,7 @@ public:
             const std::vector<double> noise = rows_.noise;
             const FitPoint point = point_;
             const double before = squares_at(rows_, point_);
+            cut_anew(round);
             report = pass(fit);
             if (const double after = squares_at(rows_, point_); after < better * before)
                 continue;
@@ -84,7 +87,9 @@ private:
         const int count = static_cast<int>(stages.size());
         StageReport report = begin(fit);
         for (int s = 0; s + 1 < count && !report.interrupted; ++s) {
-            report = make(stages[static_cast<std::size_t>(s)], s + 1, count + 1, fit);
+            FitStage stage = stages[static_cast<std::size_t>(s)];
+            stage.prior = s == 0 ? prior() : 0;
+            report = make(stage, s + 1, count + 1, fit);
             merge_bound(rows_, point_);
             update_modes(rows_, point_);
             if (!report.interrupted)
@@ -97,6 +102,11 @@ private:
             const std::vector<double> before = rows_.noise;
             if (report.interrupted || report.failed)
                 break;
+            // Steps that end at a bound hide what the other numbers should do.
+            FitStage bounded = stages.back();
+            bounded.held = bounded_at(rows_, point_);
+            if (!bounded.held.empty())
+                report = make(bounded, count, count + 1, fit);
             const bool merged = merge_bound(rows_, point_), switched = update_modes(rows_, point_) || merged;
             const std::vector<double> noise = noise_at(rows_, point_);
             if (!switched && is_settled(noise, before, rows_))
@@ -106,14 +116,39 @@ private:
         return report;
     }
 
+    /// Shorter pieces, whose ends are elsewhere: a contact near one may have been missed.
+    void cut_anew(int round) {
+        constexpr double shorter = 0.7;
+        FitSettings settings = *settings_;
+        std::vector<double> lengths;
+        std::vector<Eigen::VectorXd> openings;
+        for (std::size_t k = 0; k < pieces().size(); ++k) {
+            lengths.push_back(pieces()[k].end - pieces()[k].begin);
+            if (pieces()[k].opening)
+                openings.push_back(point_.states[k]);
+        }
+        const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+        std::nth_element(lengths.begin(), middle, lengths.end());
+        settings.piece = (round == 1 ? 1 : shorter) * shorter * *middle;
+        pieces() = cut_records(rows_.system(), rows_.task(), settings);
+        point_.states.clear();
+        for (const FitPiece& piece : pieces())
+            point_.states.push_back(piece.opening
+                                        ? openings[piece.record]
+                                        : Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.layout.states)));
+    }
+
     bool leaves_more_than_noise() {
-        constexpr double round_off = 1e-9;
         Fit trial;
         describe(rows_, point_, last_joint, trial);
         for (std::size_t o = 0; o < trial.outputs.size(); ++o)
-            if (!trial.outputs[o].independent && trial.outputs[o].deviation > round_off * rows_.range(o))
+            if (is_no_noise(trial.outputs[o], o))
                 return true;
         return false;
+    }
+    bool is_no_noise(const FittedOutput& output, std::size_t number) const {
+        constexpr double round_off = 1e-9;
+        return !output.independent && output.deviation > round_off * rows_.range(number);
     }
 
     void restore(const FitLayout& layout, const std::vector<double>& noise, const FitPoint& point) {
@@ -126,6 +161,7 @@ private:
     /// to, so that a wrong frequency, say, does not add up to a wrong phase.
     StageReport begin(Fit& fit) {
         StageReport report;
+        usual_costs_.clear();
         std::size_t done = 0;
         for (std::size_t count = 1; done < most_pieces() && !report.interrupted; count *= 2) {
             for (std::size_t k = 0; k < pieces().size(); ++k) {
@@ -137,22 +173,64 @@ private:
                 }
                 if (!pieces()[k].opening)
                     continue_from(rows_, point_, k);
-                FitStage alone = soft_stage();
-                alone.active.assign(pieces().size(), false);
-                alone.active[k] = true;
-                alone.states_only = true;
-                alone.prior = 0.03;
-                report = best_opening(alone, k, fit);
+                report = begin_piece(k, fit);
             }
             FitStage together = soft_stage();
             for (std::size_t k = 0; k < pieces().size(); ++k)
                 together.active.push_back(ordinal(k) < count);
-            together.prior = 0.01;
+            together.prior = prior();
             report = make(together, 0, 5, fit);
             update_modes(rows_, point_);
             done = count;
         }
         return report;
+    }
+
+    FitStage alone(std::size_t piece) {
+        FitStage stage = soft_stage();
+        stage.active.assign(pieces().size(), false);
+        stage.active[piece] = true;
+        stage.states_only = true;
+        stage.prior = 0.03;
+        return stage;
+    }
+
+    /// Finds the first state of a piece. Where it meets its readings far worse than others do a contact is amiss, as
+    /// noise can make it near the piece's beginning: then it begins otherwise, or becomes part of the one before.
+    StageReport begin_piece(std::size_t& piece, Fit& fit) {
+        constexpr double amiss = 3;
+        StageReport report = best_opening(alone(piece), piece, fit);
+        const auto readings = [&](std::size_t k) { return static_cast<double>(pieces()[k].last - pieces()[k].first); };
+        if (pieces()[piece].opening || usual_costs_.empty() || report.interrupted ||
+            report.cost < amiss * readings(piece) * usual_cost()) {
+            usual_costs_.push_back(report.cost / readings(piece));
+            return report;
+        }
+        const Eigen::VectorXd first = point_.states[piece];
+        continue_from(rows_, point_, piece, false);
+        if (const StageReport other = make(alone(piece), 0, 5, fit); other.cost < report.cost)
+            report = other;
+        else
+            point_.states[piece] = first;
+        if (report.cost < amiss * readings(piece) * usual_cost())
+            return report;
+        const FitPoint apart = point_;
+        const FitLayout layout = rows_.layout;
+        merge(rows_, point_, piece);
+        const StageReport merged = make(alone(piece - 1), 0, 5, fit);
+        if (merged.cost < report.cost) {
+            --piece;
+            return merged;
+        }
+        point_ = apart;
+        rows_.layout = layout;
+        return report;
+    }
+    /// By reading, of half of the pieces.
+    double usual_cost() {
+        const auto middle = usual_costs_.begin() + static_cast<std::ptrdiff_t>(usual_costs_.size() / 2);
+        std::nth_element(usual_costs_.begin(), middle, usual_costs_.end());
+        return *middle;
     }
 
     /// From each of the states in which a piece might begin: the one that meets its readings best.
@@ -173,6 +251,13 @@ private:
         }
         point_.states[piece] = found;
         return best;
+    }
+
+    /// While little is known, a change by a tenth counts as much as one reading's noise: what noise alone would move
+    /// far stays near.
+    double prior() const {
+        constexpr double usual_change = 0.1;
+        return rows_.unit() / usual_change;
     }
 
     static FitStage soft_stage() {
@@ -244,12 +329,20 @@ private:
                        fmt::format("readings do not tell all numbers, for nothing changes with {}: give some of these, "
                                    "or record what tells them",
                                    fit.free.front().text));
+        for (std::size_t o = 0; o < fit.outputs.size(); ++o)
+            if (is_no_noise(fit.outputs[o], o))
+                return end(
+                    FitEnding::misfit,
+                    fmt::format("what is left of '{}' is no noise (neighbours have a correlation of {:.2g}): the "
+                                "model misses something, or a contact is missed, and errors are larger than told",
+                                fit.outputs[o].name, fit.outputs[o].correlation));
         end(FitEnding::converged, {});
     }
 
     const FitSettings* settings_;
     FitRows rows_;
     FitPoint point_;
+    std::vector<double> usual_costs_; ///< by reading, of pieces that have begun
 };
 
 } // namespace
@@ -268,6 +361,8 @@ std::string_view name_of(FitEnding ending) {
         return "broken";
     case FitEnding::undetermined:
         return "undetermined";
+    case FitEnding::misfit:
+        return "misfit";
     }
     return "";
 }

@@ -304,9 +304,30 @@ FitChecks check_point(FitRows& rows, const FitPoint& point, double joint) {
         held.push_back(number.at_bound);
     const FitInformation information = information_of(rows, point, joint);
     const FitDecomposition parts = decompose(information, held);
-    checks.stationary = std::sqrt(parts.gain + information.eliminated) <= part_of_error * size ||
-                        (parts.step.size() == 0 || parts.step.lpNorm<Eigen::Infinity>() <= nothing);
+    // At a bound the sum of squares must fall towards what is beyond it.
+    const Eigen::Index count = information.rows.cols() - 1, first = count - rows.layout.shared();
+    bool beyond = true;
+    for (const int j : bounded_at(rows, point)) {
+        const UnknownParameter& unknown = rows.task().parameters[static_cast<std::size_t>(j)];
+        const double value = point.shared[j] * rows.layout.shared_scale[j];
+        const double slope = information.rows.col(first + j).dot(information.rows.col(count));
+        beyond = beyond && (unknown.greatest - value < value - unknown.least ? slope <= 0 : slope >= 0);
+    }
+    const bool still = std::sqrt(parts.gain + information.eliminated) <= part_of_error * size ||
+                       parts.step.size() == 0 || parts.step.lpNorm<Eigen::Infinity>() <= nothing;
+    checks.stationary = beyond && still;
     return checks;
+}
+
+std::vector<int> bounded_at(const FitRows& rows, const FitPoint& point) {
+    std::vector<double> scales;
+    std::vector<int> bounded;
+    for (const FittedNumber& number : numbers_at(rows, point, scales))
+        if (number.at_bound)
+            for (std::size_t j = 0; j < rows.task().parameters.size(); ++j)
+                if (rows.task().parameters[j].parameter.place() == number.index)
+                    bounded.push_back(static_cast<int>(j));
+    return bounded;
 }
 
 double squares_at(FitRows& rows, const FitPoint& point) {

@@ -17,6 +17,9 @@ struct FitChecks {
 };
 FitChecks check_point(FitRows& rows, const FitPoint& point, double joint);
 
+/// Shared unknowns that are at a bound.
+std::vector<int> bounded_at(const FitRows& rows, const FitPoint& point);
+
 /// What is left of all readings: the sum of squares, by their ranges.
 double squares_at(FitRows& rows, const FitPoint& point);
 

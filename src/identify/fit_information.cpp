@@ -38,7 +38,9 @@ Eigen::MatrixXd record_rows(FitRows& rows, const FitPoint& point, std::size_t fi
         all.block(0, ahead + states, behind, own - states) = carried.rightCols(own - states);
         all.block(behind, ahead, own, own) = piece.readings;
         all.block(behind + own, 0, ahead, ahead).diagonal().setConstant(-joint);
-        all.block(behind + own, ahead, ahead, own - 1) = joint * piece.ends.leftCols(own - 1);
+        Eigen::MatrixXd ends = piece.ends.leftCols(own - 1);
+        rows.add_period_slopes(piece, point.states[k + 1], ends.rightCols(rows.layout.shared()));
+        all.block(behind + own, ahead, ahead, own - 1) = joint * ends;
         all.block(behind + own, ahead + own - 1, ahead, 1) = joint * rows.gap(piece, point.states[k + 1]);
         // Gaps weigh more than readings by far: with the heavy rows first, reflections lose nothing of the others.
         Eigen::MatrixXd sorted(all.rows(), all.cols());

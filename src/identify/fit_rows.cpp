@@ -33,6 +33,25 @@ std::vector<double> ranges_of(const FitTask& task) {
     return ranges;
 }
 
+/// What noise at most makes of readings, by their third differences: smooth motion has small ones, and contacts are
+/// few.
+double rough_noise(const FitTask& task, std::size_t output, double range) {
+    constexpr double of_normal = 1.4826, least = 1e-3, greatest = 0.05;
+    const double spread = std::sqrt(20.0); // 1, 3, 3, 1
+    std::vector<double> sizes;
+    for (const FitRecord& record : task.records)
+        for (const FitRecord::Readings& readings : record.readings)
+            for (std::size_t i = 3; readings.output == output && i < readings.values.size(); ++i) {
+                const double* at = &readings.values[i - 3];
+                sizes.push_back(std::abs(at[3] - 3 * at[2] + 3 * at[1] - at[0]));
+            }
+    if (sizes.empty())
+        return greatest * range;
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    return std::clamp(of_normal * *middle / spread, least * range, greatest * range);
+}
+
 double usual_distance(const FitTask& task) {
     std::vector<double> distances;
     for (const FitRecord& record : task.records)
@@ -85,7 +104,7 @@ FitRows::FitRows(const System& system, const FitTask& task, const FitSettings& s
         if (task.outputs[o].offset_unknown)
             layout.offsets.push_back(o);
         outputs_.push_back(system.with_gradient(task.outputs[o].value));
-        noise.push_back(task.outputs[o].noise > 0 ? task.outputs[o].noise : 0.05 * ranges_[o]);
+        noise.push_back(task.outputs[o].noise > 0 ? task.outputs[o].noise : rough_noise(task, o, ranges_[o]));
     }
     std::size_t room = system.workspace();
     for (const State& state : system.model().states)
@@ -167,7 +186,7 @@ std::vector<double> FitRows::model_start(std::size_t record, const Eigen::Vector
 
 const PredictedMotion& FitRows::motion(const FitPiece& piece, const Eigen::VectorXd& shared,
                                        const Eigen::VectorXd& states) {
-    const std::vector<double> state = first_state(piece, shared, states), values = parameters(piece.record, shared);
+    std::vector<double> state = first_state(piece, shared, states), values = parameters(piece.record, shared);
     const std::size_t count = layout.states + layout.parameters;
     std::vector<double> seeds(layout.states * count, 0.0);
     for (std::size_t i = 0; i < layout.states; ++i)
@@ -186,6 +205,14 @@ const PredictedMotion& FitRows::motion(const FitPiece& piece, const Eigen::Vecto
     // A parameter that this record has of its own does not move.
     motion_.set_parameters(values);
     system_.periods().evaluate(values, periods_, work_);
+    find_period_slopes(values);
+    for (std::size_t i = 0; i < layout.states; ++i)
+        if (periods_[i] > 0 && !(state[i] >= 0 && state[i] < periods_[i])) {
+            const double turns = std::floor(state[i] / periods_[i]);
+            state[i] -= turns * periods_[i];
+            for (std::size_t j = 0; j < layout.parameters; ++j)
+                seeds[i * count + layout.states + j] -= turns * period_slopes_[i * layout.parameters + j];
+        }
     std::copy(values.begin(), values.end(), inputs_.begin() + static_cast<std::ptrdiff_t>(layout.states));
     MotionPiece asked;
     asked.state = state;
@@ -196,6 +223,17 @@ const PredictedMotion& FitRows::motion(const FitPiece& piece, const Eigen::Vecto
     asked.times = std::span(task_->records[piece.record].times).subspan(piece.first, piece.last - piece.first);
     asked.reach = reach_;
     return motion_.follow(asked);
+}
+
+void FitRows::find_period_slopes(std::span<const double> parameters) {
+    period_slopes_.assign(layout.states * layout.parameters, 0.0);
+    if (std::all_of(periods_.begin(), periods_.end(), [](double period) { return period == 0; }))
+        return;
+    const std::vector<double> gradients = system_.period_gradients()(parameters);
+    for (std::size_t i = 0; i < layout.states; ++i)
+        for (std::size_t j = 0; j < layout.parameters; ++j)
+            period_slopes_[i * layout.parameters + j] =
+                gradients[i * parameters.size() + task_->parameters[j].parameter.place()];
 }
 
 /// Values of all outputs in a state, and their derivatives in all directions.
@@ -331,6 +369,8 @@ const PieceRows& FitRows::evaluate(const FitPiece& piece, const Eigen::VectorXd&
     rows_.contacts = predicted.contacts;
     rows_.end_mode = predicted.end_mode;
     rows_.detail = predicted.detail;
+    rows_.periods = periods_;
+    rows_.period_slopes = period_slopes_;
     if (rows_.finite) {
         const Eigen::HouseholderQR<Eigen::Ref<Eigen::MatrixXd>> factors(raw_);
         rows_.readings = raw_.topRows(columns).template triangularView<Eigen::Upper>();
@@ -341,9 +381,25 @@ const PieceRows& FitRows::evaluate(const FitPiece& piece, const Eigen::VectorXd&
 Eigen::VectorXd FitRows::gap(const PieceRows& piece, const Eigen::VectorXd& next) const {
     Eigen::VectorXd result = piece.ends.col(piece.ends.cols() - 1) - next;
     for (Eigen::Index i = 0; i < result.size(); ++i)
-        if (const double period = periods_[static_cast<std::size_t>(i)] / layout.state_scale[i]; period > 0)
+        if (const double period = piece.periods[static_cast<std::size_t>(i)] / layout.state_scale[i]; period > 0)
             result[i] = std::remainder(result[i], period);
     return result;
+}
+
+void FitRows::add_period_slopes(const PieceRows& piece, const Eigen::VectorXd& next,
+                                Eigen::Ref<Eigen::MatrixXd> shared) const {
+    for (Eigen::Index i = 0; i < next.size(); ++i) {
+        const auto state = static_cast<std::size_t>(i);
+        if (!(piece.periods[state] > 0))
+            continue;
+        const double period = piece.periods[state] / layout.state_scale[i];
+        const double turns = std::round((piece.ends(i, piece.ends.cols() - 1) - next[i]) / period);
+        for (std::size_t j = 0; j < layout.parameters && turns != 0; ++j) {
+            const auto column = static_cast<Eigen::Index>(j);
+            shared(i, column) -= turns * piece.period_slopes[state * layout.parameters + j] *
+                                 layout.shared_scale[column] / layout.state_scale[i];
+        }
+    }
 }
 
 } // namespace graze

@@ -22,6 +22,7 @@ struct PieceRows {
     std::size_t end_mode = 0, contacts = 0, misplaced = 0;
     bool complete = false, finite = false;
     std::string detail;
+    std::vector<double> periods, period_slopes; ///< of cyclic states; by the parameters that are found, in no scale
 };
 
 /// Evaluates pieces.
@@ -47,6 +48,9 @@ public:
     /// The gap between a state at the end of a piece and the first of the next, in scales; of cyclic states the
     /// shorter way round.
     Eigen::VectorXd gap(const PieceRows& piece, const Eigen::VectorXd& next) const;
+    /// Adds to derivatives of a gap by what is shared what parameters make of the periods that `gap` has taken off.
+    void add_period_slopes(const PieceRows& piece, const Eigen::VectorXd& next,
+                           Eigen::Ref<Eigen::MatrixXd> shared) const;
     /// The whole state at the beginning of a piece. @param shared, states in scales
     std::vector<double> first_state(const FitPiece& piece, const Eigen::VectorXd& shared,
                                     const Eigen::VectorXd& states);
@@ -61,6 +65,7 @@ private:
         std::vector<double> values, slopes; ///< of outputs; outputs x directions
     };
     void read(std::span<const double> state, std::span<const double> derivatives, Side& side);
+    void find_period_slopes(std::span<const double> parameters);
     bool is_beyond(const FitRecord& record, std::size_t sample, const Eigen::VectorXd& shared) const;
     void add_time(const FitPiece& piece, std::size_t sample, const Eigen::VectorXd& shared, Eigen::Index row);
     void add_ends(const FitPiece& piece, const PredictedMotion& predicted);
@@ -69,6 +74,7 @@ private:
     const FitTask* task_;
     FitLoss loss_;
     double reach_;
+    std::vector<double> period_slopes_; ///< of periods by unknown parameters, in no scale; of the last motion
     std::vector<double> ranges_, values_, periods_, inputs_, work_, gradient_;
     std::vector<Function> outputs_,
         initials_; ///< values, with gradients; of outputs, and of the model's initial states

@@ -4,6 +4,7 @@
 
 #include <ceres/cost_function.h>
 #include <ceres/iteration_callback.h>
+#include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
@@ -56,8 +57,12 @@ public:
             if (double* to = slopes[block++]; to != nullptr) {
                 Eigen::Map<RowMatrix> slope(to, own + ahead_, size);
                 slope.topRows(own) = known_.readings.middleCols(from, size);
-                if (ahead_ > 0)
-                    slope.bottomRows(ahead_) = joint_ * known_.ends.middleCols(from, size);
+                if (ahead_ > 0) {
+                    Eigen::MatrixXd ends = known_.ends.middleCols(from, size);
+                    if (from == states_)
+                        rows_->add_period_slopes(known_, ahead, ends);
+                    slope.bottomRows(ahead_) = joint_ * ends;
+                }
             }
         };
         fill(states_, shared_);
@@ -173,7 +178,11 @@ StageReport minimise(FitRows& rows, FitPoint& point, const FitStage& stage, cons
         hold(point.shared);
     StageReport report;
     if (point.shared.size() > 0 && problem.HasParameterBlock(point.shared.data())) {
-        if (stage.states_only)
+        const bool all_held = stage.held.size() == static_cast<std::size_t>(point.shared.size());
+        if (!stage.held.empty() && !all_held)
+            problem.SetManifold(point.shared.data(),
+                                new ceres::SubsetManifold(static_cast<int>(point.shared.size()), stage.held));
+        if (stage.states_only || all_held)
             problem.SetParameterBlockConstant(point.shared.data());
         else
             set_bounds(problem, rows, point.shared.data());
@@ -190,6 +199,10 @@ StageReport minimise(FitRows& rows, FitPoint& point, const FitStage& stage, cons
     options.function_tolerance = stage.tolerance;
     if (stage.tolerance < 1e-12)
         options.initial_trust_region_radius = 1e10; // near the end already: what is hardly told must move, too
+    // Where pieces hardly give way, a step along the curved set of joined ones is uphill for a moment (N. Maratos).
+    constexpr double stiff = 10;
+    options.use_nonmonotonic_steps = stage.joint > stiff;
+    options.max_consecutive_nonmonotonic_steps = 10;
     options.gradient_tolerance = 1e-300;
     options.parameter_tolerance = 1e-15;
     options.logging_type = ceres::SILENT;

@@ -13,6 +13,7 @@ struct FitStage {
     bool states_only = false; ///< parameters, gains and offsets stay as they are
     int most_iterations = 100;
     std::vector<bool> active{}; ///< pieces that take part; empty: all
+    std::vector<int> held{};    ///< shared unknowns that stay where they are
     double prior = 0;           ///< what moving by its scale weighs of each unknown
     double tolerance = 1e-15;   ///< relative change of the sum of squares that ends it
 };

@@ -183,13 +183,14 @@ FitPoint starting_point(FitRows& rows) {
     return point;
 }
 
-void continue_from(FitRows& rows, FitPoint& point, std::size_t piece) {
+void continue_from(FitRows& rows, FitPoint& point, std::size_t piece, bool read) {
     FitPiece& next = rows.layout.pieces[piece];
     const PredictedMotion& motion = rows.motion(rows.layout.pieces[piece - 1], point.shared, point.states[piece - 1]);
     std::vector<double> state = motion.end_state;
     if (motion.complete)
         next.mode = motion.end_mode;
-    Starter(rows, rows.system()).take_readings(next, next.first - 1, point.shared, state);
+    if (read)
+        Starter(rows, rows.system()).take_readings(next, next.first - 1, point.shared, state);
     for (Eigen::Index i = 0; i < point.states[piece].size(); ++i)
         point.states[piece][i] = state[static_cast<std::size_t>(i)] / rows.layout.state_scale[i];
 }

@@ -8,8 +8,8 @@ namespace graze {
 /// by following the motion from piece to piece. Sets the layout's scales, and the modes of its pieces.
 FitPoint starting_point(FitRows& rows);
 
-/// Begins a piece anew where the one before it ends, with the states that readings tell.
-void continue_from(FitRows& rows, FitPoint& point, std::size_t piece);
+/// Begins a piece anew where the one before it ends. @param read whether with the states that readings tell
+void continue_from(FitRows& rows, FitPoint& point, std::size_t piece, bool read = true);
 
 /// Other states in which a record might begin: phases that nothing has read, all around their period. None where
 /// readings of the first piece hardly depend on the phase, which then had better stay as it was guessed.

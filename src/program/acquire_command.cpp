@@ -58,16 +58,17 @@ std::unique_ptr<InstrumentLine> open_device(const Experiment& experiment) {
         return open_tcp_line(address.name, address.port);
     SerialSettings settings;
     settings.port = address.name;
+    settings.baud = experiment.sample_baud;
+    settings.stop_bits = StopBits::one;
+    settings.flow = FlowControl::none;
     return open_serial_line(settings);
 }
 
 /// What is shown while it goes on.
 class Watcher {
 public:
-    Watcher(const Experiment& experiment, const RecordFolder& folder, const AcquireArguments& arguments,
-            const Console& console)
-        : experiment_(experiment), folder_(folder), console_(console),
-          line_(console, arguments.progress || console.terminal) {
+    Watcher(const RecordFolder& folder, const AcquireArguments& arguments, const Console& console)
+        : folder_(folder), console_(console), line_(console, arguments.progress || console.terminal) {
         if (arguments.live.empty())
             return;
         picture_.emplace(arguments);
@@ -118,7 +119,6 @@ private:
         }
     }
 
-    const Experiment& experiment_;
     const RecordFolder& folder_;
     const Console& console_;
     StatusLine line_;
@@ -189,7 +189,7 @@ int acquire_command(const AcquireArguments& arguments, const Console& console) {
     RecordFolder records(folder, experiment);
     AcquisitionReport report;
     {
-        Watcher watcher(experiment, records, arguments, console);
+        Watcher watcher(records, arguments, console);
         report = carried_out(experiment, records, watcher);
         watcher.draw(true);
     }

@@ -108,8 +108,8 @@ void add_cycle(Facts& facts, const Findings& found) {
                   k == 0 ? "effect on the gap one cycle later" : fmt::format("{} cycles later", k + 1));
     if (!map.second.empty())
         facts.add("projection_1_next", map.second_clearance,
-                  map.contact.order == MapOrder::linear ? "the next order of the first: by depth^(3/2)"
-                                                        : "the next order of the first: by speed^2");
+                  map.contact.order == MapOrder::linear ? "next order of the first: by depth^(3/2)"
+                                                        : "next order of the first: by speed^2");
     if (map.touches > 1)
         facts.add("touches", static_cast<double>(map.touches), "places in which the orbit touches");
     if (!found.parameter)
@@ -177,7 +177,7 @@ void add_verdict(Facts& facts, const Findings& found) {
         facts.add("attractors", name_of(verdict.attractor), "that remain");
     facts.add("leading", verdict.leading,
               verdict.border == BorderCollision::none ? "multiplier that decides which"
-                                                      : "largest multiplier, in modulus, of the orbit that slides");
+                                                      : "modulus of its largest multiplier where it slides");
     add_border(facts, verdict);
     add_attractors(facts, found);
     if (verdict.next_contact > 0)

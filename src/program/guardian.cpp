@@ -45,6 +45,7 @@ void make_safe(const Experiment& experiment) {
 [[noreturn]] void watch(int pipe, const Experiment& experiment) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT})
         std::signal(signal, SIG_IGN); // of a terminal they come to all its processes
+    setpgid(0, 0);                    // whoever kills a group kills the one at work
     close(STDIN_FILENO);
     close(STDOUT_FILENO);
     bool armed = false;

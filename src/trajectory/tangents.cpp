@@ -19,6 +19,31 @@ Tangents::Tangents(const Simulation& simulation, std::span<const double> paramet
             parameter_seeds_[j * directions + d] = seed[states_ + j];
     }
     steps_.set_parameters(parameters, parameter_seeds_);
+    find_period_rates(simulation.system(), parameters);
+}
+
+void Tangents::find_period_rates(const System& system, std::span<const double> parameters) {
+    const Function& gradients = system.period_gradients();
+    const bool cyclic = std::any_of(system.model().states.begin(), system.model().states.end(),
+                                    [](const State& state) { return state.period.has_value(); });
+    if (!cyclic)
+        return;
+    const std::vector<double> rates = gradients(parameters);
+    if (std::all_of(rates.begin(), rates.end(), [](double rate) { return rate == 0; }))
+        return;
+    period_rates_.assign(states_ * directions_, 0.0);
+    for (std::size_t i = 0; i < states_; ++i)
+        for (std::size_t j = 0; j < parameter_count_; ++j)
+            for (std::size_t d = 0; d < directions_; ++d)
+                period_rates_[i * directions_ + d] +=
+                    rates[i * parameter_count_ + j] * parameter_seeds_[j * directions_ + d];
+}
+
+void Tangents::set_back(std::size_t state, double periods) {
+    if (period_rates_.empty())
+        return;
+    for (std::size_t d = 0; d < directions_; ++d)
+        matrix_[state * directions_ + d] -= periods * period_rates_[state * directions_ + d];
 }
 
 void Tangents::coefficient(std::size_t mode, std::span<const double> state, std::size_t series, int k,

@@ -39,14 +39,19 @@ public:
     void pass_jump(std::span<const double> shift, std::span<const double> field_before,
                    const System::CompiledJump& jump, std::span<const double> jacobian,
                    std::span<const double> field_after);
+    /// A cyclic state is set back by so many periods, which parameters may change.
+    void set_back(std::size_t state, double periods);
     /// Adds `column` times `row` to the matrix.
     void add_product(std::span<const double> column, std::span<const double> row);
 
 private:
+    void find_period_rates(const System& system, std::span<const double> parameters);
+
     std::size_t states_, parameter_count_, directions_;
     TangentSteps steps_;
     std::vector<double> parameter_seeds_, matrix_, next_;
-    std::vector<double> here_; ///< state, within arcs that are followed in parts
+    std::vector<double> period_rates_; ///< derivatives of the states' periods; empty: no direction changes any
+    std::vector<double> here_;         ///< state, within arcs that are followed in parts
     bool valid_ = true;
 };
 

@@ -377,11 +377,15 @@ void Trajectory::wrap_cyclic_states(bool snap) {
             const double turns = std::floor(state_[i] / period);
             state_[i] -= turns * period;
             probes_->shift(i, -turns * period);
+            if (tangents_)
+                tangents_->set_back(i, turns);
         }
         // At a contact that belongs to the end of the period, what follows must see the beginning of the next.
         if ((snap && period - state_[i] <= roundoff * period) || state_[i] >= period) {
             state_[i] = 0;
             probes_->shift(i, -period);
+            if (tangents_)
+                tangents_->set_back(i, 1);
         }
     }
 }

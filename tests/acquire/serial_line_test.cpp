@@ -3,13 +3,16 @@
 #include "acquire/bench_experiment.hpp"
 #include "graze/acquire/acquisition.hpp"
 #include "graze/bench/bench_service.hpp"
+#include "graze/record/record_file.hpp"
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <termios.h>
 #include <thread>
 #include <unistd.h>
@@ -197,6 +200,25 @@ TEST(Acquisition, OverAPseudoTerminalIsTheSameAsInTheProcess) {
     EXPECT_EQ(report.before, 2U);
     EXPECT_EQ(different_files(folder / "one", folder / "other"), std::vector<std::string>());
     EXPECT_EQ(one.output(), (GeneratorOutput{6.1, 0.1, 0}));
+}
+
+TEST(Acquisition, GoesWithTheClockToo) {
+    const Folder folder;
+    ServiceSettings fast;
+    fast.speed = 40;
+    Served served(testbed_bench(), fast);
+    const auto begin = std::chrono::steady_clock::now();
+    const AcquisitionReport report = served.run(folder / "records");
+    EXPECT_EQ(report.ending, AcquisitionEnding::complete) << report.detail;
+    EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(225)) << "six times 1.5 s";
+    const auto record = open_record(folder / "records/0003_f6100mHz_a9600mV_up.csv");
+    const Samples samples = read_all(*record, 1000);
+    ASSERT_EQ(samples.rows(), 500U);
+    for (std::size_t i = 2; i < 500; ++i) { // a sine without gaps obeys its recurrence
+        const double angle = 2 * std::numbers::pi * 6.1 / 500;
+        const std::vector<double>& v = samples.values[0];
+        EXPECT_NEAR(v[i], 2 * std::cos(angle) * v[i - 1] - v[i - 2], 1e-8);
+    }
 }
 
 TEST(Acquisition, BearsALineThatLosesLetters) {

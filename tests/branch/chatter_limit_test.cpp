@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <vector>
 
 namespace graze {
 namespace {
@@ -167,6 +169,70 @@ TEST(ChatterLimit, of_contacts_that_hardly_lose_speed) {
         (Flights(middle, restitution).excess(290, factor) < 0 ? low : high) = middle;
     }
     EXPECT_NEAR(limit.direct->first, static_cast<double>(low), limit.direct->second + 1e-10);
+}
+
+/// A slow force on the first of two equal masses, which has a stop and a spring to the other one.
+Model two_masses() {
+    return model_from(R"toml(
+[parameters]
+s = 1.5
+[states]
+x = 0
+v = 0
+y = 0
+w = 0
+theta = { initial = 0, period = "2*pi" }
+[definitions]
+pull = "0.6*(x - y) + 0.18*(v - w)"
+[modes.free]
+rates = { x = "v", v = "cos(theta) - x - 0.6*v - pull", y = "w", w = "-y - 0.6*w + pull", theta = 0.3 }
+watch = ["stop"]
+[events.stop]
+function = "s - x"
+[jumps.bounce]
+v = "-0.75*v"
+[[transitions]]
+mode = "free"
+event = "stop"
+jump = "bounce"
+next = "free"
+[sections.start]
+state = "theta"
+value = 0
+)toml");
+}
+
+TEST(ChatterLimit, of_two_masses_is_what_simulation_shows_from_however_long_a_ladder) {
+    const Model model = two_masses();
+    const BranchSettings settings = of_oscillator(model, 1);
+    const std::vector<SpecialPoint> grazings = climbed(model, settings, 30);
+    std::vector<double> values;
+    for (const std::size_t rungs : {12U, 18U, 24U, 30U}) {
+        const ChatterLimit limit = chatter_limit(model, std::span(grazings).first(rungs), settings.parameter);
+        ASSERT_TRUE(limit.direct && limit.extrapolated) << limit.problem;
+        EXPECT_NEAR(limit.contacts.restitution, 0.75, 1e-6);
+        EXPECT_LT(limit.direct->second, 1e-8);
+        EXPECT_NEAR(limit.extrapolated->first, limit.direct->first, limit.extrapolated->second + limit.direct->second);
+        values.push_back(limit.direct->first);
+    }
+    for (const double value : values)
+        EXPECT_NEAR(value, values.back(), 1e-9);
+    const ChatterLimit limit = chatter_limit(model, grazings, settings.parameter);
+    // With the stop nearer contacts accumulate in each period, with it farther off there are some.
+    for (const double side : {-1e-4, 1e-4}) {
+        Orbit orbit = limit.orbit;
+        orbit.parameters[settings.parameter.place()] *= 1 + side;
+        const Simulation simulation(model);
+        Observer nobody;
+        Trajectory trajectory(simulation, orbit.parameters, nobody);
+        constexpr double periods = 10;
+        std::vector<double> state = orbit.starts.at(1);
+        state[0] = orbit.parameters[settings.parameter.place()]; // on the stop that has moved
+        trajectory.start(state, 0, 0, periods * orbit.round());
+        JetSet jets(simulation, LaneKind::single);
+        run(trajectory, jets);
+        EXPECT_EQ(name_of(trajectory.outcome().ending), name_of(side < 0 ? Ending::chatter : Ending::end_time)) << side;
+    }
 }
 
 TEST(ChatterLimit, does_not_depend_on_units) {

@@ -9,14 +9,15 @@
 
 namespace graze::testing {
 
-/// One impact per period of the force of x'' + 2 zeta x' + x = cos(omega t) at a stop sigma, in closed form (Shaw and
-/// Holmes 1983): see the test of `solve_orbit`. Here sigma follows from the velocity before the impact.
+/// One impact per period of the force, or in each few of them, of x'' + 2 zeta x' + x = cos(omega t) at a stop sigma,
+/// in closed form (Shaw and Holmes 1983): see the test of `solve_orbit`. Here sigma follows from the velocity before
+/// the impact.
 struct Oscillator {
     double zeta = 0.05, omega, e = 0.7;
     double a = 0, b = 0, k = 0, radius = 0, decay = 0, c = 0, s = 0, d = 0, in_phase = 0, out_of_phase = 0;
 
-    explicit Oscillator(double at = 2.4) : omega(at) {
-        const double T = 2 * std::numbers::pi / omega;
+    explicit Oscillator(double at = 2.4, double periods = 1) : omega(at) {
+        const double T = 2 * std::numbers::pi * periods / omega;
         d = std::sqrt(1 - zeta * zeta);
         decay = std::exp(-zeta * T);
         c = std::cos(d * T);

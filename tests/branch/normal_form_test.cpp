@@ -122,6 +122,29 @@ TEST(NormalForm, generalised_flip_is_found_where_the_coefficient_vanishes) {
     EXPECT_NEAR(value_of(model, of_type(curve, PointType::generalised)[0].solution, "s"), -1, 1e-9);
 }
 
+TEST(NormalForm, generalised_flip_is_where_folds_of_doubled_orbits_end) {
+    // x -> -(1 + p) x - s x^3 - x^5: orbits x, -x with p + s x^2 + x^4 = 0, which fold at p = s^2/4, x^2 = -s/2, for s
+    // < 0; flips at p = 0, with the coefficient s.
+    const Model model = map_model("p = -0.2\ns = -0.4", {"-(1 + p)*x - s*x^3 - x^5", "0.1*y + 0.2*x^2"});
+    const BranchSettings settings = in_parameter(model, "p", -0.5, 0.5);
+    const Branch branch = follow_branch(model, fixed_point(model, {0, 0}), settings);
+    const auto flips = of_type(branch, PointType::flip);
+    ASSERT_EQ(flips.size(), 1U);
+    const BranchSettings in_s = in_parameter(model, "s", -1, 0.5);
+    const auto found = of_type(curve_of(model, flips[0], in_s, "p", -0.3, 0.3, 1), PointType::generalised);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(found[0].parameter, 0, 1e-9);
+    const Branch doubled = follow(model, branches_at(model, flips[0], settings).at(0), settings);
+    const auto folds = of_type(doubled, PointType::fold);
+    ASSERT_EQ(folds.size(), 1U) << names(doubled);
+    EXPECT_NEAR(folds[0].parameter, 0.04, 1e-11);
+    const Branch curve = curve_of(model, folds[0], in_s, "p", -0.3, 0.3, 1);
+    for (const BranchPoint& one : curve.points)
+        EXPECT_NEAR(value_of(model, one.solution, "p"), one.parameter * one.parameter / 4, 1e-11);
+    // It ends where doubled orbits are single ones twice over, as near as these can be told from them: s = -2 x^2.
+    EXPECT_NEAR(curve.points.back().parameter, found[0].parameter, 1e-5);
+}
+
 /// Of Henon's map x -> y, y -> a - b x - y^2: fixed points y with trace -2 y and determinant b.
 Model henon(double a, double b) {
     return map_model(fmt::format("a = {:.17g}\nb = {:.17g}", a, b), {"y", "a - b*x - y^2"});
@@ -218,6 +241,23 @@ TEST(NormalForm, torus_has_the_coefficient_of_its_map) {
         EXPECT_NEAR(coefficient_of(branch.special[0]), expected, 2e-6 * (1 + std::abs(expected))) << w;
         EXPECT_EQ(branch.special[0].detail.starts_with("super"), expected < 0);
     }
+}
+
+TEST(NormalForm, generalised_torus_is_found_where_the_coefficient_vanishes) {
+    // Radii r -> (1 + p) r + s r^3 - r^5 that turn by 0.9: a torus leaves at p = 0, stable for s < 0.
+    const std::string g = "(1 + p + s*(x^2 + y^2) - (x^2 + y^2)^2)";
+    const Model model =
+        map_model("p = -0.1\ns = -0.5", {g + "*(cos(0.9)*x - sin(0.9)*y)", g + "*(sin(0.9)*x + cos(0.9)*y)"});
+    const BranchSettings settings = in_parameter(model, "p", -0.3, 0.3);
+    const Branch branch = follow_branch(model, fixed_point(model, {0, 0}), settings);
+    ASSERT_EQ(names(branch), "NS BD");
+    EXPECT_NEAR(coefficient_of(branch.special[0]), -1, 1e-5); // 2 s, as r^2 = 2 |w|^2
+    const Branch curve = curve_of(model, branch.special[0], in_parameter(model, "s", -1, 1), "p", -0.3, 0.3, 1);
+    ASSERT_EQ(names(curve), "GT BD") << curve.detail;
+    EXPECT_NEAR(curve.special[0].parameter, 0, 1e-9);
+    EXPECT_NEAR(value_of(model, curve.special[0].solution, "p"), 0, 1e-12);
+    for (const BranchPoint& one : curve.points)
+        EXPECT_NEAR(value_of(model, one.solution, "p"), 0, 1e-12);
 }
 
 TEST(NormalForm, curve_of_torus_points_has_all_resonances_of_a_generalised_henon_map) {

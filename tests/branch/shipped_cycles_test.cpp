@@ -11,11 +11,12 @@ namespace {
 using namespace testing;
 
 SpecialPoint first_touch(const Model& model, const char* section, const char* parameter, double least, double greatest,
-                         std::size_t cycles = 2000) {
+                         std::size_t cycles = 2000, int direction = 1) {
     BranchSettings settings;
     settings.parameter = model.independent_parameter(parameter);
     settings.least = least;
     settings.greatest = greatest;
+    settings.direction = direction;
     settings.stop_at = {PointType::grazing};
     const auto found =
         of_type(follow_branch(model, settled(model, section, cycles).orbit, settings), PointType::grazing);
@@ -50,6 +51,16 @@ TEST(ShippedCycles, err_by_the_next_power_of_the_depth) {
     mems.set_parameter("V", 0.15);
     mems.set_initial("q", 0);
     expect_rates(mems, map_at(mems, first_touch(mems, "phase0", "V", 0, 0.4)), 1e-6);
+
+    Model device = load_model("mems-switch-device");
+    device.set_parameter("V", 1);
+    device.set_initial("q", 0);
+    expect_rates(device, map_at(device, first_touch(device, "phase0", "V", 0, 8)), 1e-6);
+
+    Model ball = load_model("bouncing-ball");
+    ball.set_parameter("e", 0.2);
+    ball.set_parameter("a", 0.006);
+    expect_rates(ball, map_at(ball, first_touch(ball, "phase0", "a", 0.0025, 0.05, 2000, -1)), 1e-6);
 
     Model testbed = load_model("electromagnetic-testbed");
     testbed.set_parameter("V0", 3);

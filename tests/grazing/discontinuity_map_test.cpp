@@ -415,6 +415,58 @@ TEST(DiscontinuityMap, of_an_oscillator_that_sticks_for_a_moment) {
     }
 }
 
+/// m x'' = A cos(w t) - k x - F in whatever units.
+TEST(DiscontinuityMap, of_sticking_does_not_depend_on_units) {
+    for (const double length : {1.0, 1e-9, 1e6})
+        for (const double clock : {1.0, 1e-9, 1e6}) {
+            const double velocity = length / clock, force = velocity / clock;
+            const Model model = parse_model(fmt::format(R"toml(
+[parameters]
+w = {:.17g}
+k = {:.17g}
+amplitude = {:.17g}
+friction = {:.17g}
+[states]
+x = 0
+v = 0
+theta = {{ initial = 0, period = "2*pi" }}
+[definitions]
+force = "amplitude*cos(theta) - k*x"
+[initial]
+mode = "slip"
+[modes.slip]
+watch = ["stop"]
+rates = {{ x = "v", v = "force - friction", theta = "w" }}
+[modes.stick]
+watch = ["break"]
+rates = {{ x = 0, v = 0, theta = "w" }}
+[events]
+stop = "v"
+break = "friction - force"
+[[transitions]]
+mode = "slip"
+event = "stop"
+next = "stick"
+[[transitions]]
+mode = "stick"
+event = "break"
+next = "slip"
+)toml",
+                                                        0.4 / clock, 2 / (clock * clock), force, 0.3 * force),
+                                            "sticking.toml");
+            const double theta = 4, x = (std::cos(theta) - 0.3) / 2 * length;
+            const DiscontinuityMap map =
+                discontinuity_map(model, touch_of(model, "slip", "stop", {x, 0, theta}, {length, velocity, 1}));
+            ASSERT_EQ(map.order, MapOrder::linear) << map.reason << ' ' << length << ' ' << clock;
+            const double a = -0.4 * std::sin(theta) * force / clock;
+            EXPECT_NEAR(map.acceleration, a, 1e-14 * a);
+            EXPECT_EQ(map.direction[0], 0);
+            EXPECT_NEAR(map.direction[1], 1, 1e-14);
+            const double second = a / 3 * std::pow(2 / a, 1.5);
+            EXPECT_NEAR(map.second[0], second, 1e-13 * second);
+        }
+}
+
 /// Where the greatest force just reaches friction: beyond it the mass slips by the square of the depth.
 TEST(DiscontinuityMap, of_the_end_of_sliding_is_refused_with_the_reason) {
     Model model = load_model("dry-friction-oscillator");

@@ -178,4 +178,26 @@ next = "swing"
     }
 }
 
+/// The period of a clock is a number to be found.
+TEST(Fit, FindsAPeriod) {
+    const Model model = parse_model(R"(
+name = "clock"
+[parameters]
+w = 3
+c = 0.2
+[states]
+x = { initial = -0.3 }
+v = { initial = 0 }
+tau = { initial = 0.4, period = "2*pi/w" }
+[modes.swing]
+rates = { x = "v", v = "cos(w*tau) - 4*x - c*v", tau = 1 }
+)",
+                                    "clock.toml");
+    RecordedMotion motion(model, {"x"}, 0.3, 0.1, 300);
+    for (const char* name : {"w", "c"})
+        motion.forget(name, 1.05);
+    motion.forget_states();
+    expect_found(motion);
+}
+
 } // namespace graze::testing

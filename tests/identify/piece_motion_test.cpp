@@ -120,9 +120,9 @@ wall = 0.9
 [states]
 x = { initial = -0.3 }
 v = { initial = 0 }
-t = { initial = 0.4, period = "2*pi/w" }
+tau = { initial = 0.4, period = "2*pi/w" }
 [modes.swing]
-rates = { x = "v", v = "cos(w*t) - 4*x - 0.1*v", t = 1 }
+rates = { x = "v", v = "cos(w*tau) - 4*x - 0.1*v", tau = 1 }
 watch = ["hit"]
 [events.hit]
 function = "wall/4 - x"

@@ -25,7 +25,7 @@ dpkg-deb --info "$package"
 
 step "what is in it"
 depends=$(dpkg-deb --field "$package" Depends)
-[[ $depends == *libc6* && $depends == *libfmt* && $depends == *libsqlite3* && $depends == *libnlopt* && $depends == *libceres* ]] || fail "it depends on $depends"
+[[ $depends == *libc6* && $depends == *libfmt* && $depends == *libsqlite3* && $depends == *libnlopt* && $depends == *libcholmod* ]] || fail "it depends on $depends"
 dpkg-deb --fsys-tarfile "$package" | tar -tv >"$work/list"
 ! grep -v ' root/root ' "$work/list" || fail "files belong to somebody else"
 ! grep -E '^.{8}w' "$work/list" || fail "anybody may write files"

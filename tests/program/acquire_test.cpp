@@ -222,6 +222,7 @@ TEST(Acquire, SaysWhatIsNotThere) {
     EXPECT_THAT(nowhere.err, HasSubstr("line-lost: serial line '/nowhere' cannot be opened"));
     EXPECT_EQ(run_graze(start + " --dry-run").code, 0);
     EXPECT_EQ(run_graze(start + " --port x --device nothing").code, 2);
+    EXPECT_THAT(run_graze(start + " --phase 0.5").err, HasSubstr("--phase"));
     EXPECT_EQ(run_graze("acquire /nowhere.toml").code, 2);
     std::ofstream(folder / "e.toml", std::ios::app) << "format = \"h5\"\n";
     EXPECT_THAT(run_graze(start + " --port /nowhere --device tcp:127.0.0.1:1").err,
@@ -238,6 +239,8 @@ TEST(Bench, SaysWhatItCannotBe) {
              {"electromagnetic-testbed" + port + " --noise v", "--noise: 'v' gives no value"},
              {"electromagnetic-testbed" + port + " --channel x=nothing", "unknown name 'nothing'"},
              {"electromagnetic-testbed" + port + " --drop 2", "--drop"},
+             {"electromagnetic-testbed" + port + " --on-demand --speed 2", "--speed"},
+             {"electromagnetic-testbed" + port + " --bits 12", "--bits"},
              {"electromagnetic-testbed --port /nowhere/port", "no serial line can be made"},
          }) {
         const Printed refused = run_graze("bench " + options);

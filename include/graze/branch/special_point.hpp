@@ -25,23 +25,24 @@ enum class PointType {
     guard,        ///< GU: the guard after a jump is about to choose another mode
     cusp,         ///< CP: on a curve of folds, two of them meet: it turns in both parameters
     generalised,  ///< GF: on a curve of flips, or of losses of symmetry: what leaves is neither stable nor unstable yet
-    resonance_1,  ///< R1: on a curve of folds or torus points: two multipliers are 1
-    resonance_2,  ///< R2: on a curve of flips or torus points: two multipliers are -1
-    resonance_3,  ///< R3: on a curve of torus points: a pair of multipliers are third roots of 1
-    resonance_4,  ///< R4: on a curve of torus points: a pair of multipliers is i and -i
-    sensitivity,  ///< VS: on a curve of touches: an impact of vanishing speed leaves the next pass as it is
-    fold_degenerate, ///< DF: on a curve of touches: folds of orbits with an impact there end
-    flip_degenerate, ///< DP: on a curve of touches: flips, or losses of symmetry, of orbits with an impact there end
-    double_grazing,  ///< DG: on a curve of touches: another event is touched, or the same one elsewhere
-    fold_flip,       ///< FP: on a curve of folds or flips: one multiplier is 1, another -1
-    fold_torus,      ///< FT: on a curve of folds or torus points: a multiplier is 1, and two lie on the unit circle
-    flip_torus,      ///< PT: on a curve of flips or torus points: a multiplier is -1, and two lie on the unit circle
-    chatter,         ///< CH: contacts accumulate just where the motion leaves: a ladder of grazings leads there
-    extremum,        ///< EX: the period, where it is free, is longest or shortest; or a parameter, on a curve
-    bound,           ///< BD: a bound that was given is reached
-    crossing,        ///< UZ: a monitor takes a value that was asked for
-    end,             ///< EP: the first or last point of a branch
-    regular,         ///< RG: nothing happens here
+    generalised_torus, ///< GT: on a curve of torus points: the torus that leaves is neither stable nor unstable yet
+    resonance_1,       ///< R1: on a curve of folds or torus points: two multipliers are 1
+    resonance_2,       ///< R2: on a curve of flips or torus points: two multipliers are -1
+    resonance_3,       ///< R3: on a curve of torus points: a pair of multipliers are third roots of 1
+    resonance_4,       ///< R4: on a curve of torus points: a pair of multipliers is i and -i
+    sensitivity,       ///< VS: on a curve of touches: an impact of vanishing speed leaves the next pass as it is
+    fold_degenerate,   ///< DF: on a curve of touches: folds of orbits with an impact there end
+    flip_degenerate,   ///< DP: on a curve of touches: flips, or losses of symmetry, of orbits with an impact there end
+    double_grazing,    ///< DG: on a curve of touches: another event is touched, or the same one elsewhere
+    fold_flip,         ///< FP: on a curve of folds or flips: one multiplier is 1, another -1
+    fold_torus,        ///< FT: on a curve of folds or torus points: a multiplier is 1, and two lie on the unit circle
+    flip_torus,        ///< PT: on a curve of flips or torus points: a multiplier is -1, and two lie on the unit circle
+    chatter,           ///< CH: contacts accumulate just where the motion leaves: a ladder of grazings leads there
+    extremum,          ///< EX: the period, where it is free, is longest or shortest; or a parameter, on a curve
+    bound,             ///< BD: a bound that was given is reached
+    crossing,          ///< UZ: a monitor takes a value that was asked for
+    end,               ///< EP: the first or last point of a branch
+    regular,           ///< RG: nothing happens here
 };
 /// What everybody needs to know of points of one type.
 struct PointKind {

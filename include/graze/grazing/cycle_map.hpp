@@ -39,8 +39,9 @@ std::vector<OrbitTouch> touches_of(const System& system, const Orbit& orbit, con
 /// (or B (-h)^(3/2) or B (-h) in place of B s), where C is the clearance of that orbit. The orbit may have contacts of
 /// its own; the cycle of a half orbit ends at its image.
 ///
-/// States that are as small as h are off by s^2 (h^2, of the two others). With the next order, of an impact `second`
-/// s^2 more, they are off by s^3 only; of sliding it is `second` (-h)^(3/2), with an error of h^2.
+/// States that are as small as h are off by s^2 (h^2 of a compliant contact, h^(3/2) of sliding). With the next order,
+/// of an impact `second` s^2 more, they are off by s^3 only; of sliding it is `second` (-h)^(3/2), with an error of
+/// h^2.
 struct CycleMap {
     std::string reason; ///< why there is none, in one line; empty if there is one
     OrbitTouch touch;

@@ -46,7 +46,8 @@ struct PredictionOptions {
 std::vector<double> usual_overshoots(double value, int side);
 
 /// An approach speed up to which the map of a lost orbit says what happens: a tenth of what its contacts grow to, and
-/// of the speed with which the states of the orbit could meet the surface at all.
+/// of the speed with which the states of the orbit could meet the surface at all. Of sliding only the latter: it grows
+/// in proportion, and nothing tells how far.
 /// @throws InputError unless the verdict is `lost`
 double level_of_map(const CycleMap& map, const Verdict& verdict);
 

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace graze {
+
+/// Cuts what comes into lines; carriage returns and line feeds end them.
+class LineCutter {
+public:
+    explicit LineCutter(std::size_t longest) : longest_(longest) {}
+    /// @param take is given lines, and whether each was too long, in which case its end is missing
+    template <class Take>
+    void add(std::string_view text, const Take& take) {
+        for (const char letter : text) {
+            if (letter == '\n' || letter == '\r') {
+                if (!line_.empty())
+                    take(line_, too_long_);
+                line_.clear();
+                too_long_ = false;
+            } else if (line_.size() > longest_) {
+                too_long_ = true;
+            } else {
+                line_ += letter;
+            }
+        }
+    }
+    /// Whether the line that is coming is too long already.
+    bool is_too_long() const { return too_long_; }
+    void clear() {
+        line_.clear();
+        too_long_ = false;
+    }
+
+private:
+    std::size_t longest_;
+    std::string line_;
+    bool too_long_ = false;
+};
+
+} // namespace graze
