@@ -20,7 +20,7 @@ using namespace graze;
 
 struct Switch {
     Design design = load_design("mems-switch");
-    TripPoint trip = testing::trip_of(design);
+    TripPoint trip = graze::testing::trip_of(design);
 };
 
 double seconds_of(const auto& work) {
@@ -69,7 +69,7 @@ BENCHMARK(YieldOfTripValues)->ArgName("jobs")->Arg(1)->Arg(2)->Unit(benchmark::k
 void TripValueBySimulation(benchmark::State& state) {
     const Switch one;
     const ParameterId omega = one.trip.system.model().independent_parameter("omega");
-    const testing::SimulatedDevices devices(one.trip.system.model(), "V", {});
+    const graze::testing::SimulatedDevices devices(one.trip.system.model(), "V", {});
     const std::vector<double> nominal = one.trip.point.solution.orbit.parameters;
     double found = 0, count = 0, seconds = 0;
     for (auto _ : state)

@@ -67,6 +67,7 @@ public:
             const std::vector<double> noise = rows_.noise;
             const FitPoint point = point_;
             const double before = squares_at(rows_, point_);
+            cut_anew(round);
             report = pass(fit);
             if (const double after = squares_at(rows_, point_); after < better * before)
                 continue;
@@ -115,14 +116,39 @@ private:
         return report;
     }
 
+    /// Shorter pieces, whose ends are elsewhere: a contact near one may have been missed.
+    void cut_anew(int round) {
+        constexpr double shorter = 0.7;
+        FitSettings settings = *settings_;
+        std::vector<double> lengths;
+        std::vector<Eigen::VectorXd> openings;
+        for (std::size_t k = 0; k < pieces().size(); ++k) {
+            lengths.push_back(pieces()[k].end - pieces()[k].begin);
+            if (pieces()[k].opening)
+                openings.push_back(point_.states[k]);
+        }
+        const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+        std::nth_element(lengths.begin(), middle, lengths.end());
+        settings.piece = (round == 1 ? 1 : shorter) * shorter * *middle;
+        pieces() = cut_records(rows_.system(), rows_.task(), settings);
+        point_.states.clear();
+        for (const FitPiece& piece : pieces())
+            point_.states.push_back(piece.opening
+                                        ? openings[piece.record]
+                                        : Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.layout.states)));
+    }
+
     bool leaves_more_than_noise() {
-        constexpr double round_off = 1e-9;
         Fit trial;
         describe(rows_, point_, last_joint, trial);
         for (std::size_t o = 0; o < trial.outputs.size(); ++o)
-            if (!trial.outputs[o].independent && trial.outputs[o].deviation > round_off * rows_.range(o))
+            if (is_no_noise(trial.outputs[o], o))
                 return true;
         return false;
+    }
+    bool is_no_noise(const FittedOutput& output, std::size_t number) const {
+        constexpr double round_off = 1e-9;
+        return !output.independent && output.deviation > round_off * rows_.range(number);
     }
 
     void restore(const FitLayout& layout, const std::vector<double>& noise, const FitPoint& point) {
@@ -303,6 +329,13 @@ private:
                        fmt::format("readings do not tell all numbers, for nothing changes with {}: give some of these, "
                                    "or record what tells them",
                                    fit.free.front().text));
+        for (std::size_t o = 0; o < fit.outputs.size(); ++o)
+            if (is_no_noise(fit.outputs[o], o))
+                return end(
+                    FitEnding::misfit,
+                    fmt::format("what is left of '{}' is no noise (neighbours have a correlation of {:.2g}): the "
+                                "model misses something, or a contact is missed, and errors are larger than told",
+                                fit.outputs[o].name, fit.outputs[o].correlation));
         end(FitEnding::converged, {});
     }
 
@@ -328,6 +361,8 @@ std::string_view name_of(FitEnding ending) {
         return "broken";
     case FitEnding::undetermined:
         return "undetermined";
+    case FitEnding::misfit:
+        return "misfit";
     }
     return "";
 }

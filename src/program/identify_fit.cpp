@@ -172,10 +172,6 @@ void warn(const Fit& fit, const Console& console) {
     if (misplaced > 0)
         say(fmt::format("at {} times readings were on the other side of a contact", misplaced));
     for (const FittedOutput& output : fit.outputs) {
-        if (!output.independent && output.share < 1 - 1e-15)
-            say(fmt::format("what is left of '{}' is no noise (neighbours have a correlation of {:.2g}): the model "
-                            "misses something, and errors are larger than told",
-                            output.name, output.correlation));
         constexpr double deviations = 5;
         if (output.chi_square > 1 + deviations * std::sqrt(2 / static_cast<double>(output.readings)))
             say(fmt::format("what is left of '{}' is {:.3g} times as large as its noise", output.name,
@@ -234,12 +230,13 @@ int identify_fit(const IdentifyArguments& arguments, const Console& console) {
         draw_figure(fit_figure(fit, request), arguments.reading.plot, arguments.reading.data);
     deliver(table, arguments.reading.output, heading, console);
     const bool usable = fit.ending == FitEnding::converged;
-    if (!arguments.save.empty() && usable)
+    const bool kept = usable || fit.ending == FitEnding::misfit;
+    if (!arguments.save.empty() && kept)
         write_file(arguments.save, write_parameter_file(parameter_file(fit, request)));
     warn(fit, console);
     if (!usable)
         console.err << fmt::format("graze: {}: {}{}\n", name_of(fit.ending), fit.detail,
-                                   arguments.save.empty() ? "" : "; nothing is saved");
+                                   arguments.save.empty() || kept ? "" : "; nothing is saved");
     return usable ? exit_success : exit_irregular;
 }
 

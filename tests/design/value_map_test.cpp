@@ -35,6 +35,31 @@ TEST(ValueMap, OfAnOscillatorIsTheClosedFormAtEachPoint) {
         EXPECT_EQ(again[i].value, plane[i].value);
 }
 
+/// Whether from what the solution has evaluated or by a map of its own, the class of a device is the same. The plane
+/// goes on to frequencies below 0.976, where the touch is in another segment of the orbit.
+TEST(ValueMap, TellsTheClassesOfThePlaneAsTheMapDoesFromTheBeginning) {
+    const Design design = load_design("mems-switch");
+    const TripPoint trip = trip_of(design);
+    const DesignDimension& delta = design.dimensions[*design.find_dimension("delta")];
+    DesignDimension omega = design.dimensions[*design.find_dimension("omega")];
+    omega.least = 0.97;
+    MapSettings settings;
+    settings.points = 5;
+    LocatedValue located(trip.system, trip.point, trip.control, {delta.parameter, omega.parameter});
+    std::size_t compared = 0;
+    for (const MappedValue& one : value_plane(trip, delta, omega, settings)) {
+        if (!one.found || !one.admissible)
+            continue;
+        const double values[] = {one.x, one.y};
+        const LocatedSolution solution = located(values);
+        ASSERT_TRUE(solution.found) << solution.problem;
+        EXPECT_FALSE(solution.map); // which has not been asked for
+        EXPECT_EQ(class_at(moved_to(trip, solution.orbit)).outcome, one.outcome) << one.x << ", " << one.y;
+        ++compared;
+    }
+    EXPECT_GE(compared, 15U);
+}
+
 TEST(ValueMap, TellsClassesThatTheMapOfEachDeviceHas) {
     // Of a damped oscillator the class is that of its own cycle: with the neighbours' it must agree point by point.
     const Design design = parse_design(oscillator_text(), "d.toml");

@@ -43,7 +43,7 @@ struct Experiment {
     GeneratorOptions generator;
     double safe = 0; ///< amplitude, in V from peak to peak, before, after, and whenever anything goes wrong
     double offset = 0;
-    std::string device; ///< "tcp:HOST:PORT" or "serial:PATH"
+    std::string device;            ///< "tcp:HOST:PORT" or "serial:PATH"
     unsigned sample_baud = 115200; ///< of a serial line; it has one stop bit, no parity and no flow control
     double sample_timeout = 5;
     double rate = 0;                     ///< samples in a second

@@ -81,6 +81,7 @@ enum class FitEnding {
     apart,        ///< pieces do not join: these records are no motion of this model near the guess
     broken,       ///< a motion ends before its record does
     undetermined, ///< converged, but readings do not tell all that is to be found
+    misfit,       ///< converged, but what is left is no noise: errors are larger than told, or a contact was missed
 };
 /// Stable name for tables and files, such as "converged".
 std::string_view name_of(FitEnding ending);
