@@ -83,7 +83,9 @@ TEST(GeneratorClient, TellsWhatIsWrongWithAnswers) {
     };
     for (const auto& [text, ending] : answers) {
         Bent bent;
-        GeneratorClient client(bent.line, options());
+        GeneratorOptions hasty = options();
+        hasty.reopen = 0.02;
+        GeneratorClient client(bent.line, hasty);
         client.begin(6, 1, 0);
         bent.bend = [&](const std::string& said, std::string answer) { return said == "VOLT?" ? text : answer; };
         std::string what;
