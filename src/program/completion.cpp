@@ -245,6 +245,8 @@ Choices choices_for(const CLI::App& app, const CLI::App& command, const Declared
         return {table_kind_names(), false};
     if (starts("TABLE") && of == "record")
         return {record_table_names(), false};
+    if (starts("TABLE") && of == "identify")
+        return {fit_table_names(), false};
     if (starts("TABLE"))
         return {{"points", "samples", "segments", "multipliers", "half_multipliers", "minima", "end_values", "runs"},
                 false};

@@ -107,7 +107,7 @@ void declare_fit(CLI::App& command, IdentifyArguments& arguments) {
         ->check(not_empty());
     declare_option(command, group, "--table", arguments.table, "TABLE",
                    "numbers (default), outputs, correlations or readings")
-        ->check(one_of({"numbers", "outputs", "correlations", "readings"}));
+        ->check(one_of(fit_table_names()));
     declare_option(command, group, "--save", arguments.save, "FILE",
                    "Keep what was found, for --set @FILE and --from @FILE")
         ->check(not_empty());
@@ -117,6 +117,10 @@ void declare_fit(CLI::App& command, IdentifyArguments& arguments) {
 
 std::vector<std::string> identify_kinds() {
     return {"decrement", "restitution", "coupling", "impedance", "fit"};
+}
+
+std::vector<std::string> fit_table_names() {
+    return {"numbers", "outputs", "correlations", "readings"};
 }
 
 void declare_identify_command(CLI::App& app, Arguments& all) {

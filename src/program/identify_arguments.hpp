@@ -7,6 +7,9 @@ namespace graze {
 /// What `graze identify` finds.
 std::vector<std::string> identify_kinds();
 
+/// What `graze identify fit --table` shows.
+std::vector<std::string> fit_table_names();
+
 /// The command that finds parameters from measured records: `identify`.
 void declare_identify_command(CLI::App& app, Arguments& arguments);
 

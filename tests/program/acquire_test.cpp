@@ -170,7 +170,7 @@ TEST(Acquire, GoesOnAfterItHasBeenKilledWithTheSameRecords) {
     Process whole(experiment.command("whole"), experiment.path("said.txt"));
     ASSERT_EQ(whole.wait(), 0) << whole.printed();
     const Experiment another;
-    EXPECT_GT(killed(another, "parts", 3, 150'000, 6), 2);
+    EXPECT_GT(killed(another, "parts", 3, 40'000, 6), 2);
     const auto parts = another.files("parts");
     EXPECT_TRUE(same(experiment.files("whole"), parts));
 }
