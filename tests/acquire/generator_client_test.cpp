@@ -87,7 +87,9 @@ TEST(GeneratorClient, TellsWhatIsWrongWithAnswers) {
         hasty.reopen = 0.02;
         GeneratorClient client(bent.line, hasty);
         client.begin(6, 1, 0);
-        bent.bend = [&](const std::string& said, std::string answer) { return said == "VOLT?" ? text : answer; };
+        bent.bend = [&, bad = text](const std::string& said, std::string answer) {
+            return said == "VOLT?" ? bad : answer;
+        };
         std::string what;
         EXPECT_EQ(ending_of([&] { client.set_amplitude(2.5); }, what), ending) << what;
         EXPECT_LT(what.size(), 300U);
