@@ -89,6 +89,8 @@ void TextSampleDevice::parse(const std::string& row, Samples& samples) {
     const double time = next('\0');
     if (!(time > last_time_))
         fail(fmt::format("gives the time {} after {}", time, last_time_));
+    if (const double due = static_cast<double>(given_) / rate_; rate_ > 0 && !(std::abs(time - due) * rate_ <= 0.5))
+        fail(fmt::format("gives the time {} to its sample at {}", time, due));
     samples.values.resize(header_.channels.size());
     samples.times.push_back(time);
     for (std::vector<double>& column : samples.values)

@@ -29,6 +29,9 @@ void clear_name(const std::string& name) {
         std::filesystem::is_symlink(status) ? std::filesystem::read_symlink(name, error).string() : std::string();
     if (!target.starts_with("/dev/pts/"))
         throw InputError(Place{"--port", 0, 0}, fmt::format("'{}' is there already", name), "choose another name");
+    if (std::filesystem::exists(target, error))
+        throw InputError(Place{"--port", 0, 0}, fmt::format("'{}' is a terminal that is in use", name),
+                         "choose another name, or remove it if no bench is running there");
     std::filesystem::remove(name, error);
 }
 

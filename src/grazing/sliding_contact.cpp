@@ -90,7 +90,8 @@ SlidingContact sliding_contact(const TouchFunctions& functions, const TouchState
     const Eigen::VectorXd bend = difference.second - a * off - difference.jerk * slowing; // D twice, on the surface
     const double terms = gradient.cwiseAbs().dot(difference.second.cwiseAbs() + a * off.cwiseAbs() +
                                                  std::abs(difference.jerk) * slowing.cwiseAbs());
-    if (!(std::abs(gradient.dot(slowing) + 1) <= small) || !(std::abs(gradient.dot(bend)) <= small * terms))
+    if (!(std::abs(gradient.dot(slowing) + 1) <= small) ||
+        !(std::abs(gradient.dot(bend)) <= small * (terms + std::abs(a) / sizes.time())))
         return fail(
             fmt::format("mode '{}' does not stay on the surface of event '{}'", name, model.events[touch.event].name));
     result.gain = -slowing;

@@ -1,5 +1,6 @@
 #include "graze/identify/fit.hpp"
 
+#include "graze/symbolic/input_error.hpp"
 #include "identify/fit_findings.hpp"
 #include "identify/fit_solver.hpp"
 #include "identify/fit_start.hpp"
@@ -57,6 +58,7 @@ public:
     }
 
     Fit run() {
+        require_noise();
         Fit fit;
         StageReport report = pass(fit);
         // What is left is no noise: contacts may be missing, which the parameters that were found let appear.
@@ -75,12 +77,28 @@ public:
                 restore(layout, noise, point);
             break;
         }
+        if (const std::string broken = unreadable(rows_, point_); !broken.empty()) {
+            fit.ending = report.interrupted ? FitEnding::interrupted : FitEnding::broken;
+            fit.detail = broken;
+            return fit;
+        }
         describe(rows_, point_, last_joint, fit);
         judge(report, check_point(rows_, point_, last_joint), fit);
         return fit;
     }
 
 private:
+    void require_noise() const {
+        constexpr double most = 1e12; // beyond, squares of what is left lose their digits
+        for (std::size_t o = 0; o < rows_.task().outputs.size(); ++o)
+            if (const MeasuredOutput& output = rows_.task().outputs[o];
+                output.noise > 0 && !(output.noise <= most * rows_.range(o) && output.noise >= rows_.range(o) / most))
+                throw InputError(
+                    fmt::format("the noise {} of '{}' is out of proportion: its readings have a range of {:.6g}",
+                                output.noise, output.name, rows_.range(o)),
+                    "give the standard deviation of its readings");
+    }
+
     /// From the first pieces to all of them, and until they join.
     StageReport pass(Fit& fit) {
         const std::vector<FitStage> stages = stages_of(rows_, *settings_);
@@ -139,6 +157,8 @@ private:
     }
 
     bool leaves_more_than_noise() {
+        if (!unreadable(rows_, point_).empty())
+            return false;
         Fit trial;
         describe(rows_, point_, last_joint, trial);
         for (std::size_t o = 0; o < trial.outputs.size(); ++o)
@@ -315,6 +335,10 @@ private:
             return end(FitEnding::interrupted, "the fit was ended before it had converged");
         if (!checks.broken.empty())
             return end(FitEnding::broken, checks.broken + ": begin from other guesses, or bound parameters");
+        if (!std::all_of(fit.numbers.begin(), fit.numbers.end(), [](const FittedNumber& number) {
+                return std::isfinite(number.estimate.value) && std::isfinite(number.estimate.error);
+            }))
+            return end(FitEnding::broken, "numbers or their errors are beyond all bounds: choose other units");
         if (!checks.modes_agree || !(checks.gap <= checks.allowed_gap))
             return end(FitEnding::apart,
                        fmt::format("pieces of the motion do not join, by {:.3g} of its size: begin from other guesses, "
@@ -369,7 +393,14 @@ std::string_view name_of(FitEnding ending) {
 
 Fit fit_model(const System& system, const FitTask& task, const FitSettings& settings) {
     require_task(system, task, settings);
-    return Fitter(system, task, settings).run();
+    try {
+        return Fitter(system, task, settings).run();
+    } catch (const FitInterruption&) {
+        Fit fit;
+        fit.ending = FitEnding::interrupted;
+        fit.detail = "the fit was ended before it had converged";
+        return fit;
+    }
 }
 
 } // namespace graze

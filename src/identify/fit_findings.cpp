@@ -280,6 +280,17 @@ void describe(FitRows& rows, const FitPoint& point, double joint, Fit& fit) {
     describe_numbers(rows, point, joint, variance_at(rows, rests, fit.freedom), fit);
 }
 
+std::string unreadable(FitRows& rows, const FitPoint& point) {
+    for (std::size_t k = 0; k < rows.layout.pieces.size(); ++k) {
+        const FitPiece& piece = rows.layout.pieces[k];
+        if (!rows.evaluate(piece, point.shared, point.states[k]).finite)
+            return fmt::format("what the model tells for readings from time {:.6g} to {:.6g} is not finite: look at "
+                               "what they mean, begin from other guesses, or bound parameters",
+                               piece.begin, piece.end);
+    }
+    return {};
+}
+
 FitChecks check_point(FitRows& rows, const FitPoint& point, double joint) {
     constexpr double part_of_error = 0.01, nothing = 1e-9, part_of_noise = 1e-3;
     FitChecks checks;

@@ -15,6 +15,9 @@ struct FitChecks {
     std::string broken; ///< the first motion that ends early; empty without
     bool modes_agree = true;
 };
+/// What of the readings cannot be computed at a point. Empty if all can.
+std::string unreadable(FitRows& rows, const FitPoint& point);
+
 FitChecks check_point(FitRows& rows, const FitPoint& point, double joint);
 
 /// Shared unknowns that are at a bound.

@@ -96,6 +96,7 @@ FitRows::FitRows(const System& system, const FitTask& task, const FitSettings& s
       reach_(settings.reach >= 0 ? settings.reach : 3 * usual_distance(task)), ranges_(ranges_of(task)),
       values_(task.values.empty() ? system.model().parameter_values() : task.values), periods_(system.states()),
       motion_(Simulation(system, {}, {}, settings.simulation), places_of(task)) {
+    motion_.end_when(settings.interrupted);
     layout.parameters = task.parameters.size();
     layout.states = system.states();
     for (std::size_t o = 0; o < task.outputs.size(); ++o) {
@@ -222,7 +223,12 @@ const PredictedMotion& FitRows::motion(const FitPiece& piece, const Eigen::Vecto
     asked.end = piece.end;
     asked.times = std::span(task_->records[piece.record].times).subspan(piece.first, piece.last - piece.first);
     asked.reach = reach_;
-    return motion_.follow(asked);
+    if (motion_.is_interrupted())
+        throw FitInterruption();
+    const PredictedMotion& followed = motion_.follow(asked);
+    if (motion_.is_interrupted())
+        throw FitInterruption();
+    return followed;
 }
 
 void FitRows::find_period_slopes(std::span<const double> parameters) {

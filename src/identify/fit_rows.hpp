@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,12 @@ struct PieceRows {
     std::vector<double> periods, period_slopes; ///< of cyclic states; by the parameters that are found, in no scale
 };
 
+/// The caller has ended the fit in the middle of a motion.
+class FitInterruption : public std::exception {
+public:
+    const char* what() const noexcept override { return "the fit was interrupted"; }
+};
+
 /// Evaluates pieces.
 class FitRows {
 public:
@@ -34,6 +41,8 @@ public:
     std::vector<double> noise; ///< of each output: what readings are divided by
     bool robust = true;        ///< whether the loss of the settings is made of what is left, or squares
 
+    /// Whether the caller has ended the fit in the middle of a motion.
+    bool is_interrupted() const { return motion_.is_interrupted(); }
     const FitTask& task() const { return *task_; }
     const System& system() const { return system_; }
     /// Rows are measured by this: what is left, relative to the ranges of the outputs.

@@ -7,6 +7,7 @@
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
+#include <glog/logging.h>
 
 #include <cmath>
 #include <memory>
@@ -87,6 +88,8 @@ private:
             known_ = rows_->evaluate(piece_, shared, states);
         } catch (const InputError&) { // no motion begins there
             known_.finite = false;
+        } catch (const FitInterruption&) { // the solver is left in order
+            known_.finite = false;
         }
         return known_.finite;
     }
@@ -134,6 +137,18 @@ public:
 private:
     const StageProgress* progress_;
     const FitPoint* point_;
+};
+
+/// Ceres tells its log, on standard error, of points that cannot be evaluated.
+class QuietLog {
+public:
+    QuietLog() { FLAGS_minloglevel = google::GLOG_FATAL; }
+    ~QuietLog() { FLAGS_minloglevel = before_; }
+    QuietLog(const QuietLog&) = delete;
+    QuietLog& operator=(const QuietLog&) = delete;
+
+private:
+    int before_ = FLAGS_minloglevel;
 };
 
 void set_bounds(ceres::Problem& problem, const FitRows& rows, double* shared) {
@@ -211,9 +226,12 @@ StageReport minimise(FitRows& rows, FitPoint& point, const FitStage& stage, cons
     options.num_threads = 1;
     options.callbacks.push_back(&callback);
     ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
+    {
+        const QuietLog quiet;
+        ceres::Solve(options, &problem, &summary);
+    }
     report.converged = summary.termination_type == ceres::CONVERGENCE;
-    report.interrupted = summary.termination_type == ceres::USER_FAILURE;
+    report.interrupted = summary.termination_type == ceres::USER_FAILURE || rows.is_interrupted();
     report.failed = summary.termination_type == ceres::FAILURE;
     report.cost = summary.final_cost;
     report.iterations = static_cast<int>(summary.iterations.size());

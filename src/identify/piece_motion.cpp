@@ -56,6 +56,11 @@ public:
         }
     }
 
+    bool stop() override {
+        owner_->is_interrupted_ = owner_->is_interrupted_ || (owner_->interrupted_ && owner_->interrupted_());
+        return owner_->is_interrupted_;
+    }
+
     void contact(const Contact& contact) override {
         if (contact.kind == ContactKind::touch)
             return;

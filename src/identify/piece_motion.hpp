@@ -5,9 +5,11 @@
 #include "identify/tangent_fan.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -53,6 +55,11 @@ public:
     /// are those of the states
     PieceMotion(const Simulation& simulation, std::vector<std::size_t> moved);
 
+    /// Asked at every step: true ends a motion, and no other begins.
+    void end_when(std::function<bool()> interrupted) { interrupted_ = std::move(interrupted); }
+    /// Whether one was ended so.
+    bool is_interrupted() const { return is_interrupted_; }
+
     std::size_t directions() const { return simulation_.system().states() + moved_.size(); }
     void set_parameters(std::span<const double> parameters);
     /// @throws InputError for what no trajectory can begin with
@@ -65,6 +72,8 @@ private:
     bool find_side(const MotionPiece& piece, std::size_t event);
 
     Simulation simulation_;
+    std::function<bool()> interrupted_;
+    bool is_interrupted_ = false;
     std::vector<std::size_t> moved_;
     std::vector<double> parameters_, parameter_seeds_, seeds_;
     JetSet jets_;

@@ -1,5 +1,6 @@
 #include "program/identify_fit.hpp"
 
+#include "graze/model/catalogue.hpp"
 #include "graze/model/parameter_file.hpp"
 #include "graze/study/figure.hpp"
 #include "graze/symbolic/input_error.hpp"
@@ -15,6 +16,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace graze {
 
@@ -183,11 +185,19 @@ Fit run_fit(const FitRequest& request, const Console& console) {
     const InterruptGuard guard;
     StatusLine line(console, console.terminal);
     FitSettings settings = request.settings;
+    std::string done = "the first motions";
     settings.progress = [&](const FitProgress& progress) {
+        if (line.wanted())
+            done = fmt::format("stage {} of {}, iteration {}: {:.3g} of the range is left", progress.stage + 1,
+                               progress.stages, progress.iteration, progress.misfit);
         if (line.wanted() && line.is_due())
-            line.show(fmt::format("stage {} of {}, iteration {}: {:.3g} of the range is left", progress.stage + 1,
-                                  progress.stages, progress.iteration, progress.misfit));
+            line.show(done);
         return !InterruptGuard::requested();
+    };
+    settings.interrupted = [&] { // a single motion may take long
+        if (line.wanted() && line.is_due())
+            line.show(done);
+        return InterruptGuard::requested();
     };
     return fit_model(request.model, request.task, settings);
 }
@@ -200,6 +210,8 @@ int identify_fit(const IdentifyArguments& arguments, const Console& console) {
                                  {"--output", arguments.reading.output.file},
                                  {"--plot", arguments.reading.plot},
                                  {"--data", arguments.reading.data}};
+    if (const std::string& model = arguments.reading.files.front(); is_model_path(model))
+        files.push_back({"the model", model});
     for (const std::string& file : request.files)
         files.push_back({"a record", file});
     require_distinct(files);
@@ -209,6 +221,10 @@ int identify_fit(const IdentifyArguments& arguments, const Console& console) {
     if (fit.ending == FitEnding::interrupted) {
         console.err << "graze: interrupted: the fit had not converged, and nothing is written\n";
         return InterruptGuard::exit_code();
+    }
+    if (fit.numbers.empty()) {
+        console.err << fmt::format("graze: {}: {}\n", name_of(fit.ending), fit.detail);
+        return exit_irregular;
     }
     JsonObject heading;
     heading.add("graze", GRAZE_VERSION);

@@ -72,6 +72,7 @@ struct FitSettings {
     int most_iterations = 100; ///< in each stage
     SimulationOptions simulation{.tolerance = 1e-13};
     std::function<bool(const FitProgress&)> progress{}; ///< asked after every iteration: false ends the fit
+    std::function<bool()> interrupted{};                ///< asked at every step of a motion: true ends the fit
 };
 
 enum class FitEnding {
