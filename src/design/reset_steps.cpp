@@ -10,13 +10,16 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace graze {
 
 namespace {
 
-constexpr std::size_t most_steps = 24;
+constexpr std::size_t fewest_steps = 24, further_steps = 7;
+/// Where a motion does not rest, it may be lost sooner or later, as its steps happen to be.
+constexpr std::size_t most_ways = 5;
 constexpr double narrow = 1e-6; ///< the last step, of the whole way
 constexpr double alike = 1e-6; ///< states of one motion, of the sizes that they have; Newton's method closes far better
 
@@ -44,34 +47,27 @@ public:
           search_(factory_->make()), jets_(factory_->simulation(), LaneKind::single) {}
 
     Reset find() {
-        const double from = trip_.value(), way = options_.least - from;
         PointResult begin;
         begin.state = model_.initial_state();
         begin.mode = model_.initial_mode;
-        tripped_ = settle(from + options_.overshoot, begin);
-        if (interrupted_ || !goes_on(tripped_))
-            return unknown("the tripped motion does not go on: it is " + ending(tripped_));
-        reset_.motion = name_of(tripped_.label);
-        resting_.state = orbit_.starts.front();
-        resting_.mode = orbit_.signature.front().mode;
-        double there = from + options_.overshoot;
-        for (std::size_t i = 1; i <= most_steps; ++i) {
-            // Small steps at first: there the motion that has not tripped is next to the orbit that is known.
-            const double share = static_cast<double>(i * i) / static_cast<double>(most_steps * most_steps);
-            const double value = from + way * share;
-            const Step step = try_step(value);
-            if (step == Step::unknown)
+        const double start = trip_.value() + options_.overshoot;
+        begin = settle(start, begin);
+        if (interrupted_ || !goes_on(begin))
+            return unknown("the tripped motion does not go on: it is " + ending(begin));
+        reset_.motion = name_of(begin.label);
+        const std::size_t ways = begin.label == Label::equilibrium ? 1 : most_ways;
+        for (std::size_t way = 0; way < ways; ++way) {
+            tripped_ = begin;
+            resting_.state = orbit_.starts.front();
+            resting_.mode = orbit_.signature.front().mode;
+            if (!go_back(start, fewest_steps + way * further_steps))
                 return reset_;
-            if (step == Step::lost && i == 1)
-                return unknown(
-                    fmt::format("at {:.9g} already, next to the trip value, the tripped motion and the other "
-                                "one settle on the same",
-                                value));
-            if (step == Step::lost)
-                return halve(there, value, std::abs(way));
-            there = value;
         }
-        return unknown(fmt::format("the tripped motion is still there at {:.9g}", options_.least));
+        reset_.value = there_;
+        reset_.lost_at = lost_;
+        reset_.how =
+            found_.label == Label::equilibrium ? "return to rest" : "return to the motion that had not tripped";
+        return reset_;
     }
 
 private:
@@ -93,6 +89,53 @@ private:
     Reset unknown(const std::string& reason) {
         reset_.reason = interrupted_ ? "interrupted" : reason;
         return reset_;
+    }
+
+    /// In so many steps, which are small at first: there the motion that has not tripped is next to the orbit that is
+    /// known. @return false when it is not known where the tripped motion is lost
+    bool go_back(double start, std::size_t steps) {
+        const double from = trip_.value(), way = options_.least - from;
+        double there = start;
+        for (std::size_t i = 1; i <= steps; ++i) {
+            const double share = static_cast<double>(i * i) / static_cast<double>(steps * steps);
+            const double value = from + way * share;
+            const Step step = try_step(value);
+            if (step == Step::unknown)
+                return false;
+            if (step == Step::lost && i == 1)
+                return fail(fmt::format("at {:.9g} already, next to the trip value, the tripped motion and the other "
+                                        "one settle on the same",
+                                        value));
+            if (step == Step::lost)
+                return halve(there, value, std::abs(way));
+            there = value;
+        }
+        return fail(fmt::format("the tripped motion is still there at {:.9g}", options_.least));
+    }
+
+    bool halve(double there, double lost, double way) {
+        while (std::abs(there - lost) > narrow * way) {
+            const double middle = 0.5 * (there + lost);
+            const Step step = try_step(middle);
+            if (step == Step::unknown) {
+                reset_.reason += fmt::format("; it is there at {:.9g} and lost at {:.9g}", there, lost);
+                return false;
+            }
+            (step == Step::lost ? lost : there) = middle;
+        }
+        // The widest of all ways: the nearest value at which it was there, the farthest at which it was lost.
+        const double down = options_.least < trip_.value() ? 1 : -1;
+        there_ = there_ ? down * std::max(down * *there_, down * there) : there;
+        lost_ = lost_ ? down * std::min(down * *lost_, down * lost) : lost;
+        return true;
+    }
+
+    bool fail(const std::string& reason) {
+        unknown(reason);
+        if (there_ && !interrupted_)
+            reset_.reason +=
+                fmt::format("; on another way down it was lost between {:.9g} and {:.9g}", *lost_, *there_);
+        return false;
     }
 
     /// What a motion becomes that goes on at another value from where it was.
@@ -148,17 +191,15 @@ private:
     /// Takes both motions to a value, unless the tripped one is lost there.
     Step try_step(double value) {
         PointResult resting = settle(value, resting_), tripped = settle(value, tripped_);
-        const auto fail = [&](const std::string& reason) {
-            unknown(reason);
+        if (interrupted_ || !goes_on(tripped)) {
+            fail(fmt::format("the tripped motion does not go on at {:.9g}: it is {}", value, ending(tripped)));
             return Step::unknown;
-        };
-        if (interrupted_)
-            return fail("");
-        if (!goes_on(tripped))
-            return fail(fmt::format("the tripped motion does not go on at {:.9g}: it is {}", value, ending(tripped)));
-        if (!is_settled(resting))
-            return fail(fmt::format("the motion that has not tripped does not settle at {:.9g}: it is {}", value,
-                                    ending(resting)));
+        }
+        if (!is_settled(resting)) {
+            fail(fmt::format("the motion that has not tripped does not settle at {:.9g}: it is {}", value,
+                             ending(resting)));
+            return Step::unknown;
+        }
         if (are_same(tripped, resting)) {
             found_ = resting;
             return Step::lost;
@@ -166,23 +207,6 @@ private:
         resting_ = std::move(resting);
         tripped_ = std::move(tripped);
         return Step::remains;
-    }
-
-    Reset halve(double there, double lost, double way) {
-        while (std::abs(there - lost) > narrow * way) {
-            const double middle = 0.5 * (there + lost);
-            const Step step = try_step(middle);
-            if (step == Step::unknown) {
-                reset_.reason += fmt::format("; it is there at {:.9g} and lost at {:.9g}", there, lost);
-                return reset_;
-            }
-            (step == Step::lost ? lost : there) = middle;
-        }
-        reset_.value = there;
-        reset_.lost_at = lost;
-        reset_.how =
-            found_.label == Label::equilibrium ? "return to rest" : "return to the motion that had not tripped";
-        return reset_;
     }
 
     /// Whether two motions are one; of orbits that return several times, whichever return comes first.
@@ -215,15 +239,31 @@ private:
     JetSet jets_;
     PointResult tripped_, resting_, found_;
     std::vector<double> sizes_ = sizes_of_orbit();
+    std::optional<double> there_, lost_;
     bool interrupted_ = false;
     Reset reset_;
 
+    /// Of its states along the orbit that does not trip: at a section each may be zero.
     std::vector<double> sizes_of_orbit() const {
-        std::vector<double> sizes(model_.states.size());
-        for (const std::vector<double>& start : orbit_.starts)
+        constexpr std::size_t parts = 16;
+        const Simulation simulation(trip_.system, {}, {}, {});
+        JetSet jets(simulation, LaneKind::single);
+        Observer nobody;
+        std::vector<double> sizes(model_.states.size()), state = orbit_.starts.front();
+        std::size_t mode = orbit_.signature.front().mode;
+        for (std::size_t part = 0;; ++part) {
             for (std::size_t i = 0; i < sizes.size(); ++i)
-                sizes[i] = std::max(sizes[i], std::abs(start[i]));
-        return sizes;
+                sizes[i] = std::max(sizes[i], std::abs(state[i]));
+            if (part == parts)
+                return sizes;
+            Trajectory trajectory(simulation, orbit_.parameters, nobody);
+            trajectory.start(state, mode, 0, orbit_.period() / static_cast<double>(parts));
+            run(trajectory, jets);
+            if (trajectory.outcome().ending != Ending::end_time)
+                return sizes;
+            state.assign(trajectory.state().begin(), trajectory.state().end());
+            mode = trajectory.mode();
+        }
     }
 };
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <utility>
 
 namespace graze::testing {
 
@@ -183,41 +184,47 @@ range = [0.1, 0.4]
                        zeta, omega, restitution);
 }
 
-void expect_way_back(const TripPoint& trip, double overshoot, const Reset& reset) {
-    ASSERT_TRUE(reset.value && reset.lost_at) << reset.reason;
-    EXPECT_LT(*reset.lost_at, *reset.value);
-    EXPECT_LT(*reset.value, trip.value());
-    // Another way down, by a motion of which nothing is known but its contacts.
+/// Another way down than those of the reset, to a hundredth above where it was there and as far below where it was
+/// lost: of its motion nothing is known but contacts. @return those at both
+std::pair<std::size_t, std::size_t> contacts_beside(const TripPoint& trip, double overshoot, const Reset& reset) {
     std::vector<double> way{trip.value() + overshoot};
     while (way.back() * 0.9 > *reset.value)
         way.push_back(way.back() * 0.9);
     way.push_back(1.01 * *reset.value);
-    EXPECT_GT(late_contacts(trip, way), 0U);
+    const std::size_t there = late_contacts(trip, way);
     way.push_back(0.99 * *reset.lost_at);
-    EXPECT_EQ(late_contacts(trip, way), 0U);
+    return {there, late_contacts(trip, way)};
 }
 
 } // namespace
 
-TEST(ResetSteps, AMotionThatDoesNotSettleIsTakenBackUntilItDoes) {
+TEST(ResetStepsSlow, AMotionThatDoesNotSettleIsTakenBackUntilItDoes) {
     const TripPoint trip = trip_of(parse_design(oscillator(0.05, 2.7, 0.8), "d.toml"));
     EXPECT_NEAR(trip.value(), oscillator_value(0.2, 0.05, 2.7), 1e-9);
     ResetOptions options;
     options.overshoot = 0.05;
     options.least = 0.01;
     const Reset reset = reset_of(trip, trip.point.solution.orbit, options);
+    ASSERT_TRUE(reset.value && reset.lost_at) << reset.reason;
     EXPECT_EQ(reset.motion, "chaotic");
-    expect_way_back(trip, options.overshoot, reset);
+    EXPECT_LT(*reset.lost_at, *reset.value);
+    const auto [there, lost] = contacts_beside(trip, options.overshoot, reset);
+    EXPECT_GT(there, 0U);
+    EXPECT_EQ(lost, 0U);
 }
 
-TEST(ResetSteps, AnOrbitThatBecomesAnotherOneBeyondTheTripValueIsNoWayBack) {
+TEST(ResetStepsSlow, AnOrbitThatBecomesAnotherOneBeyondTheTripValueIsNoWayBack) {
     const TripPoint trip = trip_of(parse_design(oscillator(0.1, 2.4, 0.9), "d.toml"));
     EXPECT_NEAR(trip.value(), oscillator_value(0.2, 0.1, 2.4), 1e-9);
     ResetOptions options;
     options.overshoot = 0.1;
     options.least = 0.01;
     const Reset reset = reset_of(trip, trip.point.solution.orbit, options);
-    expect_way_back(trip, options.overshoot, reset);
+    ASSERT_TRUE(reset.value && reset.lost_at) << reset.reason;
+    EXPECT_LT(*reset.lost_at, *reset.value);
+    EXPECT_LT(*reset.value, trip.value());
+    // Below it other motions with contacts may remain, which this one has not come to: nothing is claimed of them.
+    EXPECT_GT(contacts_beside(trip, options.overshoot, reset).first, 0U);
 }
 
 } // namespace graze::testing

@@ -21,7 +21,7 @@ struct Reset {
     std::string reason;
     std::string how;                   ///< what happens there, such as "fold"
     std::string motion;                ///< the tripped motion's signature, if it is an orbit; else what it is
-    std::optional<double> lost_at;     ///< of a value found by simulation, the last at which it was there: the next one
+    std::optional<double> lost_at;     ///< of a value found by simulation: one at which it has come back
     std::optional<SpecialPoint> point; ///< of that, whose condition can be held
 
     /// Trip value less reset value.
@@ -30,8 +30,8 @@ struct Reset {
 
 /// Simulates the motion beyond the trip point until it settles, and follows the orbit that it has then, back to where
 /// it is lost. A motion that is no such orbit, as one at rest on a stop or a chaotic one, is taken back by simulation
-/// in steps, until it settles on the motion that had not tripped; then the value is known to a millionth of the way to
-/// `least`, and for one that does not settle, as far as `cycles` tell.
+/// in steps, until it settles on the motion that had not tripped: at rest to a millionth of the way to `least`, else on
+/// several ways, which need not be all that there are.
 /// @param orbit at the trip point
 Reset reset_of(const TripPoint& trip, const Orbit& orbit, const ResetOptions& options);
 
