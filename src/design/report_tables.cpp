@@ -1,4 +1,5 @@
 #include "graze/design/design_report.hpp"
+#include "graze/sweep/attractor.hpp"
 
 #include <fmt/format.h>
 
@@ -290,7 +291,14 @@ Table facts_of(const Design& design, const TripPoint& trip, const DesignReport& 
     add_times(facts, report, model, design.trip.until);
     if (report.reset.value) {
         facts.add("reset_value", *report.reset.value, unit,
-                  fmt::format("the tripped motion is lost there, by a {}", report.reset.how));
+                  report.reset.lost_at
+                      ? fmt::format("by simulation: the tripped motion ({}) is still there{}", report.reset.motion,
+                                    report.reset.motion == name_of(Label::equilibrium)
+                                        ? ""
+                                        : "; on other ways down it may be lost sooner or later")
+                      : fmt::format("the tripped motion is lost there, by a {}", report.reset.how));
+        if (report.reset.lost_at)
+            facts.add("reset_lost", *report.reset.lost_at, unit, report.reset.how);
         facts.add("hysteresis", report.reset.hysteresis(report.value), unit, "trip value less reset value");
     } else {
         facts.add("reset_value", "none", report.reset.reason);

@@ -1,5 +1,6 @@
 #include "graze/design/reset.hpp"
 
+#include "design/reset_steps.hpp"
 #include "graze/branch/orbit_branch.hpp"
 #include "graze/results/orbit_motion.hpp"
 #include "graze/symbolic/input_error.hpp"
@@ -48,7 +49,8 @@ bool ends_motion(PointType type) {
 }
 
 /// Follows the tripped orbit back until it is no longer stable, or no longer an orbit of the model.
-void follow_back(Reset& reset, const TripPoint& trip, const System& system, const Orbit& orbit,
+/// @return false where it could not be followed so far that this is known
+bool follow_back(Reset& reset, const TripPoint& trip, const System& system, const Orbit& orbit,
                  const ResetOptions& options) {
     BranchSettings settings;
     settings.parameter = trip.control;
@@ -62,18 +64,19 @@ void follow_back(Reset& reset, const TripPoint& trip, const System& system, cons
     OrbitBranch branch(system, orbit, settings);
     if (!branch.start()) {
         reset.reason = "the tripped orbit cannot be followed: " + branch.detail();
-        return;
+        return false;
     }
     const auto take = [&](const SpecialPoint& point) {
         reset.value = point.parameter;
         reset.how = name_of(point.type);
         if (kind_of(point.type).may_be_kept)
             reset.point = point;
+        return true;
     };
     while (branch.step()) {
         if (options.interrupted && options.interrupted()) {
             reset.reason = "interrupted";
-            return;
+            return true;
         }
         for (const SpecialPoint& point : branch.found())
             if (ends_motion(point.type))
@@ -86,6 +89,31 @@ void follow_back(Reset& reset, const TripPoint& trip, const System& system, cons
                        ? fmt::format("the tripped motion is still there at {:.9g}", branch.point().parameter)
                        : fmt::format("the tripped orbit could not be followed below {:.9g}: {}",
                                      branch.point().parameter, branch.detail());
+    return branch.outcome() == BranchOutcome::bound;
+}
+
+/// By the orbit on which the tripped motion settles. @return false where it has none that can be followed
+bool reset_by_orbit(Reset& reset, const TripPoint& trip, const System& system, const AttractorOptions& settle,
+                    const ResetOptions& options) {
+    std::optional<OrbitSolution> tripped;
+    try {
+        OrbitOptions numbers;
+        numbers.error_estimate = false;
+        tripped = find_orbit(system, settle, numbers, {}, [&] { return options.interrupted && options.interrupted(); });
+    } catch (const InputError& error) {
+        reset.reason = error.problem();
+        return false;
+    }
+    if (!tripped) {
+        reset.reason = "interrupted";
+        return true;
+    }
+    if (tripped->outcome != OrbitOutcome::converged) {
+        reset.reason = "the tripped motion is no orbit that was found: " + tripped->detail;
+        return false;
+    }
+    reset.motion = to_string(system.model(), tripped->orbit.signature);
+    return follow_back(reset, trip, system, tripped->orbit, options);
 }
 
 } // namespace
@@ -103,26 +131,22 @@ Reset reset_of(const TripPoint& trip, const Orbit& orbit, const ResetOptions& op
     constexpr std::size_t returns = 24;
     settle.largest_period = returns;
     const System system(model);
-    std::optional<OrbitSolution> tripped;
-    try {
-        OrbitOptions numbers;
-        numbers.error_estimate = false;
-        tripped = find_orbit(system, settle, numbers, {}, [&] { return options.interrupted && options.interrupted(); });
-    } catch (const InputError& error) {
-        reset.reason = error.problem();
+    const bool known = reset_by_orbit(reset, trip, system, settle, options);
+    // Beyond the trip value there is nothing to come back to: one tripped motion becomes another one.
+    const bool too_soon = reset.value && *reset.hysteresis(trip.value()) * options.overshoot < 0;
+    if (known && !too_soon)
         return reset;
-    }
-    if (!tripped) {
-        reset.reason = "interrupted";
-        return reset;
-    }
-    if (tripped->outcome != OrbitOutcome::converged) {
-        reset.reason = "the tripped motion is no orbit that was found: " + tripped->detail;
-        return reset;
-    }
-    reset.motion = to_string(model, tripped->orbit.signature);
-    follow_back(reset, trip, system, tripped->orbit, options);
-    return reset;
+    if (too_soon)
+        reset = {.value = {},
+                 .reason = fmt::format("the tripped orbit becomes another motion at {:.9g}, beyond the trip value",
+                                       *reset.value),
+                 .how = {},
+                 .motion = {},
+                 .lost_at = {},
+                 .point = {}};
+    Reset simulated = reset_by_steps(trip, orbit, system, settle, options);
+    // A motion that ends has been told of already.
+    return simulated.motion.empty() ? reset : simulated;
 }
 
 } // namespace graze

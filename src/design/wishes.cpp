@@ -216,11 +216,12 @@ private:
         way.interrupted = options_.interrupted;
         const Reset reset = reset_of(trip_, trip_.point.solution.orbit, way);
         if (!reset.point)
-            throw InputError(
-                design_.approach.place,
-                fmt::format("a reset value is wanted, and there is none: {}",
-                            reset.reason.empty() ? "the tripped motion is lost by a " + reset.how : reset.reason),
-                "leave `reset` out of what is wanted");
+            throw InputError(design_.approach.place,
+                             fmt::format("a reset value is wanted, and there is none to follow: {}",
+                                         !reset.reason.empty() ? reset.reason
+                                         : reset.lost_at ? "it is known by simulation alone, and cannot be designed for"
+                                                         : "the tripped motion is lost by a " + reset.how),
+                             "leave `reset` out of what is wanted");
         TripPoint back = trip_;
         back.point = *reset.point;
         auto resets = std::make_shared<ValueOfDevices>(back, parameters_of(design_));

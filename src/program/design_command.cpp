@@ -75,6 +75,21 @@ bool follow(const Study& study, ResultFile& file, const DesignReportOptions& opt
                         [](const RunReport& report) { return report.outcome == RunOutcome::interrupted; });
 }
 
+constexpr const char* designed_results = "designed.sqlite"; ///< of the way of the finished device
+
+/// Removes the way that a finished device of an earlier run has gone, if that is what it is and nobody writes to it.
+void remove_designed(const std::string& path) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error))
+        return;
+    try {
+        const ResultFile recognised(path, ResultFile::Access::read); // before anything is made beside it
+        const ResultFile locked(path, ResultFile::Access::write);
+        std::filesystem::remove(path, error);
+    } catch (const InputError&) { // another's
+    }
+}
+
 /// Whether a file has the name and the first line of a table, or the name of a page, of which a run writes one or not:
 /// as dimensions, planes and wants are.
 bool is_of_a_run(const std::filesystem::path& path) {
@@ -112,6 +127,8 @@ public:
     /// What an earlier run has left there and this one has not written says nothing of this design.
     void remove_others() const {
         std::error_code error;
+        if (!designed_)
+            remove_designed(path(designed_results));
         for (const auto& entry : std::filesystem::directory_iterator(folder_, error)) {
             if (entry.is_regular_file(error) && is_of_a_run(entry.path()) &&
                 std::none_of(written_.begin(), written_.end(), [&](const std::string& one) {
@@ -120,12 +137,18 @@ public:
                 std::filesystem::remove(entry.path(), error);
         }
     }
+    /// Where the finished device's way is kept.
+    std::string designed() {
+        designed_ = true;
+        return path(designed_results);
+    }
     const std::vector<std::string>& written() const { return written_; }
 
 private:
     const Design& design_;
     std::string folder_;
     std::vector<std::string> written_;
+    bool designed_ = false;
 };
 
 /// What has gone wrong with some devices.
@@ -241,7 +264,7 @@ int design_command(const DesignArguments& arguments, const Console& console) {
         if (wishes->found.outcome != WishOutcome::nowhere) {
             // The way there is gone by the finished device too: what comes before its trip point is known then.
             design = with_values(first, wishes->values());
-            trip = locate(design, place.path("designed.sqlite"), options);
+            trip = locate(design, place.designed(), options);
             if (!trip)
                 return interrupted(console);
         }

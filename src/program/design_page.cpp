@@ -35,14 +35,13 @@ public:
         time_unit_ = model.time_unit;
     }
 
-    Figure draw(std::size_t most_curves) {
+    Figure draw() {
         figure_.title = title();
-        figure_.columns = 2;
         figure_.symbols.push_back(design_.control);
         for (const DesignDimension& one : design_.dimensions)
             figure_.symbols.push_back(one.name);
-        for (std::size_t i = 0; i < std::min(most_curves, report_.curves.size()); ++i)
-            add_curve(report_.curves[i]);
+        for (const DimensionCurve& curve : report_.curves)
+            add_curve(curve);
         for (const DimensionPlane& plane : report_.planes)
             add_plane(plane);
         add_times();
@@ -50,10 +49,22 @@ public:
             add_tuning(*report_.tuning);
         if (report_.yield)
             add_yield();
+        arrange();
         return std::move(figure_);
     }
 
 private:
+    /// So many columns that the page is hardly higher than a sheet of paper; panels keep a size in which they are
+    /// legible, so that a page of more columns is a wider one.
+    void arrange() {
+        constexpr std::size_t most_rows = 4;
+        constexpr double column = 85, font = 9; // mm and points: of a page of two columns
+        const std::size_t panels = figure_.panels.size();
+        figure_.columns = std::max<std::size_t>(2, (panels + most_rows - 1) / most_rows);
+        figure_.style.width = column * static_cast<double>(figure_.columns);
+        figure_.style.font_size = font;
+    }
+
     std::string title() const {
         std::string text = fmt::format("{}: {} at {} = {:.6g}{}{}", design_.name, class_name(report_.found.outcome),
                                        design_.control, report_.value, unit_.empty() ? "" : " ", unit_);
@@ -244,8 +255,8 @@ private:
 
 } // namespace
 
-Figure design_page(const Design& design, const TripPoint& trip, const DesignReport& report, std::size_t most_curves) {
-    return Page(design, trip, report).draw(most_curves);
+Figure design_page(const Design& design, const TripPoint& trip, const DesignReport& report) {
+    return Page(design, trip, report).draw();
 }
 
 } // namespace graze

@@ -7,8 +7,7 @@ namespace graze {
 
 /// One page for a review: the trip value against each dimension and in planes of two, with the class coloured; trip
 /// times; the tuning curve; how devices are distributed.
-/// @param most_curves how many dimensions get a panel: the first ones
-Figure design_page(const Design& design, const TripPoint& trip, const DesignReport& report,
-                   std::size_t most_curves = 4);
+/// Every curve, plane and dimension of the report has its panel; the page has as many columns as that takes.
+Figure design_page(const Design& design, const TripPoint& trip, const DesignReport& report);
 
 } // namespace graze

@@ -98,6 +98,32 @@ TEST_F(DesignCommand, LeavesNoTablesOfAnotherDesignInItsFolder) {
         EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(results) / name)) << name;
 }
 
+TEST_F(DesignCommand, LeavesNoWayOfAFinishedDeviceOfAnotherDesign) {
+    const std::string results = folder / "results", designed = results + "/designed.sqlite";
+    const std::vector<std::string> rest{"--output", results, "--no-pictures", "--quiet"};
+    const auto run = [&](const std::string& wanted) {
+        std::vector<std::string> arguments{"design", design(small_design(wanted))};
+        arguments.insert(arguments.end(), rest.begin(), rest.end());
+        return run_graze(arguments).code;
+    };
+    ASSERT_EQ(run("[wanted]\nvalue = 0.21\n"), 0);
+    ASSERT_TRUE(std::filesystem::exists(designed));
+    ASSERT_EQ(run(""), 0);
+    for (const char* beside : {"", "-wal", "-shm"})
+        EXPECT_FALSE(std::filesystem::exists(designed + beside)) << beside;
+    EXPECT_TRUE(std::filesystem::exists(results + "/results.sqlite"));
+    // Its lock stays, as locks do. A second finished device begins anew.
+    ASSERT_EQ(run("[wanted]\nvalue = 0.205\n"), 0);
+    ASSERT_TRUE(std::filesystem::exists(designed));
+    ASSERT_EQ(run(""), 0);
+    // What is no result file is another's work.
+    std::ofstream(designed) << "mine\n";
+    ASSERT_EQ(run(""), 0);
+    std::string kept;
+    std::getline(std::ifstream(designed), kept);
+    EXPECT_EQ(kept, "mine");
+}
+
 TEST_F(DesignCommand, SaysThatAnAllowanceOfCyclesDecidesNothing) {
     std::string text = small_design();
     text.replace(text.find("overshoots"), 0, "cycles = 2\n");

@@ -64,6 +64,16 @@ TEST_F(PageOfASwitch, HasALineForEachClassOfACurve) {
     EXPECT_FALSE(std::isfinite(curve.series[1].points[0].y));
 }
 
+TEST_F(PageOfASwitch, HasAPanelForEachCurveAndColumnsForThem) {
+    EXPECT_EQ(design_page(design, *trip, report).columns, 2U);
+    const DimensionCurve curve = report.curves.front();
+    const std::size_t many = 9;
+    report.curves.assign(many, curve);
+    const Figure page = design_page(design, *trip, report);
+    ASSERT_EQ(page.panels.size(), many + 1); // and a plane
+    EXPECT_EQ(page.columns, 3U);
+}
+
 TEST_F(PageOfASwitch, HasColouredPlanesWithContours) {
     const Figure page = design_page(design, *trip, report);
     const FigurePanel& plane = page.panels[1];

@@ -20,7 +20,8 @@ struct Reset {
     std::optional<double> value; ///< where the tripped motion is lost; none: `reason` says why
     std::string reason;
     std::string how;                   ///< what happens there, such as "fold"
-    std::string motion;                ///< the tripped motion's signature, if it is an orbit
+    std::string motion;                ///< the tripped motion's signature, if it is an orbit; else what it is
+    std::optional<double> lost_at;     ///< of a value found by simulation: one at which it has come back
     std::optional<SpecialPoint> point; ///< of that, whose condition can be held
 
     /// Trip value less reset value.
@@ -28,7 +29,9 @@ struct Reset {
 };
 
 /// Simulates the motion beyond the trip point until it settles, and follows the orbit that it has then, back to where
-/// it is lost.
+/// it is lost. A motion that is no such orbit, as one at rest on a stop or a chaotic one, is taken back by simulation
+/// in steps, until it settles on the motion that had not tripped: at rest to a millionth of the way to `least`, else on
+/// several ways, which need not be all that there are.
 /// @param orbit at the trip point
 Reset reset_of(const TripPoint& trip, const Orbit& orbit, const ResetOptions& options);
 

@@ -1,0 +1,283 @@
+#include "design/reset_steps.hpp"
+
+#include "flow/guard.hpp"
+
+#include "graze/sweep/point_search.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t fewest_steps = 24, further_steps = 7;
+/// Where a motion does not rest, it may be lost sooner or later, as its steps happen to be.
+constexpr std::size_t most_ways = 5;
+constexpr double narrow = 1e-6; ///< the last step, of the whole way
+constexpr double alike = 1e-6; ///< states of one motion, of the sizes that they have; Newton's method closes far better
+
+bool is_settled(const PointResult& motion) {
+    return motion.label == Label::periodic || motion.label == Label::equilibrium;
+}
+
+bool goes_on(const PointResult& motion) {
+    return is_settled(motion) || motion.label == Label::chaotic || motion.label == Label::quasi_periodic ||
+           motion.label == Label::unsettled;
+}
+
+std::string ending(const PointResult& motion) {
+    return fmt::format("{}{}{}", name_of(motion.label), motion.outcome.detail.empty() ? "" : ", ",
+                       motion.outcome.detail);
+}
+
+/// Both motions at values of the control parameter: the one that has tripped, and the one that has not.
+class StepsBack {
+public:
+    StepsBack(const TripPoint& trip, const Orbit& orbit, const System& system, const AttractorOptions& settle,
+              const ResetOptions& options)
+        : trip_(trip), orbit_(orbit), system_(system), model_(system.model()), options_(options),
+          factory_(attractor_searches(system, settle, {at_section(settle.section)}, states_of(model_), {})),
+          search_(factory_->make()), jets_(factory_->simulation(), LaneKind::single) {}
+
+    Reset find() {
+        PointResult begin;
+        begin.state = model_.initial_state();
+        begin.mode = model_.initial_mode;
+        const double start = trip_.value() + options_.overshoot;
+        begin = settle(start, begin);
+        if (interrupted_ || !goes_on(begin))
+            return unknown("the tripped motion does not go on: it is " + ending(begin));
+        reset_.motion = name_of(begin.label);
+        const std::size_t ways = begin.label == Label::equilibrium ? 1 : most_ways;
+        for (std::size_t way = 0; way < ways; ++way) {
+            tripped_ = begin;
+            resting_.state = orbit_.starts.front();
+            resting_.mode = orbit_.signature.front().mode;
+            if (!go_back(start, fewest_steps + way * further_steps))
+                return reset_;
+        }
+        reset_.value = there_;
+        reset_.lost_at = lost_;
+        reset_.how =
+            found_.label == Label::equilibrium ? "return to rest" : "return to the motion that had not tripped";
+        return reset_;
+    }
+
+private:
+    enum class Step { remains, lost, unknown };
+
+    static Sampling at_section(const std::string& section) {
+        Sampling sampling;
+        sampling.name = section;
+        sampling.section = section;
+        return sampling;
+    }
+    static std::vector<Expression> states_of(const Model& model) {
+        std::vector<Expression> states;
+        for (const State& state : model.states)
+            states.push_back(model.symbol(state.name));
+        return states;
+    }
+
+    Reset unknown(const std::string& reason) {
+        reset_.reason = interrupted_ ? "interrupted" : reason;
+        return reset_;
+    }
+
+    /// In so many steps, which are small at first: there the motion that has not tripped is next to the orbit that is
+    /// known. @return false when it is not known where the tripped motion is lost
+    bool go_back(double start, std::size_t steps) {
+        const double from = trip_.value(), way = options_.least - from;
+        double there = start;
+        for (std::size_t i = 1; i <= steps; ++i) {
+            const double share = static_cast<double>(i * i) / static_cast<double>(steps * steps);
+            const double value = from + way * share;
+            const Step step = try_step(value);
+            if (step == Step::unknown)
+                return false;
+            if (step == Step::lost && i == 1)
+                return fail(fmt::format("at {:.9g} already, next to the trip value, the tripped motion and the other "
+                                        "one settle on the same",
+                                        value));
+            if (step == Step::lost)
+                return halve(there, value, std::abs(way));
+            there = value;
+        }
+        return fail(fmt::format("the tripped motion is still there at {:.9g}", options_.least));
+    }
+
+    bool halve(double there, double lost, double way) {
+        while (std::abs(there - lost) > narrow * way) {
+            const double middle = 0.5 * (there + lost);
+            const Step step = try_step(middle);
+            if (step == Step::unknown) {
+                reset_.reason += fmt::format("; it is there at {:.9g} and lost at {:.9g}", there, lost);
+                return false;
+            }
+            (step == Step::lost ? lost : there) = middle;
+        }
+        // The widest of all ways: the nearest value at which it was there, the farthest at which it was lost.
+        const double down = options_.least < trip_.value() ? 1 : -1;
+        there_ = there_ ? down * std::max(down * *there_, down * there) : there;
+        lost_ = lost_ ? down * std::min(down * *lost_, down * lost) : lost;
+        return true;
+    }
+
+    bool fail(const std::string& reason) {
+        unknown(reason);
+        if (there_ && !interrupted_)
+            reset_.reason +=
+                fmt::format("; on another way down it was lost between {:.9g} and {:.9g}", *lost_, *there_);
+        return false;
+    }
+
+    /// What a motion becomes that goes on at another value from where it was.
+    PointResult settle(double value, PointResult motion) {
+        constexpr std::size_t most = 4; // barriers, one after the other
+        std::vector<double> parameters = orbit_.parameters;
+        parameters[trip_.control.place()] = value;
+        for (std::size_t met = 0;; ++met) {
+            PointResult result = search(motion, parameters);
+            const bool passed = result.outcome.ending == Ending::inadmissible && result.outcome.time == 0;
+            if (interrupted_ || !passed || met == most || !meet_passed_barrier(motion, parameters))
+                return result;
+        }
+    }
+
+    PointResult search(const PointResult& motion, const std::vector<double>& parameters) {
+        search_->begin(parameters, motion.state, motion.mode);
+        do {
+            interrupted_ = interrupted_ || (options_.interrupted && options_.interrupted());
+            if (interrupted_)
+                return {};
+            run(search_->trajectory(), jets_);
+        } while (search_->proceed());
+        PointResult result = std::move(search_->result());
+        for (std::size_t i = 0; i < result.state.size(); ++i)
+            sizes_[i] = std::max(sizes_[i], std::abs(result.state[i]));
+        return result;
+    }
+
+    /// A motion at rest comes to a barrier by the change of the control parameter alone, such as that of the force by
+    /// which a stop holds it: its transition happens before anything moves. @return false if no motion follows
+    bool meet_passed_barrier(PointResult& motion, const std::vector<double>& parameters) const {
+        std::vector<double> work(system_.workspace()), conditions, inputs = motion.state;
+        inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+        const System::CompiledMode& mode = system_.mode(motion.mode);
+        std::vector<double> values(mode.watched.size());
+        mode.events.evaluate(inputs, values, work);
+        for (std::size_t w = 0; w < values.size(); ++w) {
+            if (model_.events[mode.watched[w]].kind != EventKind::barrier || !(values[w] < 0))
+                continue;
+            const std::size_t transition = mode.transitions[w];
+            system_.jump(system_.transition(transition).jump).map.evaluate(inputs, motion.state, work);
+            std::copy(motion.state.begin(), motion.state.end(), inputs.begin());
+            const System::CompiledAlternative* next = chosen_alternative(system_, transition, inputs, conditions, work);
+            if (!next || !next->mode)
+                return false;
+            motion.mode = *next->mode;
+            return true;
+        }
+        return false;
+    }
+
+    /// Takes both motions to a value, unless the tripped one is lost there.
+    Step try_step(double value) {
+        PointResult resting = settle(value, resting_), tripped = settle(value, tripped_);
+        if (interrupted_ || !goes_on(tripped)) {
+            fail(fmt::format("the tripped motion does not go on at {:.9g}: it is {}", value, ending(tripped)));
+            return Step::unknown;
+        }
+        if (!is_settled(resting)) {
+            fail(fmt::format("the motion that has not tripped does not settle at {:.9g}: it is {}", value,
+                             ending(resting)));
+            return Step::unknown;
+        }
+        if (are_same(tripped, resting)) {
+            found_ = resting;
+            return Step::lost;
+        }
+        resting_ = std::move(resting);
+        tripped_ = std::move(tripped);
+        return Step::remains;
+    }
+
+    /// Whether two motions are one; of orbits that return several times, whichever return comes first.
+    bool are_same(const PointResult& a, const PointResult& b) const {
+        if (!is_settled(a) || !is_settled(b) || a.mode != b.mode || a.period != b.period)
+            return false;
+        if (is_same_state(a.state, b.state))
+            return true;
+        const std::size_t width = b.samples.width;
+        for (std::size_t k = 0; width == b.state.size() && k < b.samples.size(); ++k)
+            if (is_same_state(a.state, {b.samples.values.data() + k * width, width}))
+                return true;
+        return false;
+    }
+    /// But for clocks, which are the same at a section, and states that drift, which are the same nowhere.
+    bool is_same_state(std::span<const double> a, std::span<const double> b) const {
+        for (std::size_t i = 0; i < a.size(); ++i)
+            if (!model_.states[i].period && !model_.states[i].drifting && !(std::abs(a[i] - b[i]) <= alike * sizes_[i]))
+                return false;
+        return true;
+    }
+
+    const TripPoint& trip_;
+    const Orbit& orbit_;
+    const System& system_;
+    const Model& model_;
+    const ResetOptions& options_;
+    std::unique_ptr<SearchFactory> factory_;
+    std::unique_ptr<PointSearch> search_;
+    JetSet jets_;
+    PointResult tripped_, resting_, found_;
+    std::vector<double> sizes_ = sizes_of_orbit();
+    std::optional<double> there_, lost_;
+    bool interrupted_ = false;
+    Reset reset_;
+
+    /// Of its states along the orbit that does not trip: at a section each may be zero.
+    std::vector<double> sizes_of_orbit() const {
+        constexpr std::size_t parts = 16;
+        const Simulation simulation(trip_.system, {}, {}, {});
+        JetSet jets(simulation, LaneKind::single);
+        Observer nobody;
+        std::vector<double> sizes(model_.states.size()), state = orbit_.starts.front();
+        std::size_t mode = orbit_.signature.front().mode;
+        for (std::size_t part = 0;; ++part) {
+            for (std::size_t i = 0; i < sizes.size(); ++i)
+                sizes[i] = std::max(sizes[i], std::abs(state[i]));
+            if (part == parts)
+                return sizes;
+            Trajectory trajectory(simulation, orbit_.parameters, nobody);
+            trajectory.start(state, mode, 0, orbit_.period() / static_cast<double>(parts));
+            run(trajectory, jets);
+            if (trajectory.outcome().ending != Ending::end_time)
+                return sizes;
+            state.assign(trajectory.state().begin(), trajectory.state().end());
+            mode = trajectory.mode();
+        }
+    }
+};
+
+} // namespace
+
+Reset reset_by_steps(const TripPoint& trip, const Orbit& orbit, const System& system, const AttractorOptions& settle,
+                     const ResetOptions& options) {
+    try {
+        return StepsBack(trip, orbit, system, settle, options).find();
+    } catch (const InputError& error) { // a state that the model does not admit at another value
+        Reset reset;
+        reset.reason = error.problem();
+        return reset;
+    }
+}
+
+} // namespace graze
