@@ -76,9 +76,10 @@ void add_times(FactRows& facts, const DesignReport& report, const Model& model, 
         facts.add("trip_time", "none", report.times.reason);
     for (const TripTimeRow& row : report.times.rows)
         if (const TripTime* best = row.best())
-            facts.add(fmt::format("trip_time_{:.3g}", std::abs(row.overshoot)), best->time, model.time_unit,
-                      fmt::format("until {} at that overshoot ({})", until == "end" ? best->ending : until,
-                                  best == &*row.simulated ? "simulated" : "by the map, then simulated"));
+            facts.add(
+                fmt::format("trip_time_{:.3g}", std::abs(row.overshoot)), best->time, model.time_unit,
+                fmt::format("until {} at that overshoot ({})", until == "end" ? best->ending : until,
+                            row.simulated && best == &*row.simulated ? "simulated" : "by the map, then simulated"));
 }
 
 void add_yield(FactRows& facts, const DesignReport& report, const Design& design, const std::string& unit) {
