@@ -4,6 +4,7 @@
 #include "branch/grazing_switch.hpp"
 #include "branch/orbit_quantity.hpp"
 #include "branch/reordering.hpp"
+#include "flow/lie_derivative.hpp"
 #include "graze/grazing/cycle_map.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "grazing/return_map.hpp"
@@ -297,6 +298,33 @@ void test_sensitivity(const TestedPoint& point, std::vector<BranchTest>& tests) 
     tests.push_back({.type = PointType::sensitivity, .value = next, .noise = noise});
     tests.push_back({.type = PointType::fold_degenerate, .value = same, .noise = noise * size});
     tests.push_back({.type = PointType::flip_degenerate, .value = alternating, .noise = noise * size});
+}
+
+/// The acceleration of what a contact without speed ends its arc with: where it is zero, the touch meets an earlier
+/// crossing of the same surface.
+void test_acceleration(const TestedPoint& point, std::vector<BranchTest>& tests) {
+    constexpr double least = 1e-9; // of what the usual rate would be gained in a round: less is round-off
+    const auto& kept = point.settings.kept;
+    if (!kept || kept->type != PointType::grazing || !kept->at_end)
+        return;
+    const OrbitEquations& equations = point.equations;
+    const std::size_t mode = equations.signature()[kept->segment].mode;
+    const Expression acceleration = rates_of(equations.system(), mode, kept->event, 2).back();
+    const auto& last = point.at.pieces[equations.layout().last_piece(kept->segment)];
+    std::vector<double> inputs = last.end;
+    inputs.insert(inputs.end(), point.at.parameters.begin(), point.at.parameters.end());
+    tests.push_back({.type = PointType::zero_acceleration,
+                     .segment = kept->segment,
+                     .event = kept->event,
+                     .value = equations.system().function_of({&acceleration, 1})(inputs).front(),
+                     .noise = least * equations.usual_rate(point.at, kept->segment) / point.solution.orbit.round(),
+                     .time = point.solution.orbit.durations[kept->segment],
+                     .at_end = true});
+}
+
+bool confirm_acceleration(BranchState& state, SpecialPoint& special, const BranchTest&) {
+    special.detail = fmt::format("{}: touched without acceleration", state.model().events[special.event].name);
+    return special.located;
 }
 
 bool confirm_sensitivity(BranchState& state, SpecialPoint& special, const BranchTest&) {

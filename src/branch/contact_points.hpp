@@ -31,5 +31,7 @@ std::vector<BranchStart> leave_order(const System& system, const SpecialPoint& p
 void test_sensitivity(const TestedPoint& point, std::vector<BranchTest>& tests);
 bool confirm_sensitivity(BranchState& state, SpecialPoint& special, const BranchTest&);
 bool confirm_degenerate_grazing(BranchState& state, SpecialPoint& special, const BranchTest& test);
+void test_acceleration(const TestedPoint& point, std::vector<BranchTest>& tests);
+bool confirm_acceleration(BranchState& state, SpecialPoint& special, const BranchTest&);
 
 } // namespace graze

@@ -391,12 +391,15 @@ private:
     /// From a contact without speed, which is about to begin, a curve leads one way only.
     bool has_no_contact(const BranchPoint& before) const {
         constexpr double without_speed = 1e-6; // of what it has got with the first step
-        if (!state_.settings().kept || !state_.settings().stop_when_unphysical)
+        const auto& kept = state_.settings().kept;
+        if (!kept || !state_.settings().stop_when_unphysical)
             return false;
+        const bool without = is_grazing(kept->type) && kept->at_end; // all along: the sign of round-off says nothing
         const auto& first = before.solution.certificate.approach_speeds;
         const auto& here = point.solution.certificate.approach_speeds;
         for (std::size_t s = 0; s < std::min(first.size(), here.size()); ++s)
-            if (here[s] < 0 && std::abs(first[s]) < without_speed * std::abs(here[s]))
+            if (!(without && s == kept->segment) && here[s] < 0 &&
+                std::abs(first[s]) < without_speed * std::abs(here[s]))
                 return true;
         return false;
     }

@@ -85,8 +85,11 @@ public:
             const double zero =
                 std::max(on_surface * std::max(sizes_[w], std::numeric_limits<double>::min()), round_off[w]);
             // Of a contact that hardly has speed the time is known to as much.
+            // Without speed it is known to a root of round-off, however small what is left of the speed.
+            const double latest = std::abs(duration) * 1e-4;
             const double late =
-                std::max(std::abs(duration) * 1e-9, is_own(w) && rates[w] != 0 ? round_off[w] / std::abs(rates[w]) : 0);
+                std::max(std::abs(duration) * 1e-9,
+                         is_own(w) && rates[w] != 0 ? std::min(round_off[w] / std::abs(rates[w]), latest) : 0);
             if (event.kind == EventKind::barrier && starts_[w] < -zero)
                 return fmt::format("segment {} begins beyond event '{}'", segment_ + 1, event.name);
             // What only touches the surface, as an orbit that is held there, does so on either side of it.

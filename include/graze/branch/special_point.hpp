@@ -33,6 +33,7 @@ enum class PointType {
     sensitivity,       ///< VS: on a curve of touches: an impact of vanishing speed leaves the next pass as it is
     fold_degenerate,   ///< DF: on a curve of touches: folds of orbits with an impact there end
     flip_degenerate,   ///< DP: on a curve of touches: flips, or losses of symmetry, of orbits with an impact there end
+    zero_acceleration, ///< ZA: on a curve of touches: the gap of a contact without speed has no acceleration either
     double_grazing,    ///< DG: on a curve of touches: another event is touched, or the same one elsewhere
     fold_flip,         ///< FP: on a curve of folds or flips: one multiplier is 1, another -1
     fold_torus,        ///< FT: on a curve of folds or torus points: a multiplier is 1, and two lie on the unit circle
