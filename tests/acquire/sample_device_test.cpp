@@ -60,6 +60,8 @@ TEST(SampleDevice, RefusesWhatIsNoneOfIt) {
         {"READ 3", "0,1\n0.1\n0.2,3\nEND 3", "says '0.1' in the place of a row"},
         {"READ 3", "0,1\n0.1,2,3\n0.2,3\nEND 3", "a row of as many numbers as it has channels"},
         {"READ 3", "0,1\n0,2\n0.2,3\nEND 3", "gives the time 0 after 0"},
+        {"READ 3", "0,1\n0.2,2\n0.4,3\nEND 3", "gives the time 0.2 to its sample at 0.1"},
+        {"READ 3", "10,1\n10.1,2\n10.2,3\nEND 3", "gives the time 10 to its sample at 0"},
         {"READ 3", "0,1\n0.1,inf\n0.2,3\nEND 3", "a row of numbers"},
         {"READ 3", "0,1\n0.1,\x1b[2J\n0.2,3\nEND 3", "says '0.1,\\u001b[2J' in the place of"},
         {"READ 3", "0,1\nERROR overflow", "says: overflow"},

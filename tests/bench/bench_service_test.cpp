@@ -158,7 +158,11 @@ TEST(BenchService, TakesNobodysName) {
     std::filesystem::create_symlink("/dev/pts/123456", file); // left by one that was killed
     settings = {};
     settings.port = file.string();
-    { const BenchService service(bench, settings); }
+    {
+        const BenchService service(bench, settings);
+        EXPECT_THROW(BenchService another(bench, settings), InputError) << "it is in use";
+        EXPECT_TRUE(std::filesystem::is_symlink(file));
+    }
     EXPECT_FALSE(std::filesystem::is_symlink(file));
 }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -123,6 +124,78 @@ TEST(Sliding, on_a_belt_sets_off_chaos) {
     // The slope of a tent map beyond its top, below -1/(the other one): no orbit of twice the period is stable either.
     EXPECT_LT(-*one.verdict.leading * std::abs(one.map.multipliers[0]), -1);
     expect_rates(model, map_at(model, touches[0]), 1e-4);
+}
+
+/// With a constant force of friction nothing bends the motion off the belt, and what is computed of that is noise.
+TEST(Sliding, is_told_where_what_bends_it_is_noise) {
+    const Model model = model_from(R"toml(
+name = "rubbing"
+[parameters]
+zeta = 0.05
+omega = 0.6
+amplitude = 0.26
+friction = 0.2
+belt = 0.5
+[states]
+x = 0
+v = 0
+theta = { initial = 0, period = "2*pi" }
+[definitions]
+force = "amplitude*cos(theta) - 2*zeta*v - x"
+[initial]
+mode = "below"
+[modes.below]
+watch = ["reach"]
+rates = { x = "v", v = "force + friction", theta = "omega" }
+[modes.above]
+watch = ["fall"]
+rates = { x = "v", v = "force - friction", theta = "omega" }
+[modes.stick]
+watch = ["up", "down"]
+rates = { x = "v", v = 0, theta = "omega" }
+[events]
+reach = "belt - v"
+fall = "v - belt"
+up = "friction - force"
+down = "friction + force"
+[jumps.stop]
+v = "belt"
+[[transitions]]
+mode = "below"
+event = "reach"
+jump = "stop"
+next = [{ when = "friction - force >= 0", mode = "stick" }, { mode = "above" }]
+[[transitions]]
+mode = "above"
+event = "fall"
+jump = "stop"
+next = [{ when = "friction + force >= 0", mode = "stick" }, { mode = "below" }]
+[[transitions]]
+mode = "stick"
+event = "up"
+next = "above"
+[[transitions]]
+mode = "stick"
+event = "down"
+next = "below"
+[sections.phase0]
+state = "theta"
+value = 0
+)toml");
+    const BranchSettings settings = along(model, "amplitude", 1, 0.1, 1.6);
+    const auto touches = of_type(follow_branch(model, settled(model, "phase0").orbit, settings), PointType::grazing);
+    ASSERT_FALSE(touches.empty());
+    const double zeta = 0.05, omega = 0.6, turn = 2 * std::numbers::pi / omega, own = std::sqrt(1 - zeta * zeta);
+    const double amplitude = touches[0].solution.orbit.parameters[settings.parameter.place()];
+    // The linear response's greatest speed is that of the belt.
+    EXPECT_NEAR(amplitude, 0.5 / omega * std::hypot(1 - omega * omega, 2 * zeta * omega), 1e-10);
+    const Judgement one = judgement(model, touches[0], settings.parameter);
+    ASSERT_EQ(one.map.contact.order, MapOrder::linear) << one.map.reason << one.map.contact.reason;
+    // Where it sticks only the displacement is left, and what becomes of it in a period.
+    EXPECT_NEAR(std::abs(*one.verdict.leading),
+                std::exp(-zeta * turn) * std::abs(std::cos(own * turn) + zeta / own * std::sin(own * turn)), 1e-9);
+    EXPECT_EQ(one.verdict.outcome, GrazingOutcome::persists) << one.verdict.reason;
+    EXPECT_EQ(one.trial.outcome, TrialOutcome::agreed) << one.trial.reason;
 }
 
 /// The branch of the orbit that sticks once more begins on the predicted side, with the predicted multiplier.

@@ -125,6 +125,27 @@ rates = { x = "v", v = "-k/m*x" }
     EXPECT_GT(fit.numbers[2].estimate.freedom, 0) << "the amplitude is known all the same";
 }
 
+TEST(Fit, EndsInTheMiddleOfAMotion) {
+    const Model model = parse_model(R"(
+name = "cooling"
+[parameters]
+tau = 10
+[states]
+T = { initial = 1 }
+[modes.m]
+rates = { T = "-T/tau" }
+)",
+                                    "cooling.toml");
+    RecordedMotion motion(model, {"T"}, 0, 0.1, 50);
+    motion.forget("tau", 1e-8); // so stiff that the first motion alone would take minutes
+    FitSettings settings;
+    int asked = 0;
+    settings.interrupted = [&] { return ++asked > 1000; };
+    const Fit fit = fit_model(motion.model, motion.task, settings);
+    EXPECT_EQ(name_of(fit.ending), "interrupted");
+    EXPECT_EQ(asked, 1001) << "no motion begins any more";
+}
+
 /// The same motion in nano- and in megaunits.
 TEST(Fit, UnitsMakeNoDifference) {
     const auto swing = [](double length, double time) {

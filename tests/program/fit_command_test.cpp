@@ -90,6 +90,27 @@ TEST_F(FitCommand, ConvertsReadingsAndFindsGains) {
         EXPECT_EQ(run_graze(fit(record("b.csv", 1, "m") + " --free c,k --format json --table " + shown)).code, 0);
 }
 
+TEST_F(FitCommand, NeverWritesOverItsModel) {
+    const std::string model = folder / "swing.toml", before = contents(model), a = record("a.csv", 1, "m");
+    std::filesystem::create_symlink(model, folder / "link.toml");
+    for (const std::string& name : {model, folder / "link.toml"})
+        for (const char* option : {" --save ", " --output "}) {
+            const Printed printed = run_graze(fit(a + " --free c,k" + option + name));
+            EXPECT_EQ(printed.code, 2) << option << name;
+            EXPECT_THAT(printed.err, HasSubstr("the model: "));
+        }
+    EXPECT_EQ(contents(model), before);
+}
+
+TEST_F(FitCommand, SaysWhatIsNotFinite) {
+    for (const char* reading : {"x=1/0", "x=log(-1-x^2)"}) {
+        const Printed printed = run_graze(fit(record("a.csv", 1, "m") + " --free c,k --reading " + reading));
+        EXPECT_EQ(printed.code, 3) << reading;
+        EXPECT_THAT(printed.err, HasSubstr("is not finite: look at what they mean")) << reading;
+        EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
+    }
+}
+
 TEST_F(FitCommand, WhatIsNotDeterminedIsNoSuccess) {
     const std::string found = folder / "found.toml";
     const Printed printed = run_graze(fit(record("a.csv", 1, "m") + " --free c,k,spare --save " + found));
@@ -114,6 +135,8 @@ TEST_F(FitCommand, MistakesAreOneLineWithARemedy) {
         {a + " --free c --gain v", "--gain: 'v' is no channel that is used"},
         {a + " --free c --known y", "--known: 'y' is not a state"},
         {a + " --free c --deviation x=0", "write CHANNEL=VALUE"},
+        {a + " --free c --deviation x=1e300", "is out of proportion"},
+        {a + " --free c --deviation x=1e-300", "is out of proportion"},
         {a + " --free c --with b.csv:k=1", "is none of the records"},
         {a + " --free c --channel x", "--channel has no effect beside WHAT fit"},
         {millimetres + " --free c", "--scale x=FACTOR:m"},
