@@ -2,6 +2,7 @@
 
 #include "graze/model/model_file.hpp"
 #include "identify/recorded_motion.hpp"
+#include "identify/wall_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,33 +15,8 @@ namespace graze::testing {
 
 namespace {
 
-/// A damped oscillator that hits a wall: quick, and through three impacts.
 RecordedMotion wall_motion(std::size_t readings = 120) {
-    const Model model = parse_model(R"(
-name = "wall"
-[parameters]
-c = 0.1
-k = 4
-wall = 0.5
-e = 0.7
-[states]
-x = { initial = -2 }
-v = { initial = 0 }
-[modes.swing]
-rates = { x = "v", v = "-k*x - c*v" }
-watch = ["hit"]
-[events.hit]
-function = "wall - x"
-[jumps.bounce]
-v = "-e*v"
-[[transitions]]
-mode = "swing"
-event = "hit"
-jump = "bounce"
-next = "swing"
-)",
-                                    "wall.toml");
-    RecordedMotion motion(model, {"x", "v"}, 0.013, 6.0 / static_cast<double>(readings), readings);
+    RecordedMotion motion(wall_model(), {"x", "v"}, 0.013, 6.0 / static_cast<double>(readings), readings);
     for (const char* name : {"c", "k", "wall", "e"})
         motion.forget(name, 1.02);
     motion.forget_states();
