@@ -30,9 +30,9 @@ struct LayerStyle {
 
 /// From the lowest to the uppermost.
 constexpr LayerStyle device_styles[] = {
-    {mask_layers::die, "#d9d9d9"},        {mask_layers::wafer, "#d9d9d9"},    {mask_layers::front, "#ffffff"},
-    {mask_layers::front_letters, "#fff"}, {mask_layers::front_marks, "#fff"}, {mask_layers::electrode, "#ee7733"},
-    {mask_layers::stops, "#666666"},      {mask_layers::mass, "#4477aa"},     {mask_layers::trusses, "#77aadd"},
+    {mask_layers::die, "#d9d9d9"},           {mask_layers::wafer, "#d9d9d9"},       {mask_layers::front, "#ffffff"},
+    {mask_layers::front_letters, "#ffffff"}, {mask_layers::front_marks, "#ffffff"}, {mask_layers::electrode, "#ee7733"},
+    {mask_layers::stops, "#666666"},         {mask_layers::mass, "#4477aa"},        {mask_layers::trusses, "#77aadd"},
     {mask_layers::beams, "#225588"},
 };
 constexpr LayerStyle mask_styles[][3] = {
@@ -114,12 +114,12 @@ private:
         right_ = x + scale_ * place.width / 2;
         bottom_ = y - scale_ * place.height / 2;
         top_ = y + scale_ * place.height / 2;
-        commands_ +=
-            fmt::format("unset arrow\nunset label\nset lmargin at screen {:.6g}\nset rmargin at screen {:.6g}\n"
-                        "set tmargin at screen {:.6g}\nset bmargin at screen {:.6g}\n"
-                        "set xrange [{:.10g}:{:.10g}]\nset yrange [{:.10g}:{:.10g}]\n",
-                        place.left / page_width, (place.left + place.width) / page_width, 1 - place.top / page_height,
-                        1 - (place.top + place.height) / page_height, left_, right_, bottom_, top_);
+        commands_ += fmt::format(
+            "unset arrow\nunset label\nunset object\nset lmargin at screen {:.6g}\nset rmargin at screen {:.6g}\n"
+            "set tmargin at screen {:.6g}\nset bmargin at screen {:.6g}\n"
+            "set xrange [{:.10g}:{:.10g}]\nset yrange [{:.10g}:{:.10g}]\n",
+            place.left / page_width, (place.left + place.width) / page_width, 1 - place.top / page_height,
+            1 - (place.top + place.height) / page_height, left_, right_, bottom_, top_);
     }
 
     void end_panel() {
@@ -127,12 +127,15 @@ private:
         plots_.clear();
     }
 
-    std::string block(MaskLayer layer) {
+    /// @param closed or else without the seam at y = 0, along which polygons touch
+    std::string block(MaskLayer layer, bool closed) {
         const std::string name = fmt::format("$l{}_{}_{}", layer.layer, layer.datatype, ++blocks_);
         data_ += name + " << EOD\n";
         for (const GridPolygon* polygon : by_layer_[layer]) {
             for (std::size_t i = 0; i <= polygon->size(); ++i) {
                 const GridPoint& point = (*polygon)[i % polygon->size()];
+                if (!closed && i > 0 && point.y == 0 && (*polygon)[i - 1].y == 0)
+                    data_ += '\n';
                 data_ += fmt::format("{:.10g} {:.10g}\n", static_cast<double>(point.x) / grid_per_micrometre,
                                      static_cast<double>(point.y) / grid_per_micrometre);
             }
@@ -149,7 +152,7 @@ private:
             plots_ += ", ";
         // With an edge of its own colour, or seams would show where polygons touch.
         plots_ += fmt::format("{} with filledcurves closed fc rgb '{}' fs solid border lc rgb '{}' lw 0.3",
-                              block(style.layer), style.colour, style.colour);
+                              block(style.layer, true), style.colour, style.colour);
     }
 
     void outline(MaskLayer layer, const char* colour, const char* dashes = "1") {
@@ -157,7 +160,8 @@ private:
             return;
         if (!plots_.empty())
             plots_ += ", ";
-        plots_ += fmt::format("{} with lines lc rgb '{}' dt {} lw 1", block(layer), colour, dashes);
+        plots_ += fmt::format("{} with lines lc rgb '{}' dt {} lw 1", block(layer, layer != mask_layers::back), colour,
+                              dashes);
     }
 
     void page_text(const std::string& text, double x, double y) {
@@ -174,9 +178,9 @@ private:
             fill(style);
         outline(mask_layers::back, "#aa3377", "2");
         outline(mask_layers::base, "#aa3377", "3");
-        std::vector<PartLabel> labels = part_labels(drawing);
+        const std::vector<PartLabel> labels = part_labels(drawing);
         for (const bool to_left : {true, false})
-            write_labels(labels, to_left, place);
+            write_labels(labels, to_left);
         end_panel();
     }
 
@@ -207,14 +211,14 @@ private:
              um(stop.top) + 0.4 * (um(trusses.front().bottom) - um(stop.top)), false},
             {fmt::format("stop, gap {:.6g} µm", d.stop_gap), um(stop.left) + d.stop_gap,
              um(stop.top) - d.stop_width / 3, false},
-            {fmt::format("channel for a laser beam, {:.6g} µm", d.channel_width), um(chamber.right), 0, false},
+            {fmt::format("channel, {:.6g} µm", d.channel_width), um(chamber.right), 0, false},
             {"stop", um(stop.left) + d.stop_gap, um(lower_stop.bottom) + d.stop_width / 3, false},
             {"frame", um(chamber.right) + d.chamber_margin, um(chamber.bottom) * 0.6, false},
         };
     }
 
     /// Below one another on one side, near to where their lines lead.
-    void write_labels(std::vector<PartLabel>& labels, bool to_left, const PageBox& place) {
+    void write_labels(const std::vector<PartLabel>& labels, bool to_left) {
         std::vector<PartLabel> here;
         std::copy_if(labels.begin(), labels.end(), std::back_inserter(here),
                      [&](const PartLabel& one) { return one.to_left == to_left; });
@@ -234,8 +238,10 @@ private:
             commands_ += fmt::format("set arrow from {:.10g},{:.10g} to {:.10g},{:.10g} nohead lw 0.8 lc rgb '#000000' "
                                      "front\n",
                                      x, places[i], here[i].x, here[i].y);
+            commands_ +=
+                fmt::format("set object circle at {:.10g},{:.10g} size {:.6g} fc rgb '#000000' fs solid front\n",
+                            here[i].x, here[i].y, 2.5 * scale_);
         }
-        static_cast<void>(place);
     }
 
     void draw_wafer(const PageBox& place, const GridBox& all) {
