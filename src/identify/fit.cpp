@@ -285,7 +285,8 @@ private:
         constexpr double smooth = 0.01, at_edge = 0.3; // of errors
         const bool contacts = std::any_of(fit.records.begin(), fit.records.end(),
                                           [](const FittedRecord& record) { return record.contacts > 0; });
-        return checks.held_well && (checks.off <= smooth || (contacts && report.converged && checks.off <= at_edge));
+        const bool stopped = report.converged || report.gained * fit.freedom <= smooth * report.cost;
+        return checks.held_well && (checks.off <= smooth || (contacts && stopped && checks.off <= at_edge));
     }
 
     const FitSettings* settings_;
