@@ -25,6 +25,7 @@ private:
     void read_wafer(const TomlEntry& entry);
     void read_wafer_item(const TomlEntry& entry);
     void read_vary(const TomlEntry& entry);
+    bool take_condition(const std::string& name, double value, const Place& place);
     void take(const std::pair<std::string, double>& given);
 
     StudyReader reader_;

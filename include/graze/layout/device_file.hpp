@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/layout/device_dimensions.hpp"
+#include "graze/layout/process_conditions.hpp"
 #include "graze/layout/wafer_plan.hpp"
 #include "graze/symbolic/input_error.hpp"
 
@@ -17,6 +18,7 @@ struct DeviceFile {
     std::string name, text, file;
     DeviceDimensions device;
     ProcessData process;
+    ProcessConditions conditions; ///< of [process], too
     WaferPlan wafer;
     std::map<std::string, Place, std::less<>> places; ///< of all that is given, as "device.gap"
 
