@@ -23,7 +23,25 @@ constexpr std::array table{
     Field{"base_thickness", &ProcessConditions::base_thickness, "um", 1e-3, 1e5, "of the wafer below"},
 };
 
+using Rule = QuantityField<RuleLimits>;
+constexpr std::array rules{
+    Rule{"smallest_line", &RuleLimits::smallest_line, "um", 0, 1e6, "of silicon between two trenches"},
+    Rule{"smallest_gap", &RuleLimits::smallest_gap, "um", 0, 1e6, "of a trench"},
+    Rule{"largest_aspect", &RuleLimits::largest_aspect, "", 1e-3, 1e6, "depth of a trench by its width"},
+    Rule{"chamber_overlap", &RuleLimits::chamber_overlap, "um", 0, 1e6, "of a chamber around what moves above it"},
+    Rule{"undercut", &RuleLimits::undercut, "um", 0, 1e6, "of the fixed electrode beyond its base"},
+    Rule{"largest_stop_share", &RuleLimits::largest_stop_share, "", 0, 1e3,
+         "way to the stops by the way until the electrodes touch"},
+    Rule{"largest_stress", &RuleLimits::largest_stress, "MPa", 0, 1e6,
+         "in a beam, at the stops and where the electrodes touch"},
+    Rule{"largest_squeeze", &RuleLimits::largest_squeeze, "", 0, 1e6, "squeeze number of the gas in the gap"},
+};
+
 } // namespace
+
+std::span<const Rule> rule_fields() {
+    return rules;
+}
 
 EtchedWall ProcessConditions::wall() const {
     return {bias, std::tan(taper * (std::numbers::pi / 180))};
