@@ -8,8 +8,8 @@
 namespace graze {
 
 Place DeviceFile::place(const std::string& key) const {
-    for (std::string name = key; !name.empty(); name.resize(name.rfind('.') == std::string::npos ? 0 : name.rfind('.')))
-        if (const auto found = places.find(name); found != places.end())
+    for (std::string part = key; !part.empty(); part.resize(part.rfind('.') == std::string::npos ? 0 : part.rfind('.')))
+        if (const auto found = places.find(part); found != places.end())
             return found->second;
     return {file, 1, 1};
 }

@@ -53,6 +53,7 @@ struct DeviceDimensions {
     double notch_half_width() const {
         return flexure_middle / 2 + 2 * static_cast<double>(folds) * (flexure_width + flexure_spacing);
     }
+    friend bool operator==(const DeviceDimensions&, const DeviceDimensions&) = default;
 };
 
 /// What else a device is made by. The lengths are in micrometres.
