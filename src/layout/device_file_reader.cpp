@@ -120,6 +120,18 @@ void DeviceFileReader::read_process(const TomlEntry& entry) {
                          "give a smaller chamber_depth");
 }
 
+void DeviceFileReader::read_rules(const TomlEntry& entry) {
+    reader_.each_of(entry, {}, [&](const TomlEntry& item) {
+        result_.places.emplace(item.path, reader_.toml().place(*item.node));
+        if (read_quantity_field(reader_, rule_fields(), item, result_.rules))
+            return;
+        std::vector<std::string> known;
+        for (const QuantityField<RuleLimits>& field : rule_fields())
+            known.emplace_back(field.name);
+        fail_unknown(item, entry.path, known);
+    });
+}
+
 void DeviceFileReader::read_vary(const TomlEntry& entry) {
     reader_.each_of(entry, {}, [&](const TomlEntry& item) {
         result_.places.emplace(item.path, reader_.toml().place(*item.node));
@@ -222,6 +234,8 @@ DeviceFile DeviceFileReader::read(const toml::table& root, const GivenLengths& g
                 read_device(entry);
             } else if (entry.name == "process") {
                 read_process(entry);
+            } else if (entry.name == "rules") {
+                read_rules(entry);
             } else if (entry.name == "wafer") {
                 read_wafer(entry);
             }

@@ -119,11 +119,10 @@ private:
         for (const bool on_front : {true, false})
             for (const FacingEdges& place : on_front ? front_places_ : back_places_)
                 if (place.etched) {
-                    const double depth = !on_front                            ? process.chamber_depth
+                    const double depth = !on_front                           ? process.chamber_depth
                                          : within_any(back_, place.middle()) ? process.layer_thickness()
-                                                                              : process.wafer_thickness;
-                    places.push_back(
-                        {depth / micrometres(place.distance), part_of(place, on_front), place.middle()});
+                                                                             : process.wafer_thickness;
+                    places.push_back({depth / micrometres(place.distance), part_of(place, on_front), place.middle()});
                 }
         add("largest_aspect", limits_->largest_aspect, "", false, std::move(places));
     }
@@ -133,20 +132,31 @@ private:
                                   const std::string& part) const {
         std::vector<Measured> places;
         const std::vector<MaskEdge> outline = mask_edges(area);
-        for (const MaskEdge& edge : mask_edges(std::vector{inner}))
+        for (const MaskEdge& edge : mask_edges(std::span(&inner, 1)))
             for (const MaskEdge& wall : outline) {
                 // Edges of the same direction that overlap, with the area beyond the wall on the polygon's side.
                 const std::int64_t low = std::max(edge.from, wall.from), high = std::min(edge.to, wall.to);
-                if (edge.upright != wall.upright || edge.side != wall.side || low > high)
-                    continue;
                 const std::int64_t distance = edge.side * (edge.at - wall.at), along = (low + high) / 2;
+                if (edge.upright != wall.upright || edge.side != wall.side || low >= high || distance < 0)
+                    continue;
                 places.push_back({micrometres(distance), part,
                                   edge.upright ? GridPoint{edge.at, along} : GridPoint{along, edge.at}});
             }
         for (const GridPoint& corner : inner)
             if (!within_any(area, corner))
-                places.push_back({-1, part, corner});
+                places.push_back({-distance_of(corner, outline), part + ", which reaches out of it", corner});
         return places;
+    }
+
+    /// From the nearest of edges.
+    static double distance_of(GridPoint point, const std::vector<MaskEdge>& edges) {
+        double least = std::numeric_limits<double>::infinity();
+        for (const MaskEdge& edge : edges) {
+            const std::int64_t across = edge.upright ? point.x : point.y, along = edge.upright ? point.y : point.x;
+            const std::int64_t aside = along - std::clamp(along, edge.from, edge.to);
+            least = std::min(least, std::hypot(micrometres(across - edge.at), micrometres(aside)));
+        }
+        return least;
     }
 
     void add_overlap() {
@@ -158,18 +168,12 @@ private:
         };
         add_boxes(drawing_->beams(), "a beam");
         add_boxes(drawing_->trusses(), "a truss");
-        add("chamber_overlap", limits_->chamber_overlap, "um", true, nearest_of(std::move(places)));
-    }
-
-    /// Walls that face away at a distance are no neighbours: of each part and direction only the nearest counts.
-    static std::vector<Measured> nearest_of(std::vector<Measured> places) {
-        std::erase_if(places, [](const Measured& one) { return one.value < -1; });
-        return places;
+        add("chamber_overlap", limits_->chamber_overlap, "um", true, std::move(places));
     }
 
     void add_undercut() {
         add("undercut", limits_->undercut, "um", true,
-            nearest_of(margins(drawing_->base, {drawing_->electrode}, "the fixed electrode's base")));
+            margins(drawing_->base, {drawing_->electrode}, "the fixed electrode's base"));
     }
 
     void add_motion() {
@@ -205,8 +209,9 @@ private:
 
 std::string RuleFinding::text() const {
     const std::string in = unit.empty() ? "" : " " + unit;
-    return fmt::format("{} is {:.6g}{} for {}, at ({:.3f}, {:.3f}) um of {}, where {} {:.6g}{} is allowed", rule, value, in,
-                       part, micrometres(at.x), micrometres(at.y), device, at_least ? "at least" : "at most", limit, in);
+    return fmt::format("{} is {:.6g}{} for {}, at ({:.3f}, {:.3f}) um of {}, where {} {:.6g}{} is allowed", rule, value,
+                       in, part, micrometres(at.x), micrometres(at.y), device, at_least ? "at least" : "at most", limit,
+                       in);
 }
 
 std::vector<RuleFinding> rule_findings(const DeviceFile& file, const Layout& layout, const DrawnDevice& device) {

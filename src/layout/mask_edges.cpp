@@ -13,7 +13,8 @@ double winding(const GridPolygon& polygon) {
     double sum = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const GridPoint &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-        sum += static_cast<double>(a.x) * static_cast<double>(b.y) - static_cast<double>(b.x) * static_cast<double>(a.y);
+        sum +=
+            static_cast<double>(a.x) * static_cast<double>(b.y) - static_cast<double>(b.x) * static_cast<double>(a.y);
     }
     return sum;
 }

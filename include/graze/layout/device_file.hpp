@@ -13,12 +13,14 @@
 
 namespace graze {
 
-/// What the sections [device], [process] and [wafer] of a design file say; the other sections are the designer's.
+/// What the sections [device], [process], [rules] and [wafer] of a design file say; the other sections are the
+/// designer's.
 struct DeviceFile {
     std::string name, text, file;
     DeviceDimensions device;
     ProcessData process;
     ProcessConditions conditions; ///< of [process], too
+    RuleLimits rules;
     WaferPlan wafer;
     std::map<std::string, Place, std::less<>> places; ///< of all that is given, as "device.gap"
 

@@ -11,7 +11,7 @@ namespace graze {
 
 /// What a device that was drawn has by a rule: the worst of it, or whatever breaks the rule.
 struct RuleFinding {
-    std::string rule;    ///< as in [rules]
+    std::string rule; ///< as in [rules]
     double value = 0, limit = 0;
     std::string unit;
     bool at_least = true; ///< whether the limit is the least value, or the greatest
@@ -26,7 +26,8 @@ struct RuleFinding {
 
 /// Checks one device by its polygons: distances are those between edges that face each other, on the masks as drawn.
 /// Stops and stresses are of the device after the etch.
-/// @return the worst place of each rule, in the order of rule_fields, and after it further places that break it, 20 at most
+/// @return the worst place of each rule, in the order of rule_fields, and after it further places that break it, 20 at
+/// most
 std::vector<RuleFinding> rule_findings(const DeviceFile& file, const Layout& layout, const DrawnDevice& device);
 /// Of all devices of a layout that differ.
 std::vector<RuleFinding> rule_findings(const DeviceFile& file, const Layout& layout);

@@ -38,14 +38,14 @@ std::span<const QuantityField<ProcessConditions>> condition_fields();
 
 /// Limits of what can be made, and of what the device may do.
 struct RuleLimits {
-    double smallest_line = 4;      ///< um, of silicon between two trenches
-    double smallest_gap = 4;       ///< um, of a trench
-    double largest_aspect = 40;    ///< depth of a trench by its width
-    double chamber_overlap = 20;   ///< um, by which a chamber reaches at least beyond what moves above it
-    double undercut = 10;          ///< um, by which the fixed electrode reaches at least beyond its base
+    double smallest_line = 4;        ///< um, of silicon between two trenches
+    double smallest_gap = 4;         ///< um, of a trench
+    double largest_aspect = 40;      ///< depth of a trench by its width
+    double chamber_overlap = 20;     ///< um, by which a chamber reaches at least beyond what moves above it
+    double undercut = 10;            ///< um, by which the fixed electrode reaches at least beyond its base
     double largest_stop_share = 0.9; ///< of the way until the electrodes touch, that the stop's gap is
-    double largest_stress = 300;   ///< MPa, in a beam at the stops, and where the electrodes touch
-    double largest_squeeze = 0.5;  ///< squeeze number, up to which the gas is taken not to be compressed
+    double largest_stress = 300;     ///< MPa, in a beam at the stops, and where the electrodes touch
+    double largest_squeeze = 0.5;    ///< squeeze number, up to which the gas is taken not to be compressed
 };
 std::span<const QuantityField<RuleLimits>> rule_fields();
 
