@@ -65,6 +65,14 @@ TEST(LumpedModel, ShippedDeviceIsThatOfChapterSix) {
     EXPECT_NEAR(lumped.frequency(), 964, 1);
 }
 
+TEST(LumpedModel, OfTheShippedDeviceIsTheShippedModel) {
+    const Model model = load_model(shipped);
+    const std::vector<double> values = model.parameter_values();
+    for (const auto& [name, value] : parameters_of(lumped_model_of(load_device_file(shipped)), model).set)
+        EXPECT_NEAR(values[*model.find_parameter(name)], value, 5e-10 * value) << name; // ten digits are written
+    EXPECT_EQ(values[*model.find_parameter("f")], values[*model.find_parameter("f0")]);
+}
+
 /// Change of the logarithm of a number by that of a dimension.
 double power(const std::function<double(const LumpedModel&)>& number,
              const std::function<void(DeviceFile&, double)>& set) {
