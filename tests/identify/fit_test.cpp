@@ -2,6 +2,7 @@
 
 #include "graze/model/model_file.hpp"
 #include "identify/recorded_motion.hpp"
+#include "identify/wall_model.hpp"
 
 #include <gmock/gmock.h>
 
@@ -149,30 +150,7 @@ rates = { T = "-T/tau" }
 /// The same motion in nano- and in megaunits.
 TEST(Fit, UnitsMakeNoDifference) {
     const auto swing = [](double length, double time) {
-        Model model = parse_model(R"(
-name = "swing"
-[parameters]
-c = 0.2
-k = 4
-wall = 0.5
-e = 0.7
-[states]
-x = { initial = "-4*wall" }
-v = { initial = 0 }
-[modes.swing]
-rates = { x = "v", v = "-k*x - c*v" }
-watch = ["hit"]
-[events.hit]
-function = "wall - x"
-[jumps.bounce]
-v = "-e*v"
-[[transitions]]
-mode = "swing"
-event = "hit"
-jump = "bounce"
-next = "swing"
-)",
-                                  "swing.toml");
+        Model model = wall_model();
         model.set_parameter("c", 0.2 / time);
         model.set_parameter("k", 4 / (time * time));
         model.set_parameter("wall", 0.5 * length);
