@@ -2,6 +2,7 @@
 
 #include "design/design_keys.hpp"
 #include "graze/symbolic/file_name.hpp"
+#include "layout/quantity_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -49,6 +50,13 @@ const LengthField<Section>* field_named(std::span<const LengthField<Section>> fi
         if (name == field.name)
             return &field;
     return nullptr;
+}
+
+std::vector<std::string> names_of_process() {
+    std::vector<std::string> names = names_of_fields(process_fields());
+    for (const QuantityField<ProcessConditions>& field : condition_fields())
+        names.emplace_back(field.name);
+    return names;
 }
 
 [[noreturn]] void fail_unknown(const TomlEntry& entry, const std::string& section,
@@ -100,8 +108,9 @@ void DeviceFileReader::read_device(const TomlEntry& entry) {
 void DeviceFileReader::read_process(const TomlEntry& entry) {
     reader_.each_of(entry, {}, [&](const TomlEntry& item) {
         result_.places.emplace(item.path, reader_.toml().place(*item.node));
-        if (!read_length(process_fields(), item, result_.process))
-            fail_unknown(item, entry.path, names_of_fields(process_fields()));
+        if (!read_length(process_fields(), item, result_.process) &&
+            !read_quantity_field(reader_, condition_fields(), item, result_.conditions))
+            fail_unknown(item, entry.path, names_of_process());
     });
     const ProcessData& process = result_.process;
     if (!(process.chamber_depth < process.wafer_thickness))
@@ -109,6 +118,18 @@ void DeviceFileReader::read_process(const TomlEntry& entry) {
                          fmt::format("the chambers, {} um deep, leave nothing of the wafer, which is {} um thick",
                                      process.chamber_depth, process.wafer_thickness),
                          "give a smaller chamber_depth");
+}
+
+void DeviceFileReader::read_rules(const TomlEntry& entry) {
+    reader_.each_of(entry, {}, [&](const TomlEntry& item) {
+        result_.places.emplace(item.path, reader_.toml().place(*item.node));
+        if (read_quantity_field(reader_, rule_fields(), item, result_.rules))
+            return;
+        std::vector<std::string> known;
+        for (const QuantityField<RuleLimits>& field : rule_fields())
+            known.emplace_back(field.name);
+        fail_unknown(item, entry.path, known);
+    });
 }
 
 void DeviceFileReader::read_vary(const TomlEntry& entry) {
@@ -147,6 +168,20 @@ void DeviceFileReader::read_wafer(const TomlEntry& entry) {
     });
 }
 
+bool DeviceFileReader::take_condition(const std::string& name, double value, const Place& place) {
+    for (const QuantityField<ProcessConditions>& field : condition_fields())
+        if (name == field.name) {
+            try {
+                require_within(value, name, field.unit, field.least, field.greatest);
+            } catch (const InputError& error) {
+                throw InputError(place, error.problem(), error.remedy());
+            }
+            result_.conditions.*field.member = value;
+            return true;
+        }
+    return false;
+}
+
 void DeviceFileReader::take(const std::pair<std::string, double>& given) {
     const auto& [name, value] = given;
     const Place place{"--set " + name, 0, 0};
@@ -165,6 +200,8 @@ void DeviceFileReader::take(const std::pair<std::string, double>& given) {
         result_.places.insert_or_assign("device." + name, place);
     } else if (set(process_fields(), result_.process, name)) {
         result_.places.insert_or_assign("process." + name, place);
+    } else if (take_condition(name, value, place)) {
+        result_.places.insert_or_assign("process." + name, place);
     } else if (name == "folds") {
         if (!(value >= 1 && value <= most_folds && value == static_cast<double>(static_cast<std::size_t>(value))))
             throw InputError(place, fmt::format("folds is {}", value),
@@ -173,7 +210,7 @@ void DeviceFileReader::take(const std::pair<std::string, double>& given) {
         result_.places.insert_or_assign("device.folds", place);
     } else {
         std::vector<std::string> known = names_of_fields(device_fields());
-        for (const std::string& one : names_of_fields(process_fields()))
+        for (const std::string& one : names_of_process())
             known.push_back(one);
         known.emplace_back("folds");
         throw InputError(place, fmt::format("a device has no dimension '{}'", name), study_name_remedy(name, known));
@@ -197,6 +234,8 @@ DeviceFile DeviceFileReader::read(const toml::table& root, const GivenLengths& g
                 read_device(entry);
             } else if (entry.name == "process") {
                 read_process(entry);
+            } else if (entry.name == "rules") {
+                read_rules(entry);
             } else if (entry.name == "wafer") {
                 read_wafer(entry);
             }

@@ -22,9 +22,11 @@ private:
     bool read_length(std::span<const LengthField<Section>> fields, const TomlEntry& entry, Section& section);
     void read_device(const TomlEntry& entry);
     void read_process(const TomlEntry& entry);
+    void read_rules(const TomlEntry& entry);
     void read_wafer(const TomlEntry& entry);
     void read_wafer_item(const TomlEntry& entry);
     void read_vary(const TomlEntry& entry);
+    bool take_condition(const std::string& name, double value, const Place& place);
     void take(const std::pair<std::string, double>& given);
 
     StudyReader reader_;

@@ -36,7 +36,7 @@ chamber_depth = "0.05 mm"
 diameter = "10 cm"
 vary = { stop_gap = [5, "5500 nm"] }
 [rules]
-anything = 1
+smallest_gap = "0.005 mm"
 )",
                                               "one.toml");
     EXPECT_EQ(file.device.gap, 12);
@@ -47,6 +47,7 @@ anything = 1
     EXPECT_EQ(file.device.folds, 3U);
     EXPECT_EQ(file.process.layer_thickness(), 250);
     EXPECT_EQ(file.wafer.diameter, 100'000);
+    EXPECT_EQ(file.rules.smallest_gap, 5);
     ASSERT_EQ(file.wafer.vary.size(), 1U);
     EXPECT_EQ(file.wafer.vary[0].second, (std::vector<double>{5, 5.5}));
     EXPECT_EQ(file.place("device.gap").text(), "one.toml:3:7");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graze/layout/device_dimensions.hpp"
+#include "graze/layout/process_conditions.hpp"
 #include "graze/layout/wafer_plan.hpp"
 #include "graze/symbolic/input_error.hpp"
 
@@ -12,11 +13,14 @@
 
 namespace graze {
 
-/// What the sections [device], [process] and [wafer] of a design file say; the other sections are the designer's.
+/// What the sections [device], [process], [rules] and [wafer] of a design file say; the other sections are the
+/// designer's.
 struct DeviceFile {
     std::string name, text, file;
     DeviceDimensions device;
     ProcessData process;
+    ProcessConditions conditions; ///< of [process], too
+    RuleLimits rules;
     WaferPlan wafer;
     std::map<std::string, Place, std::less<>> places; ///< of all that is given, as "device.gap"
 
