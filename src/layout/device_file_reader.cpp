@@ -1,6 +1,7 @@
 #include "layout/device_file_reader.hpp"
 
 #include "design/design_keys.hpp"
+#include "graze/model/catalogue.hpp"
 #include "graze/symbolic/file_name.hpp"
 #include "layout/quantity_reader.hpp"
 
@@ -227,6 +228,10 @@ DeviceFile DeviceFileReader::read(const toml::table& root, const GivenLengths& g
             if (entry.name == "name") {
                 result_.name = reader_.toml().string(entry);
                 require_file_name(result_.name, "name of a design", reader_.toml().place(*entry.node));
+            } else if (entry.name == "model") {
+                const std::string model = reader_.toml().string(entry);
+                result_.model = is_model_path(model) ? beside(result_.file, model) : model;
+                result_.places.emplace(entry.name, reader_.toml().place(*entry.node));
             } else if (entry.name == "text") {
                 result_.text = reader_.toml().string(entry);
             } else if (entry.name == "device") {

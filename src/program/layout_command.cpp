@@ -1,8 +1,10 @@
 #include "graze/layout/device_measures.hpp"
 #include "graze/layout/gds_stream.hpp"
 #include "graze/layout/layout.hpp"
+#include "graze/layout/process_recipe.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
+#include "program/layout_model.hpp"
 #include "program/layout_picture.hpp"
 #include "program/output_file.hpp"
 #include "program/picture.hpp"
@@ -41,6 +43,7 @@ void add_measures(Table& table, const DrawnDevice& device, const DeviceFile& fil
     area("its base", measures.base_area);
     area("chambers", measures.chamber_area);
     area("etched through", measures.etched_area);
+    add_lumped_rows(table, file, device);
 }
 
 Table table_of(const Layout& layout, const DeviceFile& file) {
@@ -64,10 +67,19 @@ int layout_command(const LayoutArguments& arguments, const Console& console) {
         picture_ending(path, "--output", {"gds", "gds2", "gdsii"});
     if (!arguments.picture.empty())
         picture_ending(arguments.picture, "--picture", {"svg", "png", "pdf"});
-    require_distinct({{"the design", arguments.design}, {"--output", path}, {"--picture", arguments.picture}});
+    require_distinct({{"the design", arguments.design},
+                      {"--output", path},
+                      {"--picture", arguments.picture},
+                      {"--parameters", arguments.parameters},
+                      {"--recipe", arguments.recipe}});
     const DeviceFile file = load_device_file(arguments.design, parameter_values(arguments.set));
     Layout layout = arguments.wafer ? draw_wafer_layout(file) : draw_device_layout(file);
+    const bool ruled = check_rules(file, layout, arguments.despite_rules, console);
     const Table table = table_of(layout, file);
+    if (!arguments.parameters.empty())
+        write_device_parameters(file, arguments.parameters);
+    if (!arguments.recipe.empty())
+        write_file(arguments.recipe, recipe_text(file));
     if (!arguments.picture.empty())
         draw_layout(layout, arguments.picture);
     if (!path.empty()) {
@@ -79,7 +91,7 @@ int layout_command(const LayoutArguments& arguments, const Console& console) {
     heading.add("design", file.name);
     heading.add("top", layout.top);
     deliver(table, arguments.output, heading, console);
-    return exit_success;
+    return ruled ? exit_success : exit_irregular;
 }
 
 } // namespace graze
