@@ -67,10 +67,14 @@ private:
         std::vector<DeviceDimensions> different;
         for (std::size_t i = 0; i < plan_.devices; ++i) {
             DeviceDimensions one = file_.device;
-            for (const auto& [name, values] : plan_.vary)
+            for (const auto& [name, values] : plan_.vary) {
+                const double value = values[i % values.size()];
+                if (name == "folds")
+                    one.folds = static_cast<std::size_t>(value);
                 for (const LengthField<DeviceDimensions>& field : device_fields())
                     if (name == field.name)
-                        one.*field.member = values[i % values.size()];
+                        one.*field.member = value;
+            }
             const auto found = std::find(different.begin(), different.end(), one);
             layout_.sites.push_back(static_cast<std::size_t>(found - different.begin()));
             if (found == different.end())

@@ -106,12 +106,13 @@ TEST(Layout, OfAWaferHasDevicesAroundItsMiddle) {
 }
 
 TEST(Layout, OfVariantsHasEachOnce) {
-    const Layout layout =
-        draw_wafer_layout(file_of("[device]\n[wafer]\ndevices = 7\nvary = { stop_gap = [7, 8, 9], gap = [15] }\n"));
+    const Layout layout = draw_wafer_layout(
+        file_of("[device]\n[wafer]\ndevices = 7\nvary = { stop_gap = [7, 8, 9], gap = [15], folds = [2] }\n"));
     EXPECT_THAT(layout.sites, ElementsAre(0, 1, 2, 0, 1, 2, 0));
     ASSERT_EQ(layout.devices.size(), 3U);
     EXPECT_EQ(layout.devices[1].cell, "DEVICE_2");
     EXPECT_EQ(layout.devices[1].drawing.dimensions.stop_gap, 8);
+    EXPECT_EQ(layout.devices[1].drawing.dimensions.folds, 2U);
     EXPECT_THAT(message("[device]\n[wafer]\nvary = { stop_gap = [7, 41] }\n"),
                 HasSubstr("mine.toml:4:21: the stops do not reach out of the frame"));
 }

@@ -67,7 +67,7 @@ TEST_F(LayoutCommand, DrawsPictures) {
     for (const char* part :
          {"fixed electrode", "folded flexure", "truss", "stop, gap 9", "channel", "mask 1", "mask 2"})
         EXPECT_THAT(picture, HasSubstr(part));
-    ASSERT_EQ(run_graze({"layout", file, "--wafer", "--picture", folder / "wafer.png"}).code, 0);
+    ASSERT_EQ(run_graze({"layout", file, "--wafer", "--output", folder / "wafer.png"}).code, 0);
     EXPECT_THAT(contents(folder / "wafer.png"), StartsWith("\x89PNG"));
     EXPECT_EQ(folder.files(), 3U) << "and nothing besides";
 }
@@ -94,11 +94,15 @@ TEST_F(LayoutCommand, WritesNothingOfWhatIsWrong) {
         EXPECT_EQ(folder.files(), 1U);
     }
     const std::string file = design("[device]\n");
-    EXPECT_THAT(run_graze({"layout", file, "--output", folder / "a.svg"}).err, HasSubstr("let the name end in .gds"));
+    EXPECT_THAT(run_graze({"layout", file, "--output", folder / "a.dxf"}).err, HasSubstr("let the name end in .gds"));
+    EXPECT_THAT(run_graze({"layout", file, "--mask", "1"}).err, HasSubstr("--mask has no effect without --output"));
+    EXPECT_THAT(run_graze({"layout", file, "--mask", "1", "--output", folder / "a.svg"}).err, HasSubstr("both masks"));
+    EXPECT_THAT(run_graze({"layout", file, "--output", folder / "a.gds", "--picture", folder / "none/a.svg"}).err,
+                HasSubstr("cannot be written"));
     EXPECT_THAT(run_graze({"layout", file, "--output", folder / "none/a.gds"}).err, HasSubstr("cannot be written"));
     EXPECT_THAT(run_graze({"layout", file, "--set", "gab=1"}).err, HasSubstr("did you mean 'gap'?"));
     EXPECT_THAT(run_graze({"layout", file, "--mask", "3"}).err, HasSubstr("--mask"));
-    EXPECT_THAT(run_graze({"layout", "mems-swich"}).err, HasSubstr("did you mean"));
+    EXPECT_THAT(run_graze("layout mems-swich").err, HasSubstr("did you mean"));
     EXPECT_EQ(run_graze("layout").code, 2);
     EXPECT_EQ(folder.files(), 1U);
 }
