@@ -5,6 +5,8 @@ whose corners are rounded when they are put into one cell.
 import csv
 import glob
 import json
+import os
+import re
 import sys
 import traceback
 
@@ -81,7 +83,7 @@ class Drawing:
         return pair.first.distance_abs(pair.second.p1)
 
     def nearest(self, pairs):
-        found = [self.distance(pair) for pair in pairs.each()]
+        found = [self.distance(pair) for pair in (pairs if isinstance(pairs, list) else pairs.each())]
         return min(found) if found else float("nan")
 
     def check_masks(self):
@@ -134,6 +136,30 @@ class Drawing:
         least = min(gap, stop_gap, self.nanometres("beam spacing", name), beam)
         self.expect(self.no_sliver(etched, least) and self.no_sliver(chamber, least), "a sliver")
 
+    def check_rules(self):
+        """The worst of each rule that graze tells, found again on the merged masks."""
+        worst = {}
+        with open(self.name + ".rules") as lines:
+            for rule, value in re.findall(r"rule (\w+) is ([-+.e0-9]+) um", lines.read()):
+                worst.setdefault(rule, round(1000 * float(value)))
+        self.expect(sorted(worst) == ["chamber_overlap", "smallest_gap", "smallest_line", "undercut"], f"rules {worst}")
+        masks = [sum((self.region(mask, part) for part in range(3)), pya.Region()).merged() for mask in (1, 2)]
+        parts = [self.region(10, part).merged() for part in range(3)]
+        chamber, electrode, base = masks[0], self.region(11, 0).merged(), self.region(11, 1).merged()
+        projection = pya.Region.Projection
+
+        def least(rule, checks):
+            """Digits of messages are six: the last may be rounded."""
+            said = worst[rule]
+            near = max(1, said // 100_000)
+            found = self.nearest([pair for check in checks for pair in check(said + near + 1).each()])
+            self.equal(found, said, rule, near)
+
+        least("smallest_gap", [lambda d, m=mask: m.width_check(d, False, projection) for mask in masks])
+        least("smallest_line", [lambda d, m=mask: m.space_check(d, False, projection) for mask in masks])
+        least("chamber_overlap", [lambda d, p=part: chamber.enclosing_check(p, d, False, projection) for part in parts])
+        least("undercut", [lambda d: electrode.enclosing_check(base, d, False, projection)])
+
     @staticmethod
     def no_sliver(region, least):
         """Nothing narrower than half of what is drawn as narrowest: no accident of polygons that almost coincide."""
@@ -144,6 +170,7 @@ class Drawing:
 
 
 try:
+    ruled = 0
     names = sorted(path[:-4] for path in glob.glob("*.gds"))
     for one in names:
         drawing = Drawing(one)
@@ -151,7 +178,10 @@ try:
         drawing.check_masks()
         for device in sorted({row["cell"] for row in drawing.rows if row["cell"].startswith("DEVICE")}):
             drawing.check_device(device)
-    if len(names) < 10:
+        if os.path.exists(one + ".rules"):
+            drawing.check_rules()
+            ruled += 1
+    if len(names) < 10 or ruled < 10:
         wrong.append(f"only {len(names)} drawings")
 except Exception:
     wrong.append(traceback.format_exc())
