@@ -169,7 +169,8 @@ struct FitTask {
 ///
 /// Errors and intervals are those of the linearised problem in which the pieces join, and are taken from the scatter
 /// (noise that is given for outputs tells their ratio, and chi square). Of robust losses they are P. J. Huber's.
-/// All numbers are scaled by what they do; units make no difference.
+/// All numbers are scaled by what they do; units make no difference. Ceres may tell its log (glog, whose level is the
+/// program's) of steps that fail and are made otherwise.
 /// @throws InputError for tasks without meaning: sizes that do not fit, nothing to be found, guesses beyond bounds, too
 ///         few readings
 Fit fit_model(const System& system, const FitTask& task, const FitSettings& settings = {});
