@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/input_error.hpp"
 #include "program/record_stages.hpp"
+#include "program/with_file.hpp"
 
 #include <fmt/format.h>
 
@@ -60,17 +61,12 @@ IdentificationSettings settings_of(const IdentifyArguments& arguments) {
 } // namespace
 
 Identification identify_from_files(const IdentifyArguments& arguments) {
-    // What goes wrong with one of the files names it.
     const EachRecord records = [&](const auto& work) {
         for (const std::string& file : arguments.reading.files)
-            try {
+            with_file(file, [&] {
                 RecordStages stages(file, arguments.reading);
                 work(file, stages.source());
-            } catch (const InputError& error) {
-                if (!error.place().file.empty())
-                    throw;
-                throw InputError(Place{file, 0, 0}, error.problem(), error.remedy());
-            }
+            });
     };
     const IdentificationSettings settings = settings_of(arguments);
     if (arguments.what == "decrement")

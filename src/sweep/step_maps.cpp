@@ -1,12 +1,10 @@
 #include "sweep/step_maps.hpp"
 
-#include "flow/modes_with_tangents.hpp"
 #include "graze/flow/step_check.hpp"
 #include "graze/flow/tangent_reach.hpp"
 #include "graze/flow/tangent_steps.hpp"
+#include "graze/symbolic/symbol_index.hpp"
 #include "graze/symbolic/transform.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,48 +46,81 @@ std::vector<std::size_t> directions_of(const SectionMap& map) {
     return directions;
 }
 
-/// The modes alone, with the matrix of derivatives as states like others.
-System with_derivatives(const System& system, const std::vector<std::size_t>& directions) {
+std::vector<VariationalModes::Mode> linearised(const System& system, const std::vector<std::size_t>& directions) {
     Model model = system.model();
     const std::vector<Expression> states = model.state_symbols();
-    std::vector<std::vector<Component>> columns(directions.size());
-    for (std::size_t d = 0; d < directions.size(); ++d)
+    std::vector<Expression> along;
+    for (const std::size_t i : directions)
+        along.push_back(states[i]);
+    const SymbolIndex columns(along);
+    std::vector<VariationalModes::Mode> modes;
+    for (const Mode& mode : model.modes) {
+        const std::vector<Expression> rates = model.expand(mode.rates);
+        std::vector<Expression> moving, values;
         for (const std::size_t i : directions)
-            columns[d].emplace_back(states[i], new_symbol(model, fmt::format("along_{}_{}", i, d)));
-    return modes_with_tangents(model, directions, columns);
+            moving.push_back(rates[i]);
+        auto& linear = modes.emplace_back();
+        for (JacobianEntry& entry : sparse_jacobian(moving, columns)) {
+            linear.entries.push_back({entry.row, entry.column, values.size()});
+            values.push_back(std::move(entry.value));
+        }
+        linear.tape = compile_tape(states, model.parameter_symbols(), rates, values);
+    }
+    return modes;
 }
 
 } // namespace
 
-VariationalModes::VariationalModes(const SectionMap& map)
-    : simulation_(map.simulation()), system_(simulation_.system()) {
+VariationalModes::VariationalModes(const SectionMap& map) : simulation_(map.simulation()) {
     // Models with many states are not to be differentiated for nothing.
-    if (system_.states() > 2 * most_directions)
+    if (simulation_.system().states() > 2 * most_directions)
         return;
     directions_ = directions_of(map);
     suit_ = !directions_.empty() && directions_.size() <= most_directions;
     if (suit_)
-        system_ = with_derivatives(simulation_.system(), directions_);
+        modes_ = linearised(simulation_.system(), directions_);
 }
+
+StepMaps::Flow::Flow(const VariationalModes::Mode& mode, std::size_t directions, int order)
+    : jet(make_jet(mode.tape, order, LaneKind::ensemble)), end_jet(make_jet(mode.tape, order, LaneKind::ensemble)),
+      columns(*jet, mode.tape, mode.entries, directions, directions),
+      end_columns(*end_jet, mode.tape, mode.entries, directions, directions) {}
 
 StepMaps::StepMaps(const VariationalModes& modes)
     : modes_(&modes), states_(modes.simulation().system().states()), directions_(modes.directions().size()),
-      map_size_(std::max<std::size_t>(directions_ * directions_, 1)),
+      map_size_(std::max<std::size_t>(directions_ * directions_, 1)), order_(modes.simulation().order()),
       tolerance_(TangentSteps::allowance * modes.simulation().options().tolerance),
-      jets_(modes.system(), modes.simulation().order(), LaneKind::ensemble),
-      lanes_(static_cast<std::size_t>(jets_.width())), product_(map_size_),
-      queues_(modes.system().model().modes.size()), seeds_((states_ + map_size_) * lanes_), sums_(seeds_.size()),
-      slopes_(seeds_.size()), times_(lanes_) {}
+      lanes_(static_cast<std::size_t>(lanes_of(LaneKind::ensemble, best_instruction_set()))),
+      flows_(modes.modes().size()), product_(map_size_), queues_(flows_.size()), times_(lanes_),
+      states_here_(states_ * lanes_), states_there_(states_here_.size()), units_(map_size_ * lanes_),
+      sums_(units_.size()), slopes_(units_.size()) {
+    for (std::size_t d = 0; d < directions_; ++d)
+        std::fill_n(&units_[(d * directions_ + d) * lanes_], lanes_, 1.0);
+}
 
 void StepMaps::begin(std::span<const double> parameters, std::span<const double> scale) {
     parameters_.resize(parameters.size() * lanes_);
     for (std::size_t j = 0; j < parameters.size(); ++j)
         std::fill_n(&parameters_[j * lanes_], lanes_, parameters[j]);
-    jets_.set_parameters(parameters_);
+    for (const auto& flow : flows_)
+        if (flow) {
+            flow->jet->set_parameters(parameters_);
+            flow->end_jet->set_parameters(parameters_);
+        }
     scale_.clear();
     for (const std::size_t i : modes_->directions())
         scale_.push_back(scale[i]);
     clear();
+}
+
+StepMaps::Flow& StepMaps::flow(std::size_t mode) {
+    auto& flow = flows_[mode];
+    if (!flow) {
+        flow = std::make_unique<Flow>(modes_->modes()[mode], directions_, order_);
+        flow->jet->set_parameters(parameters_);
+        flow->end_jet->set_parameters(parameters_);
+    }
+    return *flow;
 }
 
 void StepMaps::clear() {
@@ -122,30 +153,30 @@ void StepMaps::compute() {
     }
 }
 
-/// States and unit matrices into lanes; those that are empty repeat the first.
+/// States into lanes; those that are empty repeat the first.
 void StepMaps::load(std::span<const Part> parts) {
-    std::fill(seeds_.begin(), seeds_.end(), 0.0);
     for (std::size_t lane = 0; lane < lanes_; ++lane) {
         const Part& part = parts[lane < parts.size() ? lane : 0];
         for (std::size_t i = 0; i < states_; ++i)
-            seeds_[i * lanes_ + lane] = numbers_[part.state + i];
-        for (std::size_t d = 0; d < directions_; ++d)
-            seeds_[(states_ + d * directions_ + d) * lanes_ + lane] = 1;
+            states_here_[i * lanes_ + lane] = numbers_[part.state + i];
     }
 }
 
 void StepMaps::compute(std::size_t mode, std::span<Part> parts) {
+    Flow& here = flow(mode);
     load(parts);
-    const Jet& jet = jets_.computed(mode, seeds_);
-    find_reaches(jet, parts);
+    here.jet->compute(states_here_);
+    here.columns.compute(units_);
+    find_reaches(here.columns, parts);
     for (std::size_t lane = 0; lane < lanes_; ++lane)
         times_[lane] = parts[lane < parts.size() ? lane : 0].attempt;
-    jet.evaluate_states(times_, sums_, slopes_);
-    Jet& next = jets_.next(mode);
-    next.begin(sums_);
+    here.jet->evaluate_states(times_, states_there_);
+    here.columns.evaluate(times_, sums_, slopes_);
+    here.end_jet->begin(states_there_);
+    here.end_columns.begin(sums_);
     for (std::size_t lane = 0; lane < parts.size(); ++lane) {
         Part& part = parts[lane];
-        if (!believe(part, misfit(jet, next, lane, part.attempt))) {
+        if (!believe(part, misfit(here, lane, part.attempt))) {
             queues_[mode].push_back(part);
             continue;
         }
@@ -155,18 +186,18 @@ void StepMaps::compute(std::size_t mode, std::span<Part> parts) {
             continue;
         const std::size_t state = numbers_.size();
         for (std::size_t i = 0; i < states_; ++i)
-            numbers_.push_back(sums_[i * lanes_ + lane]);
+            numbers_.push_back(states_there_[i * lanes_ + lane]);
         queues_[mode].push_back({.step = part.step, .state = state, .length = left, .attempt = left});
     }
 }
 
 /// The larger of a direction's last two terms, relative to its size.
-double StepMaps::last_terms(const Jet& jet, std::size_t column, std::size_t lane, double length) const {
-    const auto order = static_cast<std::size_t>(jet.order());
+double StepMaps::last_terms(const ColumnSeries& columns, std::size_t column, std::size_t lane, double length) const {
+    const auto order = static_cast<std::size_t>(order_);
     double power = 1, size = 0, last = 0;
     for (std::size_t k = 1; k < order; ++k)
         power *= length;
-    const std::span<const Series> series = jet.series().subspan(states_ + column * directions_, directions_);
+    const std::span<const Series> series = columns.series().subspan(column * directions_, directions_);
     for (std::size_t r = 0; r < directions_; ++r) {
         const double *c = series[r].first + lane, scale = 1 / scale_[r];
         size = std::max(size,
@@ -178,18 +209,18 @@ double StepMaps::last_terms(const Jet& jet, std::size_t column, std::size_t lane
 }
 
 /// How far each part can be followed at once.
-void StepMaps::find_reaches(const Jet& jet, std::span<Part> parts) {
-    if (jet.order() < 3)
+void StepMaps::find_reaches(const ColumnSeries& columns, std::span<Part> parts) {
+    if (order_ < 3)
         return;
-    const double root = 1.0 / (jet.order() - 1);
+    const double root = 1.0 / (order_ - 1);
     for (std::size_t lane = 0; lane < parts.size(); ++lane) {
         double reach = parts[lane].attempt;
         for (std::size_t d = 0; d < directions_ && !parts[lane].accepted; ++d) {
-            double worst = last_terms(jet, d, lane, reach);
+            double worst = last_terms(columns, d, lane, reach);
             // Sizes shrink with the step: a few rounds.
             for (int round = 0; round < 6 && worst > tolerance_; ++round) {
                 reach *= std::pow(tolerance_ / worst, root);
-                worst = last_terms(jet, d, lane, reach);
+                worst = last_terms(columns, d, lane, reach);
             }
         }
         if (std::isfinite(reach) && reach > 0)
@@ -199,14 +230,14 @@ void StepMaps::find_reaches(const Jet& jet, std::span<Part> parts) {
 
 /// By how much slopes of the directions' polynomials differ from what the variational equations say, in units of what
 /// is allowed.
-double StepMaps::misfit(const Jet& jet, const Jet& next, std::size_t lane, double length) const {
+double StepMaps::misfit(const Flow& flow, std::size_t lane, double length) const {
     double most = 0;
-    const std::span<const Series> here = jet.series(), there = next.series();
+    const std::span<const Series> here = flow.columns.series(), there = flow.end_columns.series();
     for (std::size_t d = 0; d < directions_; ++d) {
         double apart = 0, size = 0;
         bool finite = true;
         for (std::size_t r = 0; r < directions_; ++r) {
-            const std::size_t entry = states_ + d * directions_ + r, at = entry * lanes_ + lane;
+            const std::size_t entry = d * directions_ + r, at = entry * lanes_ + lane;
             const double *c = here[entry].first + lane, scale = 1 / scale_[r];
             const double rate = there[entry].first[lanes_ + lane];
             const double difference = length * std::abs(slopes_[at] - rate) * scale;
@@ -248,7 +279,7 @@ void StepMaps::apply(const Part& part, std::size_t lane) {
         for (std::size_t j = 0; j < directions_; ++j)
             for (std::size_t r = 0; r < directions_; ++r)
                 product_[d * directions_ + r] +=
-                    sums_[(states_ + j * directions_ + r) * lanes_ + lane] * map[d * directions_ + j];
+                    sums_[(j * directions_ + r) * lanes_ + lane] * map[d * directions_ + j];
     std::copy(product_.begin(), product_.end(), map);
 }
 

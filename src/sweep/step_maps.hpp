@@ -1,20 +1,27 @@
 #pragma once
 
-#include "graze/flow/mode_jets.hpp"
+#include "graze/tape/jet.hpp"
 #include "graze/trajectory/simulation.hpp"
 #include "sweep/section_map.hpp"
+#include "tape/column_series.hpp"
 
 #include <cstddef>
-#include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace graze {
 
-/// The first variational equations of a simulation's modes, along all directions that anything depends on. Immutable;
-/// threads may share it.
+/// The first variational equations W' = A W of a simulation's modes, along all directions that anything depends on.
+/// Immutable; threads may share it.
 class VariationalModes {
 public:
+    /// The vector field and, as outputs, the entries of its Jacobian A, whose rows and columns are the directions.
+    struct Mode {
+        Tape tape;
+        std::vector<MatrixEntry> entries;
+    };
+
     /// @param map of the section by which motions are followed
     explicit VariationalModes(const SectionMap& map);
 
@@ -22,16 +29,15 @@ public:
     /// are few directions.
     bool suit() const { return suit_; }
     const Simulation& simulation() const { return simulation_; }
-    /// x' = f(x), W' = f_x W, without events: the states, then W column by column, whose rows and columns are the
-    /// directions. Only where they suit.
-    const System& system() const { return system_; }
+    /// Only where they suit.
+    const std::vector<Mode>& modes() const { return modes_; }
     /// States, rising: all but the clocks by which returns are told, which nothing disturbs.
     const std::vector<std::size_t>& directions() const { return directions_; }
 
 private:
     Simulation simulation_;
-    System system_;
     std::vector<std::size_t> directions_;
+    std::vector<Mode> modes_;
     bool suit_ = false;
 };
 
@@ -66,24 +72,33 @@ private:
         int halvings = 0;
         bool accepted = false; ///< whatever comes out: what differs is round-off
     };
+    /// Series of the states and of W, in lanes: where steps begin, and where they end.
+    struct Flow {
+        Flow(const VariationalModes::Mode& mode, std::size_t directions, int order);
+        std::unique_ptr<Jet> jet, end_jet;
+        ColumnSeries columns, end_columns;
+    };
+    Flow& flow(std::size_t mode);
     void load(std::span<const Part> parts);
-    void find_reaches(const Jet& jet, std::span<Part> parts);
-    double last_terms(const Jet& jet, std::size_t column, std::size_t lane, double length) const;
+    void find_reaches(const ColumnSeries& columns, std::span<Part> parts);
+    double last_terms(const ColumnSeries& columns, std::size_t column, std::size_t lane, double length) const;
     void compute(std::size_t mode, std::span<Part> parts);
-    double misfit(const Jet& jet, const Jet& next, std::size_t lane, double length) const;
+    double misfit(const Flow& flow, std::size_t lane, double length) const;
     bool believe(Part& part, double misfit) const;
     void apply(const Part& part, std::size_t lane);
 
     const VariationalModes* modes_;
     std::size_t states_, directions_, map_size_;
+    int order_;
     double tolerance_;
-    ModeJets jets_;
     std::size_t lanes_;
-    std::vector<double> scale_, numbers_; ///< of steps' first states
+    std::vector<std::unique_ptr<Flow>> flows_; ///< of modes, made when first needed
+    std::vector<double> scale_, numbers_;      ///< of steps' first states
     std::vector<double> maps_, product_;
-    std::vector<std::vector<Part>> queues_; ///< of each mode
-    std::vector<Part> batch_;               ///< what is in lanes now
-    std::vector<double> seeds_, sums_, slopes_, times_, parameters_;
+    std::vector<std::vector<Part>> queues_;                               ///< of each mode
+    std::vector<Part> batch_;                                             ///< what is in lanes now
+    std::vector<double> parameters_, times_, states_here_, states_there_; ///< in lanes, as all that follows
+    std::vector<double> units_, sums_, slopes_;                           ///< W where steps begin and end
 };
 
 } // namespace graze

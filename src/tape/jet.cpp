@@ -1,13 +1,13 @@
 #include "graze/tape/jet.hpp"
 
 #include "graze/symbolic/require.hpp"
+#include "tape/aligned_numbers.hpp"
 #include "tape/step_finder.hpp"
 #include "tape/tape_analysis.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <new>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -15,9 +15,7 @@
 
 namespace graze {
 
-namespace {
-
-const KernelTable& table_of(LaneKind kind, [[maybe_unused]] InstructionSet set) {
+const KernelTable& kernel_table(LaneKind kind, [[maybe_unused]] InstructionSet set) {
 #if defined(__x86_64__)
     if (set == InstructionSet::avx2)
         return avx2::kernels(kind);
@@ -27,30 +25,14 @@ const KernelTable& table_of(LaneKind kind, [[maybe_unused]] InstructionSet set) 
     return baseline::kernels(kind);
 }
 
+namespace {
+
 /// Where kernels do not jump but call each other, as without optimisation, this bounds the depth of the stack.
 constexpr std::size_t longest_chain = 64;
 /// Logarithm of what is lost beside one.
 constexpr double nothing = 40;
 
 void end_of_chain(const KernelOperands*, const KernelLink*, Order) {}
-
-/// Numbers aligned to cache lines, all 0 at first.
-class AlignedNumbers {
-public:
-    explicit AlignedNumbers(std::size_t count)
-        : numbers_(static_cast<double*>(::operator new(count * sizeof(double), alignment))) {
-        std::fill_n(numbers_, count, 0.0);
-    }
-    AlignedNumbers(const AlignedNumbers&) = delete;
-    AlignedNumbers& operator=(const AlignedNumbers&) = delete;
-    ~AlignedNumbers() { ::operator delete(numbers_, alignment); }
-
-    double* data() const { return numbers_; }
-
-private:
-    static constexpr std::align_val_t alignment{64};
-    double* numbers_;
-};
 
 bool same_operands(const KernelStep& one, const KernelStep& other) {
     const KernelOperands& a = one.operands;
@@ -193,7 +175,7 @@ private:
     std::size_t states_;
     std::size_t parameters_;
     bool begun_ = false; ///< all of orders 0 and 1 is that of the states and parameters, and no more
-    Layout layout_;
+    JetLayout layout_;
     AlignedNumbers memory_;
     std::vector<TermOperands> terms_;
     std::vector<KernelLink> kernels_;
@@ -588,7 +570,7 @@ void require_known(LaneKind kind, InstructionSet set) {
 
 int lanes_of(LaneKind kind, InstructionSet set) {
     require_known(kind, set);
-    const int width = table_of(kind, set).width;
+    const int width = kernel_table(kind, set).width;
     return kind == LaneKind::tangent ? width - 1 : width;
 }
 
@@ -598,7 +580,7 @@ std::unique_ptr<Jet> make_jet(const Tape& tape, int order, LaneKind kind, Instru
         throw std::invalid_argument("the order of a jet must be between 1 and " + std::to_string(highest_order));
     if (!is_supported(set))
         throw std::invalid_argument("this processor does not have the instruction set " + std::string(name_of(set)));
-    return std::make_unique<TapeJet>(tape, order, kind, table_of(kind, set));
+    return std::make_unique<TapeJet>(tape, order, kind, kernel_table(kind, set));
 }
 
 } // namespace graze

@@ -102,6 +102,20 @@ struct TangentEnds {
 /// What is so small against anything a double can hold that nothing may be said of its relative accuracy.
 inline constexpr double smallest_derivative = 1e-200;
 
+/// An entry of a matrix A that is not zero throughout ...
+struct ColumnTerm {
+    const double* series;
+    std::ptrdiff_t degree; ///< above which its coefficients are 0
+    std::size_t row;       ///< of what it is multiplied by
+};
+/// ... all of them row by row, and the columns of a matrix W with W' = A W.
+struct ColumnOperands {
+    const ColumnTerm* terms;
+    const ColumnTerm* const* row_ends; ///< one past the last term of each row
+    double* columns;                   ///< series of the entries of W, column by column
+    std::size_t rows, count, size;     ///< rows and columns of W; numbers in a series
+};
+
 /// Linear combinations of fewer terms than this have kernels of their own; row 0 is for all others.
 inline constexpr int combination_kernels = 8;
 
@@ -157,8 +171,13 @@ struct KernelTable {
     /// The first state, from one on, of which a derivative's slope differs by more than is allowed; their number if
     /// there is none.
     std::size_t (*tangent_misfit)(const TangentStates& states, const TangentEnds& ends, std::size_t from);
+    /// Coefficients 1 .. highest of the columns from coefficient 0. (Only for ensembles.)
+    void (*columns)(const ColumnOperands& operands, Order highest);
     Kernel constant[operation_count]; ///< on numbers; row `number` and `symbol` are empty
 };
+
+/// That of an instruction set, which the processor must have.
+const KernelTable& kernel_table(LaneKind kind, InstructionSet set);
 
 namespace baseline {
 const KernelTable& kernels(LaneKind kind);

@@ -2,6 +2,7 @@
 
 // Collects the kernels of one instruction set in tables. To be included only by its translation unit.
 
+#include "tape/column_kernels.hpp"
 #include "tape/guard_kernels.hpp"
 #include "tape/kernels.hpp"
 #include "tape/recurrence.hpp"
@@ -140,6 +141,8 @@ constexpr KernelTable make_table() {
     table.bound = &bound<V>;
     table.steps = &steps<V>;
     table.guard = &guard<V>;
+    if constexpr (std::is_same_v<V, Ensemble>)
+        table.columns = &columns<V>;
     if constexpr (std::is_same_v<V, Tangent>) {
         table.tangent_tails = &tangent_tails<V>;
         table.tangent_misfit = &tangent_misfit<V>;

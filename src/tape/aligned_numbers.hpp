@@ -1,0 +1,27 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <new>
+
+namespace graze {
+
+/// Numbers aligned to cache lines, all 0 at first.
+class AlignedNumbers {
+public:
+    explicit AlignedNumbers(std::size_t count)
+        : numbers_(static_cast<double*>(::operator new(count * sizeof(double), alignment))) {
+        std::fill_n(numbers_, count, 0.0);
+    }
+    AlignedNumbers(const AlignedNumbers&) = delete;
+    AlignedNumbers& operator=(const AlignedNumbers&) = delete;
+    ~AlignedNumbers() { ::operator delete(numbers_, alignment); }
+
+    double* data() const { return numbers_; }
+
+private:
+    static constexpr std::align_val_t alignment{64};
+    double* numbers_;
+};
+
+} // namespace graze
