@@ -1,5 +1,7 @@
 #include "graze/bench/function_generator.hpp"
 
+#include "graze/symbolic/trimmed.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,18 +24,6 @@ constexpr std::string_view identity = "HEWLETT-PACKARD,33120A,0,8.0-5.0-2.0";
 
 // Of the register of standard events (IEEE 488.2).
 constexpr int operation_complete = 1, query_error = 4, device_error = 8, execution_error = 16, command_error = 32;
-
-bool is_blank(char letter) {
-    return letter == ' ' || letter == '\t';
-}
-
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && is_blank(text.front()))
-        text.remove_prefix(1);
-    while (!text.empty() && is_blank(text.back()))
-        text.remove_suffix(1);
-    return text;
-}
 
 std::string capitals(std::string_view text) {
     std::string result(text);

@@ -45,17 +45,22 @@ void require_share(double share, const char* what) {
 /// The devices, on threads.
 class Workshop {
 public:
-    Workshop(const System& system, const SpecialPoint& point, ParameterId control, const YieldSettings& settings)
-        : system_(&system), point_(&point), control_(control), settings_(&settings), own_(made()) {}
+    /// Changes of the parameters of a device from the nominal ones; none: it cannot be made.
+    using Changes = std::function<std::vector<double>(std::size_t device, const std::vector<double>& nominal)>;
+
+    Workshop(const System& system, const SpecialPoint& point, ParameterId control, std::vector<ParameterId> others,
+             std::size_t devices, Changes changes, const YieldSettings& settings)
+        : system_(&system), point_(&point), control_(control), others_(std::move(others)), devices_(devices),
+          changes_(std::move(changes)), settings_(&settings), own_(made()) {}
 
     LocatedValue& nominal() { return own_; }
 
     void make(Yield& result) {
-        result.devices.resize(settings_->devices);
-        problems_.resize(settings_->devices);
+        result.devices.resize(devices_);
+        problems_.resize(devices_);
         constexpr std::size_t enough = 32; // devices, for which a thread is worth its start
         const std::size_t jobs =
-            std::clamp<std::size_t>(settings_->devices / enough, 1, static_cast<std::size_t>(settings_->jobs));
+            std::clamp<std::size_t>(devices_ / enough, 1, static_cast<std::size_t>(settings_->jobs));
         {
             std::vector<std::jthread> threads;
             for (std::size_t i = 1; i < jobs; ++i)
@@ -80,12 +85,7 @@ public:
     }
 
 private:
-    LocatedValue made() const {
-        std::vector<ParameterId> others;
-        for (const Tolerance& one : settings_->tolerances)
-            others.push_back(one.parameter);
-        return {*system_, *point_, control_, others, settings_->solver};
-    }
+    LocatedValue made() const { return {*system_, *point_, control_, others_, settings_->solver}; }
 
     template <class Work>
     void guarded(const Work& work) {
@@ -100,37 +100,47 @@ private:
     }
 
     void work(LocatedValue& solver, Yield& result, bool tells) {
-        std::vector<double> values;
-        for (std::size_t i; !stopped_ && (i = next_++) < settings_->devices;) {
+        for (std::size_t i; !stopped_ && (i = next_++) < devices_;) {
             if (settings_->interrupted && settings_->interrupted()) {
                 stopped_ = true;
                 return;
             }
-            Device& device = result.devices[i];
-            values = solver.values();
-            device.linear = solver.value();
-            for (std::size_t k = 0; k < values.size(); ++k) {
-                const double change = departure(settings_->tolerances[k], settings_->seed, i, k);
-                values[k] += change;
-                device.linear += solver.derivatives()[k] * change;
-            }
-            const LocatedSolution found = solver(values);
-            device.outcome = !found.found        ? DeviceOutcome::failed
-                             : !found.admissible ? DeviceOutcome::inadmissible
-                                                 : DeviceOutcome::found;
-            if (device.outcome == DeviceOutcome::found)
-                device.value = found.value;
-            else
-                problems_[i] = found.problem.empty() ? "the model would not follow the orbit" : found.problem;
+            problems_[i] = solve(solver, i, result.devices[i]);
             const std::size_t done = ++done_;
             if (tells && settings_->progress)
                 settings_->progress(done);
         }
     }
 
+    /// @return what is wrong with the device, if anything is
+    std::string solve(LocatedValue& solver, std::size_t i, Device& device) const {
+        device.outcome = DeviceOutcome::failed;
+        device.linear = solver.value();
+        std::vector<double> values = solver.values();
+        const std::vector<double> changes = changes_(i, values);
+        if (changes.size() != values.size())
+            return "the device cannot be made";
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            values[k] += changes[k];
+            device.linear += solver.derivatives()[k] * changes[k];
+        }
+        const LocatedSolution found = solver(values);
+        if (found.found)
+            device.outcome = found.admissible ? DeviceOutcome::found : DeviceOutcome::inadmissible;
+        if (device.outcome != DeviceOutcome::found)
+            return found.problem.empty() ? "the model would not follow the orbit" : found.problem;
+        device.value = found.value;
+        if (settings_->solved)
+            settings_->solved(i, found);
+        return {};
+    }
+
     const System* system_;
     const SpecialPoint* point_;
     ParameterId control_;
+    std::vector<ParameterId> others_;
+    std::size_t devices_;
+    Changes changes_;
     const YieldSettings* settings_;
     LocatedValue own_;
     std::vector<std::string> problems_;
@@ -238,6 +248,60 @@ void set_contributions(Yield& result, const LocatedValue& nominal, const std::ve
                      [](const Contribution& a, const Contribution& b) { return a.share > b.share; });
 }
 
+void require_number_of(std::size_t devices) {
+    constexpr std::size_t most = 100'000'000;
+    if (devices == 0 || devices > most)
+        throw InputError(fmt::format("{} devices are out of range", devices), fmt::format("choose from 1 to {}", most));
+}
+
+/// What does not depend on how devices come about.
+void require_common(const YieldSettings& settings) {
+    if (settings.least && settings.greatest && !(*settings.least <= *settings.greatest))
+        throw InputError(fmt::format("nothing lies within {} and {}", *settings.least, *settings.greatest),
+                         "give the lower limit first");
+    require_share(settings.confidence, "the confidence");
+    for (const double share : settings.quantiles)
+        require_share(share, "the quantile");
+    if (settings.jobs < 1)
+        throw InputError(fmt::format("{} jobs cannot do anything", settings.jobs), "give at least one");
+    settings.solver.validate();
+}
+
+/// Counts, shares, moments and quantiles of devices that have been made.
+void add_statistics(Yield& result, const YieldSettings& settings) {
+    count(result);
+    set_shares(result, settings);
+    std::vector<double> values;
+    for (const Device& device : result.devices)
+        if (device.outcome == DeviceOutcome::found) {
+            values.push_back(device.value);
+            result.largest_departure = std::max(result.largest_departure, std::abs(device.value - device.linear));
+        }
+    set_moments(result, values, settings.confidence);
+    std::sort(values.begin(), values.end());
+    if (!values.empty())
+        for (const double share : settings.quantiles)
+            result.quantiles.push_back(quantile_of(values, share, settings.confidence));
+}
+
+/// Of what the derivatives say of each device.
+double deviation_of_linear(const Yield& result) {
+    double sum = 0, squares = 0;
+    std::size_t n = 0;
+    for (const Device& device : result.devices)
+        if (device.outcome != DeviceOutcome::not_made) {
+            sum += device.linear - result.nominal;
+            ++n;
+        }
+    if (n < 2)
+        return 0;
+    const double mean = sum / static_cast<double>(n);
+    for (const Device& device : result.devices)
+        if (device.outcome != DeviceOutcome::not_made)
+            squares += std::pow(device.linear - result.nominal - mean, 2);
+    return std::sqrt(squares / static_cast<double>(n - 1));
+}
+
 } // namespace
 
 double Tolerance::deviation() const {
@@ -245,23 +309,14 @@ double Tolerance::deviation() const {
 }
 
 void YieldSettings::validate() const {
-    constexpr std::size_t most = 100'000'000;
     if (tolerances.empty())
         throw InputError("no parameter has a tolerance", "give at least one");
     for (const Tolerance& one : tolerances)
         if (!(one.size >= 0 && std::isfinite(one.size)))
             throw InputError(fmt::format("the tolerance {} is out of range", one.size),
                              "give a number that is not negative");
-    if (devices == 0 || devices > most)
-        throw InputError(fmt::format("{} devices are out of range", devices), fmt::format("choose from 1 to {}", most));
-    if (least && greatest && !(*least <= *greatest))
-        throw InputError(fmt::format("nothing lies within {} and {}", *least, *greatest), "give the lower limit first");
-    require_share(confidence, "the confidence");
-    for (const double share : quantiles)
-        require_share(share, "the quantile");
-    if (jobs < 1)
-        throw InputError(fmt::format("{} jobs cannot do anything", jobs), "give at least one");
-    solver.validate();
+    require_number_of(devices);
+    require_common(*this);
 }
 
 ConfidenceInterval wilson_interval(std::size_t hits, std::size_t trials, double confidence) {
@@ -278,24 +333,45 @@ ConfidenceInterval wilson_interval(std::size_t hits, std::size_t trials, double 
 
 Yield yield_of(const System& system, const SpecialPoint& point, ParameterId control, const YieldSettings& settings) {
     settings.validate();
-    Workshop workshop(system, point, control, settings);
+    std::vector<ParameterId> others;
+    for (const Tolerance& one : settings.tolerances)
+        others.push_back(one.parameter);
+    const auto drawn_changes = [&](std::size_t device, const std::vector<double>& nominal) {
+        std::vector<double> changes(nominal.size());
+        for (std::size_t k = 0; k < changes.size(); ++k)
+            changes[k] = departure(settings.tolerances[k], settings.seed, device, k);
+        return changes;
+    };
+    Workshop workshop(system, point, control, others, settings.devices, drawn_changes, settings);
     Yield result;
     result.nominal = workshop.nominal().value();
     workshop.make(result);
-    count(result);
     set_contributions(result, workshop.nominal(), settings.tolerances);
-    set_shares(result, settings);
-    std::vector<double> values;
-    for (const Device& device : result.devices)
-        if (device.outcome == DeviceOutcome::found) {
-            values.push_back(device.value);
-            result.largest_departure = std::max(result.largest_departure, std::abs(device.value - device.linear));
-        }
-    set_moments(result, values, settings.confidence);
-    std::sort(values.begin(), values.end());
-    if (!values.empty())
-        for (const double share : settings.quantiles)
-            result.quantiles.push_back(quantile_of(values, share, settings.confidence));
+    add_statistics(result, settings);
+    return result;
+}
+
+Yield yield_of(const System& system, const SpecialPoint& point, ParameterId control, const MadeDevices& devices,
+               const YieldSettings& settings) {
+    require_number_of(devices.values.size());
+    require_common(settings);
+    for (const std::vector<double>& values : devices.values)
+        if (!values.empty() && values.size() != devices.parameters.size())
+            throw InputError(
+                fmt::format("a device has {} values of {} parameters", values.size(), devices.parameters.size()),
+                "give one for each");
+    const auto changes_of = [&](std::size_t device, const std::vector<double>& nominal) {
+        std::vector<double> changes = devices.values[device];
+        for (std::size_t k = 0; k < changes.size(); ++k)
+            changes[k] -= nominal[k];
+        return changes;
+    };
+    Workshop workshop(system, point, control, devices.parameters, devices.values.size(), changes_of, settings);
+    Yield result;
+    result.nominal = workshop.nominal().value();
+    workshop.make(result);
+    result.linear_deviation = deviation_of_linear(result);
+    add_statistics(result, settings);
     return result;
 }
 

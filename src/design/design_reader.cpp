@@ -1,5 +1,6 @@
 #include "design/design_reader.hpp"
 
+#include "design/design_keys.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "graze/symbolic/file_name.hpp"
@@ -76,9 +77,7 @@ Design DesignReader::read(const toml::table& root) {
 
 void DesignReader::read_keys(const toml::table& root) {
     StudyReader::each(reader_.toml().entries(root, ""), [&](const TomlEntry& entry) {
-        reader_.toml().require_known(entry, "",
-                                     {"name", "text", "source", "model", "control", "set", "approach", "trip",
-                                      "dimensions", "planes", "adjustable", "points", "yield", "wanted"});
+        require_design_key(reader_.toml(), entry);
         keys_.emplace(entry.name, entry);
     });
 }

@@ -1,6 +1,7 @@
 #include "graze/identify/fit.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "identify/fit_beginning.hpp"
 #include "identify/fit_findings.hpp"
 #include "identify/fit_solver.hpp"
 #include "identify/fit_start.hpp"
@@ -9,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -60,30 +63,16 @@ public:
     Fit run() {
         require_noise();
         Fit fit;
-        StageReport report = pass(fit);
-        // What is left is no noise: contacts may be missing, which the parameters that were found let appear.
-        constexpr int most_passes = 4;
-        constexpr double better = 0.95;
-        for (int round = 1; round < most_passes && !report.interrupted && leaves_more_than_noise(); ++round) {
-            const FitLayout layout = rows_.layout;
-            const std::vector<double> noise = rows_.noise;
-            const FitPoint point = point_;
-            const double before = squares_at(rows_, point_);
-            cut_anew(round);
-            report = pass(fit);
-            if (const double after = squares_at(rows_, point_); after < better * before)
-                continue;
-            else if (!(after <= before) && !report.interrupted)
-                restore(layout, noise, point);
-            break;
-        }
-        if (const std::string broken = unreadable(rows_, point_); !broken.empty()) {
-            fit.ending = report.interrupted ? FitEnding::interrupted : FitEnding::broken;
+        const Way best = best_way(fit);
+        rows_.layout = best.layout;
+        rows_.noise = best.noise;
+        if (const std::string broken = unreadable(rows_, best.known); !broken.empty()) {
+            fit.ending = best.report.interrupted ? FitEnding::interrupted : FitEnding::broken;
             fit.detail = broken;
             return fit;
         }
-        describe(rows_, point_, last_joint, fit);
-        judge(report, check_point(rows_, point_, last_joint), fit);
+        describe(rows_, best.point, best.known, last_joint, fit);
+        judge(best.report, check_point(rows_, best.point, best.known, last_joint), fit);
         return fit;
     }
 
@@ -99,19 +88,72 @@ private:
                     "give the standard deviation of its readings");
     }
 
+    /// Where a fit has come to.
+    struct Way {
+        FitLayout layout;
+        std::vector<double> noise;
+        FitPoint point;
+        StageReport report;
+        std::vector<PieceRows> known;
+        double unlikelihood = std::numeric_limits<double>::infinity(); ///< if it is a motion at all
+        std::size_t contacts = 0;
+        bool exact = false, noise_alone = false; ///< what is left: nothing; nothing but noise
+    };
+    Way way_here(const StageReport& report) {
+        Way way{rows_.layout, rows_.noise, point_, report, rows_.evaluate(point_)};
+        for (const PieceRows& piece : way.known)
+            way.contacts += piece.contacts;
+        if (report.interrupted || !unreadable(rows_, way.known).empty() ||
+            !check_point(rows_, point_, way.known, last_joint).joined())
+            return way;
+        way.unlikelihood = unlikelihood_of(rows_, way.known);
+        way.exact = is_exact(rows_, way.known);
+        Fit trial;
+        describe(rows_, point_, way.known, last_joint, trial);
+        way.noise_alone = true;
+        for (std::size_t o = 0; o < trial.outputs.size(); ++o)
+            way.noise_alone = way.noise_alone && !is_no_noise(trial.outputs[o], o);
+        return way;
+    }
+
+    /// A slow contact that is missed, or was made out of noise, is a way from which small steps do not lead back. So
+    /// one begins again with what was found, elsewhere and otherwise, until the best is found a second time.
+    Way best_way(Fit& fit) {
+        constexpr int most_passes = 8;
+        constexpr double same = 0.01; // of logarithms of likelihoods
+        Way best = way_here(pass(false, fit));
+        const double usual = usual_length();
+        bool again = best.contacts > 0 || !std::isfinite(best.unlikelihood);
+        for (int round = 1; again && round < most_passes && !best.exact && !best.report.interrupted; ++round) {
+            restore(best);
+            if (round > 1)
+                cut_anew(usual * (round < 4 ? 0.7 : round < 6 ? 0.5 : 1.4));
+            Way other = way_here(pass(round % 2 == 1, fit));
+            if (other.report.interrupted)
+                return other;
+            const double better = best.unlikelihood - other.unlikelihood;
+            again = !best.noise_alone || !(std::abs(better) <= same);
+            if (better > 0)
+                best = std::move(other);
+        }
+        restore(best);
+        return best;
+    }
+
     /// From the first pieces to all of them, and until they join.
-    StageReport pass(Fit& fit) {
+    StageReport pass(bool by_prediction, Fit& fit) {
         const std::vector<FitStage> stages = stages_of(rows_, *settings_);
         const int count = static_cast<int>(stages.size());
-        StageReport report = begin(fit);
-        for (int s = 0; s + 1 < count && !report.interrupted; ++s) {
+        FitBeginning beginning(rows_, point_, [&](const FitStage& stage) { return make(stage, 0, count + 1, fit); });
+        StageReport report = by_prediction ? beginning.by_prediction() : beginning.by_readings();
+        for (int s = by_prediction ? 2 : 0; s + 1 < count && !report.interrupted; ++s) {
             FitStage stage = stages[static_cast<std::size_t>(s)];
-            stage.prior = s == 0 ? prior() : 0;
+            stage.prior = s == 0 ? prior_weight(rows_) : 0;
             report = make(stage, s + 1, count + 1, fit);
             merge_bound(rows_, point_);
             update_modes(rows_, point_);
             if (!report.interrupted)
-                rows_.noise = noise_at(rows_, point_);
+                rows_.noise = noise_here();
         }
         // Once more where weights or modes have changed by what was found.
         constexpr int most_rounds = 8;
@@ -126,28 +168,35 @@ private:
             if (!bounded.held.empty())
                 report = make(bounded, count, count + 1, fit);
             const bool merged = merge_bound(rows_, point_), switched = update_modes(rows_, point_) || merged;
-            const std::vector<double> noise = noise_at(rows_, point_);
+            const std::vector<double> noise = noise_here();
             if (!switched && is_settled(noise, before, rows_))
                 break;
             rows_.noise = noise;
         }
         return report;
     }
+    std::vector<double> noise_here() {
+        const std::vector<PieceRows> known = rows_.evaluate(point_);
+        return unreadable(rows_, known).empty() ? noise_at(rows_, known) : rows_.noise;
+    }
 
-    /// Shorter pieces, whose ends are elsewhere: a contact near one may have been missed.
-    void cut_anew(int round) {
-        constexpr double shorter = 0.7;
-        FitSettings settings = *settings_;
+    double usual_length() {
         std::vector<double> lengths;
-        std::vector<Eigen::VectorXd> openings;
-        for (std::size_t k = 0; k < pieces().size(); ++k) {
-            lengths.push_back(pieces()[k].end - pieces()[k].begin);
-            if (pieces()[k].opening)
-                openings.push_back(point_.states[k]);
-        }
+        for (const FitPiece& piece : pieces())
+            lengths.push_back(piece.end - piece.begin);
         const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
         std::nth_element(lengths.begin(), middle, lengths.end());
-        settings.piece = (round == 1 ? 1 : shorter) * shorter * *middle;
+        return *middle;
+    }
+
+    /// Pieces whose ends are elsewhere: a contact near one may have been missed.
+    void cut_anew(double length) {
+        FitSettings settings = *settings_;
+        std::vector<Eigen::VectorXd> openings;
+        for (std::size_t k = 0; k < pieces().size(); ++k)
+            if (pieces()[k].opening)
+                openings.push_back(point_.states[k]);
+        settings.piece = length;
         pieces() = cut_records(rows_.system(), rows_.task(), settings);
         point_.states.clear();
         for (const FitPiece& piece : pieces())
@@ -156,151 +205,17 @@ private:
                                         : Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.layout.states)));
     }
 
-    bool leaves_more_than_noise() {
-        if (!unreadable(rows_, point_).empty())
-            return false;
-        Fit trial;
-        describe(rows_, point_, last_joint, trial);
-        for (std::size_t o = 0; o < trial.outputs.size(); ++o)
-            if (is_no_noise(trial.outputs[o], o))
-                return true;
-        return false;
-    }
     bool is_no_noise(const FittedOutput& output, std::size_t number) const {
         constexpr double round_off = 1e-9;
         return !output.independent && output.deviation > round_off * rows_.range(number);
     }
 
-    void restore(const FitLayout& layout, const std::vector<double>& noise, const FitPoint& point) {
-        rows_.layout = layout;
-        rows_.noise = noise;
-        point_ = point;
-    }
-
-    /// The first pieces of records alone, then twice as many, and so on: each begins where what is known by then leads
-    /// to, so that a wrong frequency, say, does not add up to a wrong phase.
-    StageReport begin(Fit& fit) {
-        StageReport report;
-        usual_costs_.clear();
-        std::size_t done = 0;
-        for (std::size_t count = 1; done < most_pieces() && !report.interrupted; count *= 2) {
-            for (std::size_t k = 0; k < pieces().size(); ++k) {
-                if (ordinal(k) < done || ordinal(k) >= count)
-                    continue;
-                if (!pieces()[k].opening && ends_bound(rows_, point_, k - 1)) {
-                    merge(rows_, point_, k--);
-                    continue;
-                }
-                if (!pieces()[k].opening)
-                    continue_from(rows_, point_, k);
-                report = begin_piece(k, fit);
-            }
-            FitStage together = soft_stage();
-            for (std::size_t k = 0; k < pieces().size(); ++k)
-                together.active.push_back(ordinal(k) < count);
-            together.prior = prior();
-            report = make(together, 0, 5, fit);
-            update_modes(rows_, point_);
-            done = count;
-        }
-        return report;
-    }
-
-    FitStage alone(std::size_t piece) {
-        FitStage stage = soft_stage();
-        stage.active.assign(pieces().size(), false);
-        stage.active[piece] = true;
-        stage.states_only = true;
-        stage.prior = 0.03;
-        return stage;
-    }
-
-    /// Finds the first state of a piece. Where it meets its readings far worse than others do a contact is amiss, as
-    /// noise can make it near the piece's beginning: then it begins otherwise, or becomes part of the one before.
-    StageReport begin_piece(std::size_t& piece, Fit& fit) {
-        constexpr double amiss = 3;
-        StageReport report = best_opening(alone(piece), piece, fit);
-        const auto readings = [&](std::size_t k) { return static_cast<double>(pieces()[k].last - pieces()[k].first); };
-        if (pieces()[piece].opening || usual_costs_.empty() || report.interrupted ||
-            report.cost < amiss * readings(piece) * usual_cost()) {
-            usual_costs_.push_back(report.cost / readings(piece));
-            return report;
-        }
-        const Eigen::VectorXd first = point_.states[piece];
-        continue_from(rows_, point_, piece, false);
-        if (const StageReport other = make(alone(piece), 0, 5, fit); other.cost < report.cost)
-            report = other;
-        else
-            point_.states[piece] = first;
-        if (report.cost < amiss * readings(piece) * usual_cost())
-            return report;
-        const FitPoint apart = point_;
-        const FitLayout layout = rows_.layout;
-        merge(rows_, point_, piece);
-        const StageReport merged = make(alone(piece - 1), 0, 5, fit);
-        if (merged.cost < report.cost) {
-            --piece;
-            return merged;
-        }
-        point_ = apart;
-        rows_.layout = layout;
-        return report;
-    }
-    /// By reading, of half of the pieces.
-    double usual_cost() {
-        const auto middle = usual_costs_.begin() + static_cast<std::ptrdiff_t>(usual_costs_.size() / 2);
-        std::nth_element(usual_costs_.begin(), middle, usual_costs_.end());
-        return *middle;
-    }
-
-    /// From each of the states in which a piece might begin: the one that meets its readings best.
-    StageReport best_opening(const FitStage& stage, std::size_t piece, Fit& fit) {
-        StageReport best = make(stage, 0, 5, fit);
-        const std::vector<Eigen::VectorXd> others =
-            pieces()[piece].opening ? other_openings(rows_, point_, piece) : std::vector<Eigen::VectorXd>{};
-        Eigen::VectorXd found = point_.states[piece];
-        for (const Eigen::VectorXd& other : others) {
-            point_.states[piece] = other;
-            const StageReport report = make(stage, 0, 5, fit);
-            if (report.interrupted)
-                return report;
-            if (!report.failed && (report.cost < best.cost || best.failed)) {
-                best = report;
-                found = point_.states[piece];
-            }
-        }
-        point_.states[piece] = found;
-        return best;
-    }
-
-    /// While little is known, a change by a tenth counts as much as one reading's noise: what noise alone would move
-    /// far stays near.
-    double prior() const {
-        constexpr double usual_change = 0.1;
-        return rows_.unit() / usual_change;
-    }
-
-    static FitStage soft_stage() {
-        FitStage stage;
-        stage.joint = 1;
-        stage.tolerance = 1e-3;
-        stage.most_iterations = 15;
-        return stage;
+    void restore(const Way& way) {
+        rows_.layout = way.layout;
+        rows_.noise = way.noise;
+        point_ = way.point;
     }
     std::vector<FitPiece>& pieces() { return rows_.layout.pieces; }
-    /// Which piece of its record.
-    std::size_t ordinal(std::size_t piece) {
-        std::size_t count = 0;
-        while (!pieces()[piece - count].opening)
-            ++count;
-        return count;
-    }
-    std::size_t most_pieces() {
-        std::size_t most = 0;
-        for (std::size_t k = 0; k < pieces().size(); ++k)
-            most = std::max(most, ordinal(k) + 1);
-        return most;
-    }
 
     StageReport make(const FitStage& stage, int number, int count, Fit& fit) {
         const int before = fit.iterations;
@@ -334,7 +249,7 @@ private:
         if (report.interrupted)
             return end(FitEnding::interrupted, "the fit was ended before it had converged");
         if (!checks.broken.empty())
-            return end(FitEnding::broken, checks.broken + ": begin from other guesses, or bound parameters");
+            return end(FitEnding::broken, checks.broken);
         if (!std::all_of(fit.numbers.begin(), fit.numbers.end(), [](const FittedNumber& number) {
                 return std::isfinite(number.estimate.value) && std::isfinite(number.estimate.error);
             }))
@@ -344,15 +259,16 @@ private:
                        fmt::format("pieces of the motion do not join, by {:.3g} of its size: begin from other guesses, "
                                    "or with shorter pieces",
                                    checks.gap));
-        if (!checks.stationary)
-            return end(FitEnding::unfinished,
-                       fmt::format("it has not converged after {} iterations: allow more, or begin from other guesses",
-                                   fit.iterations));
         if (!fit.free.empty())
             return end(FitEnding::undetermined,
                        fmt::format("readings do not tell all numbers, for nothing changes with {}: give some of these, "
                                    "or record what tells them",
                                    fit.free.front().text));
+        if (!is_least(report, checks, fit))
+            return end(FitEnding::unfinished,
+                       fmt::format("it has not converged after {} iterations: begin from other guesses, bound "
+                                   "parameters, or cut other pieces",
+                                   fit.iterations));
         for (std::size_t o = 0; o < fit.outputs.size(); ++o)
             if (is_no_noise(fit.outputs[o], o))
                 return end(
@@ -363,10 +279,19 @@ private:
         end(FitEnding::converged, {});
     }
 
+    /// Where a reading is passed by a contact that is too slow to be told from noise the sum of squares has a step, and
+    /// can be least at its edge. The way that is left is part of the errors.
+    static bool is_least(const StageReport& report, const FitChecks& checks, const Fit& fit) {
+        constexpr double smooth = 0.01, at_edge = 0.3; // of errors
+        const bool contacts = std::any_of(fit.records.begin(), fit.records.end(),
+                                          [](const FittedRecord& record) { return record.contacts > 0; });
+        const bool stopped = report.converged || report.gained * fit.freedom <= smooth * report.cost;
+        return checks.held_well && (checks.off <= smooth || (contacts && stopped && checks.off <= at_edge));
+    }
+
     const FitSettings* settings_;
     FitRows rows_;
     FitPoint point_;
-    std::vector<double> usual_costs_; ///< by reading, of pieces that have begun
 };
 
 } // namespace

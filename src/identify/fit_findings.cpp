@@ -10,13 +10,16 @@ namespace graze {
 
 namespace {
 
+/// No reading is right to more than that of its range.
+constexpr double round_off = 1e-12;
+
 /// What is left of readings, output by output, in the order of records and times.
 struct Rests {
     std::vector<std::vector<double>> of_output;
     std::vector<std::vector<std::vector<double>>> of_record; ///< record, readings, times
 };
 
-Rests rests_at(FitRows& rows, const FitPoint& point, Fit* fit) {
+Rests rests_of(const FitRows& rows, const std::vector<PieceRows>& known) {
     const FitTask& task = rows.task();
     Rests rests;
     rests.of_output.resize(task.outputs.size());
@@ -24,18 +27,9 @@ Rests rests_at(FitRows& rows, const FitPoint& point, Fit* fit) {
         rests.of_record.emplace_back(record.readings.size());
     for (std::size_t k = 0; k < rows.layout.pieces.size(); ++k) {
         const FitPiece& piece = rows.layout.pieces[k];
-        const PieceRows& known = rows.evaluate(piece, point.shared, point.states[k]);
         const auto& readings = task.records[piece.record].readings;
-        for (std::size_t i = 0; i < known.rests.size(); ++i) {
-            const std::size_t r = i % readings.size();
-            rests.of_record[piece.record][r].push_back(known.rests[i]);
-        }
-        if (fit != nullptr) {
-            fit->records[piece.record].contacts += known.contacts;
-            fit->records[piece.record].misplaced += known.misplaced;
-            if (!piece.opening)
-                fit->records[piece.record].joints.push_back(piece.begin);
-        }
+        for (std::size_t i = 0; i < known[k].rests.size(); ++i)
+            rests.of_record[piece.record][i % readings.size()].push_back(known[k].rests[i]);
     }
     for (std::size_t r = 0; r < task.records.size(); ++r)
         for (std::size_t c = 0; c < task.records[r].readings.size(); ++c) {
@@ -115,7 +109,7 @@ std::vector<FittedNumber> numbers_at(const FitRows& rows, const FitPoint& point,
 }
 
 /// The variance of the rows' noise; of robust losses, what stands in its place in the covariance (Huber, chapter 7).
-double variance_at(FitRows& rows, const Rests& rests, double freedom) {
+double variance_of(const FitRows& rows, const Rests& rests, double freedom) {
     constexpr double huber = 1.345, cauchy = 2.385;
     double squares = 0, slopes = 0, count = 0;
     for (std::size_t o = 0; o < rests.of_output.size(); ++o)
@@ -130,7 +124,8 @@ double variance_at(FitRows& rows, const Rests& rests, double freedom) {
                 pull = u / part;
                 slope = (2 - part) / (part * part);
             }
-            squares += pull * pull;
+            const double rounded = round_off * rows.range(o) / rows.noise[o];
+            squares += pull * pull + rounded * rounded;
             slopes += slope;
             count += 1;
         }
@@ -147,7 +142,7 @@ std::string text_of(const std::vector<FreeCombination::Part>& parts, const std::
 
 FreeCombination combination(const FitDecomposition& parts, Eigen::Index k, const std::vector<FittedNumber>& numbers,
                             const std::vector<double>& scales, const std::vector<std::size_t>& order) {
-    constexpr double least = 0.01;
+    constexpr double least = 0.01, nothing = 1e-6;
     FreeCombination result;
     result.strength = parts.values[0] > 0 ? parts.values[k] / parts.values[0] : 0;
     std::vector<FreeCombination::Part> all;
@@ -156,7 +151,7 @@ FreeCombination combination(const FitDecomposition& parts, Eigen::Index k, const
         const auto c = static_cast<Eigen::Index>(i);
         const double length = parts.lengths[c] > 0 ? parts.lengths[c] : 1, value = numbers[order[i]].estimate.value;
         const double change = parts.directions(c, k) / length;
-        all.push_back({order[i], value != 0 ? change * scales[i] / value : change});
+        all.push_back({order[i], std::abs(value) > nothing * scales[i] ? change * scales[i] / value : change});
         largest = std::abs(all.back().change) > std::abs(largest) ? all.back().change : largest;
     }
     for (FreeCombination::Part part : all) {
@@ -170,7 +165,7 @@ FreeCombination combination(const FitDecomposition& parts, Eigen::Index k, const
     return result;
 }
 
-void describe_outputs(FitRows& rows, const Rests& rests, Fit& fit) {
+void describe_outputs(const FitRows& rows, const Rests& rests, Fit& fit) {
     constexpr double chance = 4, far = 5;
     const FitTask& task = rows.task();
     const double freed = fit.freedom / static_cast<double>(fit.readings);
@@ -200,6 +195,7 @@ void describe_outputs(FitRows& rows, const Rests& rests, Fit& fit) {
                     pairs += 1;
                 }
             }
+        output.unchanging = spread == 0;
         output.share = spread > 0 ? 1 - squares / spread : 0;
         output.correlation = squares > 0 ? products / squares : 0;
         output.independent = std::abs(output.correlation) * std::sqrt(std::max(pairs, 1.0)) <= chance;
@@ -211,8 +207,27 @@ void describe_outputs(FitRows& rows, const Rests& rests, Fit& fit) {
     }
 }
 
+/// Of what is left of an output, unless the noise was given.
+double noise_of(const FitRows& rows, std::size_t output, std::vector<double> rests) {
+    if (const double given = rows.task().outputs[output].noise; given > 0)
+        return given;
+    const auto readings = static_cast<double>(readings_of(rows.task()));
+    const double freed = (readings - static_cast<double>(unknowns_of(rows))) / readings;
+    double noise = std::sqrt(square_sum(rests) / (static_cast<double>(rests.size()) * freed));
+    if (rows.loss() != FitLoss::squares) { // the median is not moved by readings that are far off
+        constexpr double of_normal = 1.4826;
+        for (double& rest : rests)
+            rest = std::abs(rest);
+        const auto middle = rests.begin() + static_cast<std::ptrdiff_t>(rests.size() / 2);
+        std::nth_element(rests.begin(), middle, rests.end());
+        noise = of_normal * *middle / std::sqrt(freed);
+    }
+    return std::max(noise, round_off * rows.range(output));
+}
+
 /// Numbers with errors and correlations, and what is not told.
-void describe_numbers(FitRows& rows, const FitPoint& point, double joint, double variance, Fit& fit) {
+void describe_numbers(const FitRows& rows, const FitPoint& point, const std::vector<PieceRows>& known, double joint,
+                      double variance, Fit& fit) {
     std::vector<double> scales;
     std::vector<FittedNumber> numbers = numbers_at(rows, point, scales);
     std::vector<bool> held;
@@ -223,16 +238,15 @@ void describe_numbers(FitRows& rows, const FitPoint& point, double joint, double
     std::vector<std::size_t> order(numbers.size());
     for (std::size_t i = 0; i < order.size(); ++i)
         order[i] = i < states ? shared + i : i - states;
-    const bool robust = rows.robust;
-    rows.robust = false;
-    const FitDecomposition parts = decompose(information_of(rows, point, joint), held);
-    rows.robust = robust;
+    const FitDecomposition parts = decompose(information_of(rows, point, known, joint), held);
     fit.numbers.resize(numbers.size());
     fit.correlations.assign(numbers.size() * numbers.size(), 0.0);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const auto c = static_cast<Eigen::Index>(i);
         if (parts.known[i]) {
             numbers[i].estimate.error = scales[i] * std::sqrt(variance * parts.covariance(c, c));
+            if (rows.robust && rows.loss() == FitLoss::squares) // what a contact at a reading keeps it from
+                numbers[i].estimate.error = std::hypot(numbers[i].estimate.error, scales[i] * parts.step[c]);
             numbers[i].estimate.freedom = fit.freedom;
             for (std::size_t j = 0; j < numbers.size(); ++j) {
                 const auto d = static_cast<Eigen::Index>(j);
@@ -255,10 +269,10 @@ void describe_numbers(FitRows& rows, const FitPoint& point, double joint, double
 
 } // namespace
 
-void describe(FitRows& rows, const FitPoint& point, double joint, Fit& fit) {
+void describe(FitRows& rows, const FitPoint& point, const std::vector<PieceRows>& known, double joint, Fit& fit) {
     const FitTask& task = rows.task();
     fit.records.assign(task.records.size(), {});
-    const Rests rests = rests_at(rows, point, &fit);
+    const Rests rests = rests_of(rows, known);
     fit.readings = readings_of(task);
     fit.freedom = static_cast<double>(fit.readings) - static_cast<double>(unknowns_of(rows));
     fit.pieces = rows.layout.pieces.size();
@@ -269,21 +283,36 @@ void describe(FitRows& rows, const FitPoint& point, double joint, Fit& fit) {
                 fitted[i] += rests.of_record[r][c][i];
             fit.records[r].fitted.push_back(std::move(fitted));
         }
-    for (std::size_t k = 0; k < rows.layout.pieces.size(); ++k)
-        if (const FitPiece& piece = rows.layout.pieces[k]; piece.opening)
-            fit.records[piece.record].start = rows.first_state(piece, point.shared, point.states[k]);
+    for (std::size_t k = 0; k < rows.layout.pieces.size(); ++k) {
+        const FitPiece& piece = rows.layout.pieces[k];
+        FittedRecord& record = fit.records[piece.record];
+        record.contacts += known[k].contacts;
+        record.misplaced += known[k].misplaced;
+        if (piece.opening)
+            record.start = rows.first_state(piece, point.shared, point.states[k]);
+        else
+            record.joints.push_back(piece.begin);
+    }
     fit.parameters = task.values.empty() ? rows.system().model().parameter_values() : task.values;
     for (std::size_t j = 0; j < task.parameters.size(); ++j)
         fit.parameters[task.parameters[j].parameter.place()] =
             point.shared[static_cast<Eigen::Index>(j)] * rows.layout.shared_scale[static_cast<Eigen::Index>(j)];
     describe_outputs(rows, rests, fit);
-    describe_numbers(rows, point, joint, variance_at(rows, rests, fit.freedom), fit);
+    const double variance = variance_of(rows, rests, fit.freedom);
+    if (rows.loss() == FitLoss::squares)
+        return describe_numbers(rows, point, known, joint, variance, fit);
+    rows.robust = false; // errors are those of squares, by the variance that stands for the loss
+    describe_numbers(rows, point, rows.evaluate(point), joint, variance, fit);
+    rows.robust = true;
 }
 
-std::string unreadable(FitRows& rows, const FitPoint& point) {
-    for (std::size_t k = 0; k < rows.layout.pieces.size(); ++k) {
+std::string unreadable(const FitRows& rows, const std::vector<PieceRows>& known) {
+    for (std::size_t k = 0; k < known.size(); ++k) {
         const FitPiece& piece = rows.layout.pieces[k];
-        if (!rows.evaluate(piece, point.shared, point.states[k]).finite)
+        if (!known[k].finite && !known[k].detail.empty())
+            return fmt::format("no motion begins at time {:.6g} ({}): begin from other guesses, or with longer pieces",
+                               piece.begin, known[k].detail);
+        if (!known[k].finite)
             return fmt::format("what the model tells for readings from time {:.6g} to {:.6g} is not finite: look at "
                                "what they mean, begin from other guesses, or bound parameters",
                                piece.begin, piece.end);
@@ -291,20 +320,20 @@ std::string unreadable(FitRows& rows, const FitPoint& point) {
     return {};
 }
 
-FitChecks check_point(FitRows& rows, const FitPoint& point, double joint) {
-    constexpr double part_of_error = 0.01, nothing = 1e-9, part_of_noise = 1e-3;
+FitChecks check_point(const FitRows& rows, const FitPoint& point, const std::vector<PieceRows>& known, double joint) {
+    constexpr double nothing = 1e-9, part_of_noise = 1e-3;
     FitChecks checks;
     double squares = 0;
-    std::vector<FitPiece>& pieces = rows.layout.pieces;
+    const std::vector<FitPiece>& pieces = rows.layout.pieces;
     for (std::size_t k = 0; k < pieces.size(); ++k) {
-        const PieceRows& known = rows.evaluate(pieces[k], point.shared, point.states[k]);
-        squares += known.readings.col(known.readings.cols() - 1).squaredNorm();
-        if (!known.complete && checks.broken.empty())
-            checks.broken = known.detail;
+        const PieceRows& piece = known[k];
+        squares += piece.readings.col(piece.readings.cols() - 1).squaredNorm();
+        if (!piece.complete && checks.broken.empty())
+            checks.broken = piece.detail;
         if (!pieces[k].leads)
             continue;
-        checks.gap = std::max(checks.gap, rows.gap(known, point.states[k + 1]).lpNorm<Eigen::Infinity>());
-        checks.modes_agree = checks.modes_agree && known.end_mode == pieces[k + 1].mode;
+        checks.gap = std::max(checks.gap, rows.gap(piece, point.states[k + 1]).lpNorm<Eigen::Infinity>());
+        checks.modes_agree = checks.modes_agree && piece.end_mode == pieces[k + 1].mode;
     }
     const double freedom = static_cast<double>(readings_of(rows.task())) - static_cast<double>(unknowns_of(rows));
     const double size = std::sqrt(squares / freedom);
@@ -313,7 +342,7 @@ FitChecks check_point(FitRows& rows, const FitPoint& point, double joint) {
     std::vector<bool> held;
     for (const FittedNumber& number : numbers_at(rows, point, scales))
         held.push_back(number.at_bound);
-    const FitInformation information = information_of(rows, point, joint);
+    const FitInformation information = information_of(rows, point, known, joint);
     const FitDecomposition parts = decompose(information, held);
     // At a bound the sum of squares must fall towards what is beyond it.
     const Eigen::Index count = information.rows.cols() - 1, first = count - rows.layout.shared();
@@ -324,9 +353,10 @@ FitChecks check_point(FitRows& rows, const FitPoint& point, double joint) {
         const double slope = information.rows.col(first + j).dot(information.rows.col(count));
         beyond = beyond && (unknown.greatest - value < value - unknown.least ? slope <= 0 : slope >= 0);
     }
-    const bool still = std::sqrt(parts.gain + information.eliminated) <= part_of_error * size ||
-                       parts.step.size() == 0 || parts.step.lpNorm<Eigen::Infinity>() <= nothing;
-    checks.stationary = beyond && still;
+    checks.off = parts.step.size() == 0 || parts.step.lpNorm<Eigen::Infinity>() <= nothing
+                     ? 0
+                     : std::sqrt(parts.gain + information.eliminated) / size;
+    checks.held_well = beyond;
     return checks;
 }
 
@@ -341,35 +371,36 @@ std::vector<int> bounded_at(const FitRows& rows, const FitPoint& point) {
     return bounded;
 }
 
-double squares_at(FitRows& rows, const FitPoint& point) {
-    const Rests rests = rests_at(rows, point, nullptr);
+double unlikelihood_of(const FitRows& rows, const std::vector<PieceRows>& known) {
+    const Rests rests = rests_of(rows, known);
     double sum = 0;
-    for (std::size_t o = 0; o < rests.of_output.size(); ++o)
-        sum += square_sum(rests.of_output[o]) / (rows.range(o) * rows.range(o));
+    for (std::size_t o = 0; o < rests.of_output.size(); ++o) {
+        if (rests.of_output[o].empty())
+            continue;
+        const double noise = noise_of(rows, o, rests.of_output[o]);
+        sum += static_cast<double>(rests.of_output[o].size()) * std::log(noise / rows.range(o));
+        for (const double rest : rests.of_output[o])
+            sum += 0.5 * cost_of(rest / noise, rows.loss());
+    }
     return sum;
 }
 
-std::vector<double> noise_at(FitRows& rows, const FitPoint& point) {
-    constexpr double floor = 1e-12; // of ranges: round-off
-    const Rests rests = rests_at(rows, point, nullptr);
-    const auto readings = static_cast<double>(readings_of(rows.task()));
-    const double freed = (readings - static_cast<double>(unknowns_of(rows))) / readings;
+bool is_exact(const FitRows& rows, const std::vector<PieceRows>& known) {
+    constexpr double nothing = 1e-9;
+    const Rests rests = rests_of(rows, known);
+    for (std::size_t o = 0; o < rests.of_output.size(); ++o)
+        for (const double rest : rests.of_output[o])
+            if (!(std::abs(rest) <= nothing * rows.range(o)))
+                return false;
+    return true;
+}
+
+std::vector<double> noise_at(const FitRows& rows, const std::vector<PieceRows>& known) {
+    const Rests rests = rests_of(rows, known);
     std::vector<double> noise = rows.noise;
-    for (std::size_t o = 0; o < noise.size(); ++o) {
-        std::vector<double> sizes = rests.of_output[o];
-        if (sizes.empty() || rows.task().outputs[o].noise > 0)
-            continue;
-        noise[o] = std::sqrt(square_sum(sizes) / (static_cast<double>(sizes.size()) * freed));
-        if (rows.loss() != FitLoss::squares) { // the median is not moved by readings that are far off
-            constexpr double of_normal = 1.4826;
-            for (double& size : sizes)
-                size = std::abs(size);
-            const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-            std::nth_element(sizes.begin(), middle, sizes.end());
-            noise[o] = of_normal * *middle / std::sqrt(freed);
-        }
-        noise[o] = std::max(noise[o], floor * rows.range(o));
-    }
+    for (std::size_t o = 0; o < noise.size(); ++o)
+        if (!rests.of_output[o].empty())
+            noise[o] = noise_of(rows, o, rests.of_output[o]);
     return noise;
 }
 

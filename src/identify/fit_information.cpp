@@ -20,12 +20,12 @@ Eigen::MatrixXd triangle(Eigen::MatrixXd matrix) {
 }
 
 /// Of one record: columns are its first states, what is shared, and what is left.
-Eigen::MatrixXd record_rows(FitRows& rows, const FitPoint& point, std::size_t first, std::size_t last, double joint,
-                            double& eliminated) {
+Eigen::MatrixXd record_rows(const FitRows& rows, const FitPoint& point, const std::vector<PieceRows>& known,
+                            std::size_t first, std::size_t last, double joint, double& eliminated) {
     const std::vector<FitPiece>& pieces = rows.layout.pieces;
     Eigen::MatrixXd carried;
     for (std::size_t k = last + 1; k-- > first;) {
-        const PieceRows& piece = rows.evaluate(pieces[k], point.shared, point.states[k]);
+        const PieceRows& piece = known[k];
         if (!pieces[k].leads) {
             carried = piece.readings;
             continue;
@@ -54,7 +54,8 @@ Eigen::MatrixXd record_rows(FitRows& rows, const FitPoint& point, std::size_t fi
 
 } // namespace
 
-FitInformation information_of(FitRows& rows, const FitPoint& point, double joint) {
+FitInformation information_of(const FitRows& rows, const FitPoint& point, const std::vector<PieceRows>& known,
+                              double joint) {
     const std::vector<FitPiece>& pieces = rows.layout.pieces;
     const Eigen::Index shared = rows.layout.shared();
     Eigen::Index states = 0;
@@ -69,7 +70,7 @@ FitInformation information_of(FitRows& rows, const FitPoint& point, double joint
         std::size_t last = k;
         while (pieces[last].leads)
             ++last;
-        const Eigen::MatrixXd one = record_rows(rows, point, k, last, joint, result.eliminated);
+        const Eigen::MatrixXd one = record_rows(rows, point, known, k, last, joint, result.eliminated);
         const Eigen::Index own = one.cols() - shared - 1, before = carried.rows();
         Eigen::MatrixXd all = Eigen::MatrixXd::Zero(before + one.rows(), carried.cols());
         all.topRows(before) = carried;

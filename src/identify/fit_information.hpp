@@ -19,8 +19,10 @@ struct FitInformation {
 
 /// Eliminates the states at the beginnings of pieces that follow others, from the last one back (G. J. Bierman,
 /// Factorization Methods for Discrete Sequential Estimation, 1977, of square roots of information).
+/// @param known all pieces at the point, in which all is finite
 /// @param joint weight of gaps
-FitInformation information_of(FitRows& rows, const FitPoint& point, double joint);
+FitInformation information_of(const FitRows& rows, const FitPoint& point, const std::vector<PieceRows>& known,
+                              double joint);
 
 /// Of columns brought to length 1.
 struct FitDecomposition {

@@ -75,7 +75,7 @@ std::vector<std::size_t> places_of(const FitTask& task) {
 struct Costed {
     double value, slope;
 };
-Costed cost_of(double rest, FitLoss loss) {
+Costed root_cost_of(double rest, FitLoss loss) {
     constexpr double huber = 1.345, cauchy = 2.385; // 95 % of the efficiency of least squares for normal noise
     const double size = std::abs(rest);
     if (loss == FitLoss::huber && size > huber) {
@@ -90,6 +90,11 @@ Costed cost_of(double rest, FitLoss loss) {
 }
 
 } // namespace
+
+double cost_of(double rest, FitLoss loss) {
+    const double root = root_cost_of(rest, loss).value;
+    return root * root;
+}
 
 FitRows::FitRows(const System& system, const FitTask& task, const FitSettings& settings)
     : system_(system), task_(&task), loss_(settings.loss),
@@ -295,7 +300,7 @@ void FitRows::add_time(const FitPiece& piece, std::size_t sample, const Eigen::V
         const double factor = gain(o, shared),
                      rest = factor * side_.values[o] + offset(o, shared) - readings.values[sample];
         rows_.rests.push_back(rest);
-        const Costed costed = cost_of(rest / noise[o], loss());
+        const Costed costed = root_cost_of(rest / noise[o], loss());
         const double weight = size * costed.slope / noise[o];
         const double* slope = &side_.slopes[o * count];
         for (Eigen::Index c = 0; c < states; ++c) {
@@ -382,6 +387,17 @@ const PieceRows& FitRows::evaluate(const FitPiece& piece, const Eigen::VectorXd&
         rows_.readings = raw_.topRows(columns).template triangularView<Eigen::Upper>();
     }
     return rows_;
+}
+
+std::vector<PieceRows> FitRows::evaluate(const FitPoint& point) {
+    std::vector<PieceRows> all;
+    for (std::size_t k = 0; k < layout.pieces.size(); ++k)
+        try {
+            all.push_back(evaluate(layout.pieces[k], point.shared, point.states[k]));
+        } catch (const InputError& error) {
+            all.emplace_back().detail = error.problem();
+        }
+    return all;
 }
 
 Eigen::VectorXd FitRows::gap(const PieceRows& piece, const Eigen::VectorXd& next) const {

@@ -32,6 +32,9 @@ public:
     const char* what() const noexcept override { return "the fit was interrupted"; }
 };
 
+/// What something that is left costs: its square, or less if it is far off. @param rest in standard deviations
+double cost_of(double rest, FitLoss loss);
+
 /// Evaluates pieces.
 class FitRows {
 public:
@@ -53,6 +56,8 @@ public:
     double gain(std::size_t output, const Eigen::VectorXd& shared) const;
     double offset(std::size_t output, const Eigen::VectorXd& shared) const;
 
+    /// All pieces. One in which no motion begins is not finite.
+    std::vector<PieceRows> evaluate(const FitPoint& point);
     const PieceRows& evaluate(const FitPiece& piece, const Eigen::VectorXd& shared, const Eigen::VectorXd& states);
     /// The gap between a state at the end of a piece and the first of the next, in scales; of cyclic states the
     /// shorter way round.

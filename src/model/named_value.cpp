@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/parser.hpp"
+#include "graze/symbolic/trimmed.hpp"
 
 #include <fmt/format.h>
 
@@ -25,17 +26,12 @@ Scope scope_of(const Model& model) {
     return scope;
 }
 
-std::string trimmed(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(" \t\n");
-    if (first == std::string_view::npos)
-        return {};
-    return std::string(text.substr(first, text.find_last_not_of(" \t\n") - first + 1));
-}
+constexpr std::string_view blanks = " \t\n";
 
 /// Whether the text is a number that is none, as programs print it.
 bool is_not_a_finite_number(std::string_view text) {
     std::string word;
-    for (const char c : trimmed(text))
+    for (const char c : trimmed(text, blanks))
         if (c != '+' && c != '-')
             word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return word == "nan" || word == "inf" || word == "infinity";
@@ -67,7 +63,8 @@ NamedValue named_value(const Model& model, const std::string& text, const Place&
 
 double value_of_text(const Model& model, std::string_view text, const Place& place) {
     if (is_not_a_finite_number(text))
-        throw InputError(place, fmt::format("'{}' is not a finite number", trimmed(text)), "give a finite number");
+        throw InputError(place, fmt::format("'{}' is not a finite number", trimmed(text, blanks)),
+                         "give a finite number");
     Model scratch = model;
     Scope scope;
     for (const Parameter& parameter : scratch.parameters)
@@ -75,7 +72,7 @@ double value_of_text(const Model& model, std::string_view text, const Place& pla
     const Expression expression = scratch.expand(parse_expression(*scratch.graph, text, scope, place));
     const double value = Function(scratch.parameter_symbols(), {{expression}})(scratch.parameter_values())[0];
     if (!std::isfinite(value))
-        throw InputError(place, fmt::format("'{}' has no finite value", trimmed(text)),
+        throw InputError(place, fmt::format("'{}' has no finite value", trimmed(text, blanks)),
                          "look for a division by zero, or a root or logarithm of a number that is not positive");
     return value;
 }

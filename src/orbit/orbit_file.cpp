@@ -4,6 +4,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/parser.hpp"
 #include "graze/symbolic/text_file.hpp"
+#include "graze/symbolic/trimmed.hpp"
 
 #include <fmt/format.h>
 
@@ -22,20 +23,15 @@ struct Cell {
     int column = 1; ///< where it begins, for messages
 };
 
-std::string trimmed(std::string text) {
-    const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '"'; };
-    while (!text.empty() && is_blank(text.back()))
-        text.pop_back();
-    const auto first = std::find_if_not(text.begin(), text.end(), is_blank);
-    return {first, text.end()};
-}
+constexpr std::string_view blanks_and_quotes = " \t\r\"";
 
 std::vector<Cell> cells_of(const std::string& line) {
     std::vector<Cell> cells;
     std::size_t begin = 0;
     for (std::size_t i = 0; i <= line.size(); ++i)
         if (i == line.size() || line[i] == ',') {
-            cells.push_back({trimmed(line.substr(begin, i - begin)), static_cast<int>(begin) + 1});
+            cells.push_back({std::string(trimmed(std::string_view(line).substr(begin, i - begin), blanks_and_quotes)),
+                             static_cast<int>(begin) + 1});
             begin = i + 1;
         }
     return cells;
@@ -161,7 +157,7 @@ Orbit parse_orbit_table(const Model& model, std::string_view text, std::string_v
     std::string line;
     bool headed = false;
     for (int number = 1; std::getline(lines, line); ++number) {
-        if (trimmed(line).empty() || line.front() == '#')
+        if (trimmed(line, blanks_and_quotes).empty() || line.front() == '#')
             continue;
         const std::vector<Cell> cells = cells_of(line);
         headed ? table.row(cells, number) : table.heading(cells, number);

@@ -7,6 +7,7 @@
 #include "program/experiment_arguments.hpp"
 #include "program/help_arguments.hpp"
 #include "program/identify_arguments.hpp"
+#include "program/layout_arguments.hpp"
 #include "program/record_arguments.hpp"
 #include "program/study_arguments.hpp"
 
@@ -320,6 +321,7 @@ void declare_arguments(CLI::App& app, Arguments& arguments) {
     declare_study_commands(app, arguments);
     declare_branch_commands(app, arguments);
     declare_design_command(app, arguments);
+    declare_layout_command(app, arguments);
     declare_record_commands(app, arguments);
     declare_identify_command(app, arguments);
     declare_experiment_commands(app, arguments);

@@ -129,6 +129,14 @@ struct DesignArguments {
     OutputArguments output;
 };
 
+struct LayoutArguments {
+    std::string design, file, picture;
+    std::vector<std::string> set;
+    std::optional<int> mask;
+    bool wafer = false;
+    OutputArguments output;
+};
+
 /// Numbers that are not given are missing; lists are still to be split.
 struct RecordArguments {
     std::vector<std::string> files;
@@ -217,6 +225,7 @@ struct Arguments {
     LadderArguments ladder;
     ToleranceArguments tolerance;
     DesignArguments design;
+    LayoutArguments layout;
     RecordArguments record;
     IdentifyArguments identify;
     BenchArguments bench;

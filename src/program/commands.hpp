@@ -22,6 +22,7 @@ int grazing_command(const GrazingArguments& arguments, const Console& console);
 int trip_command(const TripArguments& arguments, const Console& console);
 int tolerance_command(const ToleranceArguments& arguments, const Console& console);
 int design_command(const DesignArguments& arguments, const Console& console);
+int layout_command(const LayoutArguments& arguments, const Console& console);
 int record_command(const RecordArguments& arguments, const Console& console);
 int identify_command(const IdentifyArguments& arguments, const Console& console);
 int bench_command(const BenchArguments& arguments, const Console& console);

@@ -9,7 +9,6 @@
 #include "program/mingled_dots.hpp"
 #include "program/output_file.hpp"
 #include "program/picture.hpp"
-#include "program/process.hpp"
 
 #include <fmt/format.h>
 
@@ -426,20 +425,13 @@ std::vector<std::string> figure_endings() {
 
 void draw_figure(const Figure& figure, const std::string& path, const std::string& data_path) {
     const std::string ending = picture_ending(path, "--output", figure_endings());
-    const std::string gnuplot =
-        require_drawing_program("gnuplot", "install gnuplot (Debian: apt-get install gnuplot-nox)");
+    require_drawing_program("gnuplot", "install gnuplot (Debian: apt-get install gnuplot-nox)");
     require_distinct({{"the picture", path}, {"--data", data_path}});
     if (!data_path.empty())
         write_file(data_path, figure_script(figure, ending, path));
     FileReplacement file(path);
-    // From a file: gnuplot reads standard input letter by letter, which takes it long for many points.
-    FileReplacement commands(path + ".gp");
-    commands.write(figure_script(figure, ending, file.temporary_path()));
-    const ProcessResult result = run_process({gnuplot, "-d", commands.temporary_path()}, "");
-    if (result.status != 0)
-        throw InputError(fmt::format("gnuplot could not draw '{}': {}", path, one_line(result.output)),
-                         "keep its commands by --data FILE and run gnuplot FILE");
-    require_whole_picture(file.temporary_path(), ending, path);
+    draw_by_gnuplot(figure_script(figure, ending, file.temporary_path()), file, ending, path,
+                    "keep its commands by --data FILE and run gnuplot FILE");
     if (ending == "tex")
         take_latex(file, path, layout_of(figure).font);
     file.commit();

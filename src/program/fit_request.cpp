@@ -5,6 +5,7 @@
 #include "graze/symbolic/input_error.hpp"
 #include "program/record_stages.hpp"
 #include "program/values.hpp"
+#include "program/with_file.hpp"
 
 #include <fmt/format.h>
 
@@ -79,7 +80,7 @@ public:
             request_.task.parameters.push_back(unknown_of(request_.model, item));
         read_meanings();
         for (const std::string& file : request_.files)
-            with_place(file, [&] { read_record(file); });
+            with_file(file, [&] { read_record(file); });
         read_own();
         take_channel_options(arguments_->gains, "--gain", [](MeasuredOutput& output, std::optional<double> value) {
             output.gain_unknown = true;
@@ -105,17 +106,6 @@ public:
     }
 
 private:
-    template <class Work>
-    static void with_place(const std::string& file, const Work& work) {
-        try {
-            work();
-        } catch (const InputError& error) {
-            if (!error.place().file.empty())
-                throw;
-            throw InputError(Place{file, 0, 0}, error.problem(), error.remedy());
-        }
-    }
-
     std::size_t state(const std::string& name, const char* option) const {
         if (const auto index = request_.model.find_state(name))
             return *index;

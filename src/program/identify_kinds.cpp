@@ -7,6 +7,7 @@
 #include "graze/record/impacts.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "program/record_stages.hpp"
+#include "program/with_file.hpp"
 
 #include <fmt/format.h>
 
@@ -23,18 +24,13 @@ using Style = FigureSeries::Style;
 
 constexpr std::size_t most_samples = 10'000'000;
 
-/// What goes wrong with one of the files names it.
 template <class Work>
 void for_each_file(const IdentifyArguments& arguments, const Work& work) {
     for (const std::string& file : arguments.reading.files)
-        try {
+        with_file(file, [&] {
             RecordStages stages(file, arguments.reading);
             work(file, stages);
-        } catch (const InputError& error) {
-            if (!error.place().file.empty())
-                throw;
-            throw InputError(Place{file, 0, 0}, error.problem(), error.remedy());
-        }
+        });
 }
 
 std::string name_or(const std::string& given, const char* usual) {

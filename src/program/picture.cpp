@@ -41,6 +41,19 @@ void require_whole_picture(const std::string& file, const std::string& ending, c
         throw InputError(fmt::format("'{}' was not drawn to its end", path), "look whether the disk is full");
 }
 
+void draw_by_gnuplot(const std::string& script, const FileReplacement& file, const std::string& ending,
+                     const std::string& path, const std::string& remedy) {
+    const std::string gnuplot =
+        require_drawing_program("gnuplot", "install gnuplot (Debian: apt-get install gnuplot-nox)");
+    // From a file: gnuplot reads standard input letter by letter, which takes it long for many points.
+    const FileReplacement commands(path + ".gp");
+    commands.write(script);
+    const ProcessResult result = run_process({gnuplot, "-d", commands.temporary_path()}, "");
+    if (result.status != 0)
+        throw InputError(fmt::format("gnuplot could not draw '{}': {}", path, one_line(result.output)), remedy);
+    require_whole_picture(file.temporary_path(), ending, path);
+}
+
 std::string one_line(const std::string& text) {
     std::string result;
     for (const char c : text) {

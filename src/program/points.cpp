@@ -365,8 +365,11 @@ int points_command(const PointsArguments& arguments, const Console& console) {
     const OutputArguments& output = arguments.output;
     JsonObject heading;
     heading.add("file", file.path());
-    deliver(PointTable(list, output.format, output.shown_digits(), !output.all).make(), output, heading, console,
-            {"label", list.followed, "period", "signature", "stable", "multiplier", "physical"});
+    // Of a curve both parameters tell where it is: where there is no room they stay rather than what is said twice.
+    std::vector<std::string> kept{"label", list.followed, "period", "signature", "stable", "multiplier", "physical"};
+    kept.insert(kept.end(), list.others.begin(),
+                list.others.begin() + std::min<std::ptrdiff_t>(2, std::ssize(list.others)));
+    deliver(PointTable(list, output.format, output.shown_digits(), !output.all).make(), output, heading, console, kept);
     if (list.twins > 0)
         console.err << fmt::format(
             "graze: {} points are left out that are images of others under the model's symmetry; "

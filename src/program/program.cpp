@@ -63,6 +63,8 @@ int dispatch(std::span<const std::string> words, const Console& console) {
         return tolerance_command(arguments.tolerance, console);
     if (app.got_subcommand("design"))
         return design_command(arguments.design, console);
+    if (app.got_subcommand("layout"))
+        return layout_command(arguments.layout, console);
     if (app.got_subcommand("record"))
         return record_command(arguments.record, console);
     if (app.got_subcommand("identify"))

@@ -6,6 +6,7 @@
 #include "program/output_file.hpp"
 #include "program/picture.hpp"
 #include "program/record_tables.hpp"
+#include "program/with_file.hpp"
 
 #include <fmt/format.h>
 
@@ -15,18 +16,6 @@
 namespace graze {
 
 namespace {
-
-/// What has gone wrong with one of the files names it, wherever it was noticed.
-template <class Work>
-void with_file(const std::string& file, const Work& work) {
-    try {
-        work();
-    } catch (const InputError& error) {
-        if (!error.place().file.empty())
-            throw;
-        throw InputError(Place{file, 0, 0}, error.problem(), error.remedy());
-    }
-}
 
 /// @return the exit code
 int write_record(const RecordArguments& arguments, const Console& console) {

@@ -4,6 +4,7 @@
 #include "graze/model/parameter_file.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/parser.hpp"
+#include "graze/symbolic/trimmed.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,12 +15,7 @@ namespace graze {
 
 namespace {
 
-std::string trimmed(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(" \t\n");
-    if (first == std::string_view::npos)
-        return {};
-    return std::string(text.substr(first, text.find_last_not_of(" \t\n") - first + 1));
-}
+constexpr std::string_view blanks = " \t\n";
 
 struct Assignment {
     std::string name, text;
@@ -33,7 +29,7 @@ Assignment parse_assignment(const std::string& item, const std::string& option) 
                          fmt::format("write {}=VALUE (what is to be computed comes before the options)",
                                      is_valid_name(item) ? item : "NAME"));
     Assignment result;
-    result.name = trimmed(std::string_view(item).substr(0, equals));
+    result.name = trimmed(std::string_view(item).substr(0, equals), blanks);
     result.text = item.substr(equals + 1);
     result.place = {fmt::format("{} {}", option, item), 1, static_cast<int>(equals) + 2};
     return result;
@@ -66,8 +62,9 @@ std::vector<std::string> split_list(const std::vector<std::string>& arguments) {
     for (const std::string& argument : arguments)
         for (std::size_t start = 0; start <= argument.size();) {
             const std::size_t end = std::min(argument.find(',', start), argument.size());
-            if (std::string item = trimmed(std::string_view(argument).substr(start, end - start)); !item.empty())
-                items.push_back(std::move(item));
+            if (const std::string_view item = trimmed(std::string_view(argument).substr(start, end - start), blanks);
+                !item.empty())
+                items.emplace_back(item);
             start = end + 1;
         }
     return items;

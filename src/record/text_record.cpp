@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/printable.hpp"
+#include "graze/symbolic/trimmed.hpp"
 
 #include <fmt/format.h>
 
@@ -31,14 +32,6 @@ const char* past_blanks(const char* at, const char* end) {
     while (at != end && is_blank(*at))
         ++at;
     return at;
-}
-
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && is_blank(text.front()))
-        text.remove_prefix(1);
-    while (!text.empty() && is_blank(text.back()))
-        text.remove_suffix(1);
-    return text;
 }
 
 /// A number, whose decimal point is a point whatever the language of the system. @return behind it; null: none is there

@@ -1,5 +1,6 @@
 #include "graze/branch/special_point.hpp"
 #include "graze/symbolic/file_name.hpp"
+#include "graze/symbolic/trimmed.hpp"
 #include "study/study_reader.hpp"
 
 #include <fmt/format.h>
@@ -11,19 +12,15 @@ namespace graze {
 
 namespace {
 
-std::string trimmed(const std::string& text) {
-    const std::size_t start = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
-    return start == std::string::npos ? "" : text.substr(start, end - start + 1);
-}
-
 /// "V", or "voltage = V". A comparison has no such sign by itself.
 StudyTable::Column column_of(const StudyReader& reader, const TomlEntry& entry) {
     const std::string text = reader.toml().line(entry);
     const std::size_t sign = text.find('=');
     const bool named =
         sign != std::string::npos && sign > 0 && text.find_first_of("<>!=") == sign && text.compare(sign, 2, "==") != 0;
-    StudyTable::Column column{trimmed(named ? text.substr(0, sign) : text),
-                              trimmed(named ? text.substr(sign + 1) : text)};
+    const std::string_view whole = text;
+    StudyTable::Column column{std::string(trimmed(named ? whole.substr(0, sign) : whole)),
+                              std::string(trimmed(named ? whole.substr(sign + 1) : whole))};
     if (column.name.empty() || column.value.empty())
         reader.fail(entry, fmt::format("{} names nothing", entry.path), "write \"V\" or \"voltage = V\"");
     return column;

@@ -175,7 +175,7 @@ private:
     std::size_t states_;
     std::size_t parameters_;
     bool begun_ = false; ///< all of orders 0 and 1 is that of the states and parameters, and no more
-    Layout layout_;
+    JetLayout layout_;
     AlignedNumbers memory_;
     std::vector<TermOperands> terms_;
     std::vector<KernelLink> kernels_;

@@ -6,7 +6,7 @@
 
 namespace graze {
 
-Layout::Layout(const Tape& tape, int highest, int width)
+JetLayout::JetLayout(const Tape& tape, int highest, int width)
     : order(static_cast<std::uint32_t>(highest)), number(static_cast<std::size_t>(width)) {
     series = (order + 1) * number;
     registers = (tape.constants * number + 7) / 8 * 8;
@@ -21,7 +21,7 @@ Layout::Layout(const Tape& tape, int highest, int width)
     size = constant_outputs + static_cast<std::size_t>(std::ranges::count_if(tape.outputs, is_constant)) * series;
 }
 
-StepFinder::StepFinder(const Tape& tape, const KernelTable& table, const Layout& layout, double* memory,
+StepFinder::StepFinder(const Tape& tape, const KernelTable& table, const JetLayout& layout, double* memory,
                        const std::vector<TermOperands>& terms)
     : tape_(tape), table_(table), layout_(layout), memory_(memory), terms_(terms) {
     // By instructions, rates and outputs.

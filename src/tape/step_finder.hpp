@@ -7,8 +7,8 @@
 namespace graze {
 
 /// Where everything is, in doubles from the start of the jet's memory.
-struct Layout {
-    Layout(const Tape& tape, int highest, int width);
+struct JetLayout {
+    JetLayout(const Tape& tape, int highest, int width);
 
     std::uint32_t order;
     std::size_t number; ///< size of a number
@@ -29,7 +29,7 @@ struct KernelStep {
 /// them, for nothing depends on it.
 class StepFinder {
 public:
-    StepFinder(const Tape& tape, const KernelTable& table, const Layout& layout, double* memory,
+    StepFinder(const Tape& tape, const KernelTable& table, const JetLayout& layout, double* memory,
                const std::vector<TermOperands>& terms);
 
     std::vector<KernelStep> steps(int order) const;
@@ -68,7 +68,7 @@ private:
 
     const Tape& tape_;
     const KernelTable& table_;
-    const Layout& layout_;
+    const JetLayout& layout_;
     double* memory_;
     const std::vector<TermOperands>& terms_;
     /// For registers that are computed with a state, the instruction.

@@ -14,8 +14,8 @@ using testing::contents;
 using testing::different_files;
 using testing::experiment_text;
 using testing::files_of;
-using testing::Folder;
 using ::testing::HasSubstr;
+using testing::TemporaryFolder;
 using testing::testbed_bench;
 
 AcquisitionReport run_on(VirtualBench& bench, const std::string& text, const std::string& folder,
@@ -31,7 +31,7 @@ AcquisitionReport run_on(VirtualBench& bench, const std::string& text, const std
 } // namespace
 
 TEST(Acquisition, RecordsAllLevelsAndLeavesTheOutputSafe) {
-    const Folder folder;
+    const TemporaryFolder folder;
     VirtualBench bench(testbed_bench());
     std::size_t told = 0;
     AcquisitionOptions options;
@@ -58,7 +58,7 @@ TEST(Acquisition, RecordsAllLevelsAndLeavesTheOutputSafe) {
 }
 
 TEST(Acquisition, GoesOnWithTheSameRecords) {
-    const Folder folder;
+    const TemporaryFolder folder;
     VirtualBench whole(testbed_bench());
     run_on(whole, experiment_text(), folder / "whole");
     VirtualBench bench(testbed_bench());
@@ -86,7 +86,7 @@ TEST(Acquisition, GoesOnWithTheSameRecords) {
 }
 
 TEST(Acquisition, WalksThroughAllAgainWhereTheBenchIsANewOne) {
-    const Folder folder;
+    const TemporaryFolder folder;
     VirtualBench whole(testbed_bench());
     run_on(whole, experiment_text(), folder / "whole");
     std::size_t recorded = 0;
@@ -102,7 +102,7 @@ TEST(Acquisition, WalksThroughAllAgainWhereTheBenchIsANewOne) {
 }
 
 TEST(Acquisition, DetectsAGeneratorThatGivesLess) {
-    const Folder folder;
+    const TemporaryFolder folder;
     BenchSettings settings = testbed_bench();
     settings.clip = 9.5;
     VirtualBench bench(settings);
@@ -114,7 +114,7 @@ TEST(Acquisition, DetectsAGeneratorThatGivesLess) {
 }
 
 TEST(Acquisition, NoticesAKnobThatIsTurned) {
-    const Folder folder;
+    const TemporaryFolder folder;
     VirtualBench bench(testbed_bench());
     AcquisitionOptions options;
     options.progress = [&](const AcquisitionProgress& progress) {
@@ -130,7 +130,7 @@ TEST(Acquisition, NoticesAKnobThatIsTurned) {
 }
 
 TEST(Acquisition, IsSafeWhenAnExceptionPassesThrough) {
-    const Folder folder;
+    const TemporaryFolder folder;
     VirtualBench bench(testbed_bench());
     AcquisitionOptions options;
     options.recorded = [](const RecordEntry&) { throw std::runtime_error("of the caller"); };
@@ -140,7 +140,7 @@ TEST(Acquisition, IsSafeWhenAnExceptionPassesThrough) {
 }
 
 TEST(Acquisition, WaitsUntilSectionsRepeat) {
-    const Folder folder;
+    const TemporaryFolder folder;
     BenchSettings settings = testbed_bench();
     VirtualBench bench(settings);
     std::string text = experiment_text("", "none");
@@ -163,7 +163,7 @@ TEST(Acquisition, WaitsUntilSectionsRepeat) {
 }
 
 TEST(Acquisition, AsksTheDeviceForItsChannelsBeforeAnythingIsSent) {
-    const Folder folder;
+    const TemporaryFolder folder;
     VirtualBench bench(testbed_bench());
     std::string text = experiment_text();
     text.replace(text.find("rate = 500"), 10, "rate = 500\nchannels = [\"V\", \"vv\"]");

@@ -3,11 +3,9 @@
 #include "graze/acquire/experiment.hpp"
 #include "graze/bench/virtual_bench.hpp"
 #include "graze/model/catalogue.hpp"
+#include "symbolic/temporary_folder.hpp"
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
@@ -40,27 +38,6 @@ inline std::string experiment_text(const std::string& more = "", const std::stri
            "[settle]\ntime = 0.5\n[record]\ntime = 1\n" +
            more;
 }
-
-inline std::string contents(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-class Folder {
-public:
-    Folder() {
-        std::string name = (std::filesystem::temp_directory_path() / "graze-acquire-XXXXXX").string();
-        path_ = mkdtemp(name.data());
-    }
-    ~Folder() { std::filesystem::remove_all(path_); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-    std::string path() const { return path_.string(); }
-
-private:
-    std::filesystem::path path_;
-};
 
 /// All files of a folder by their names.
 inline std::map<std::string, std::string> files_of(const std::string& folder) {

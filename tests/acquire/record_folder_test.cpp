@@ -11,8 +11,8 @@ namespace {
 using testing::contents;
 using testing::experiment_text;
 using testing::files_of;
-using testing::Folder;
 using ::testing::HasSubstr;
+using testing::TemporaryFolder;
 
 const RecordHeader header{{"t", "s"}, {{"x", ""}}};
 
@@ -43,7 +43,7 @@ std::string message(const std::string& path, const Experiment& experiment) {
 } // namespace
 
 TEST(RecordFolder, KnowsWhatItHas) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
     {
         RecordFolder records(folder / "a/b", experiment, 0);
@@ -59,7 +59,7 @@ TEST(RecordFolder, KnowsWhatItHas) {
 }
 
 TEST(RecordFolder, GivesARecordItsNameThatTheListHasAlready) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
     const std::string name = experiment.record_name(experiment.levels[0]);
     {
@@ -79,7 +79,7 @@ TEST(RecordFolder, GivesARecordItsNameThatTheListHasAlready) {
 }
 
 TEST(RecordFolder, BelongsToOneExperimentAndOneProcess) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
     RecordFolder records(folder / "r", experiment, 0);
     EXPECT_THAT(message(folder / "r", experiment), HasSubstr("another experiment is recorded into this folder"));
@@ -93,7 +93,7 @@ TEST(RecordFolder, BelongsToOneExperimentAndOneProcess) {
 }
 
 TEST(RecordFolder, FollowsNoLinksAndReplacesNothing) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
     std::ofstream(folder / "mine") << "mine";
     std::filesystem::create_directory(folder / "r");
@@ -109,7 +109,7 @@ TEST(RecordFolder, FollowsNoLinksAndReplacesNothing) {
 }
 
 TEST(RecordFolder, RefusesAListThatIsNone) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const Experiment experiment = parse_experiment(experiment_text(), "e.toml");
     { RecordFolder records(folder / "r", experiment, 0); }
     for (const char* line :

@@ -22,8 +22,8 @@ namespace {
 
 using testing::different_files;
 using testing::experiment_text;
-using testing::Folder;
 using ::testing::HasSubstr;
+using testing::TemporaryFolder;
 using testing::testbed_bench;
 
 /// The far end of a serial line, which says what a test wants.
@@ -96,7 +96,7 @@ public:
     }
 
 private:
-    Folder folder_;
+    TemporaryFolder folder_;
     VirtualBench bench_;
     std::optional<BenchService> service_;
     std::atomic<bool> stop_{false};
@@ -187,7 +187,7 @@ TEST(SerialLine, BearsLinesWithoutEndAndOnesThatNobodyReads) {
 }
 
 TEST(Acquisition, OverAPseudoTerminalIsTheSameAsInTheProcess) {
-    const Folder folder;
+    const TemporaryFolder folder;
     Served one, other;
     EXPECT_EQ(one.run(folder / "one").ending, AcquisitionEnding::complete);
     std::size_t recorded = 0;
@@ -203,7 +203,7 @@ TEST(Acquisition, OverAPseudoTerminalIsTheSameAsInTheProcess) {
 }
 
 TEST(Acquisition, GoesWithTheClockToo) {
-    const Folder folder;
+    const TemporaryFolder folder;
     ServiceSettings fast;
     fast.speed = 40;
     Served served(testbed_bench(), fast);
@@ -222,7 +222,7 @@ TEST(Acquisition, GoesWithTheClockToo) {
 }
 
 TEST(Acquisition, BearsALineThatLosesLetters) {
-    const Folder folder;
+    const TemporaryFolder folder;
     Served clean;
     EXPECT_EQ(clean.run(folder / "clean").ending, AcquisitionEnding::complete);
     ServiceSettings lossy;
@@ -235,7 +235,7 @@ TEST(Acquisition, BearsALineThatLosesLetters) {
 }
 
 TEST(Acquisition, IsSafeAfterALineThatBreaks) {
-    const Folder folder;
+    const TemporaryFolder folder;
     ServiceSettings breaking;
     breaking.lines = 30;
     breaking.broken = 0.3;
@@ -250,7 +250,7 @@ TEST(Acquisition, IsSafeAfterALineThatBreaks) {
 }
 
 TEST(Acquisition, SaysWhenItCannotReachTheGeneratorAnyMore) {
-    const Folder folder;
+    const TemporaryFolder folder;
     ServiceSettings breaking;
     breaking.lines = 30;
     breaking.broken = 3600;
@@ -264,7 +264,7 @@ TEST(Acquisition, SaysWhenItCannotReachTheGeneratorAnyMore) {
 }
 
 TEST(Acquisition, IsSafeAfterSamplesThatBreakOff) {
-    const Folder folder;
+    const TemporaryFolder folder;
     ServiceSettings breaking;
     breaking.rows = 1600;
     Served served(testbed_bench(), breaking);

@@ -7,6 +7,8 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace graze {
 namespace {
@@ -261,10 +263,17 @@ TEST(OrderCurves, of_touches_go_on_where_other_events_change_their_order) {
     EXPECT_GT(after, 5U);
 }
 
-TEST(OrderCurves, of_touches_pass_the_section_at_which_the_orbit_is_closed) {
-    // The touch of the linear response comes at the phase of the section where omega is 1.5, and before it above.
-    const double at = std::atan2(0.3, 1 - 1.5 * 1.5);
-    const Model model = model_from(fmt::format(R"toml(
+/// A forced oscillator with these stops. The touch of its linear response comes at the phase of the section where
+/// omega is 1.5, and before it above.
+Model with_stops(const std::vector<std::pair<std::string, std::string>>& stops, const std::string& more = {}) {
+    std::string watched, events, transitions;
+    for (const auto& [name, function] : stops) {
+        watched += fmt::format("{}\"{}\"", watched.empty() ? "" : ", ", name);
+        events += fmt::format("{} = \"{}\"\n", name, function);
+        transitions +=
+            fmt::format("[[transitions]]\nmode = \"free\"\nevent = \"{}\"\njump = \"impact\"\nnext = \"free\"\n", name);
+    }
+    return model_from(fmt::format(R"toml(
 [parameters]
 F = 0.3
 omega = 1.3
@@ -274,23 +283,21 @@ v = 0
 theta = {{ initial = 0, period = "2*pi" }}
 [modes.free]
 rates = {{ x = "v", v = "F*cos(theta) - 0.2*v - x", theta = "omega" }}
-watch = ["stop"]
-[events.stop]
-function = "1 - x"
-[jumps.impact]
+watch = [{}]
+[events]
+{}[jumps.impact]
 v = "-0.8*v"
-[[transitions]]
-mode = "free"
-event = "stop"
-jump = "impact"
-next = "free"
-[sections.phase]
+{}[sections.phase]
 state = "theta"
 value = {:.17g}
-[initial]
+{}[initial]
 mode = "free"
 )toml",
-                                               at));
+                                  watched, events, transitions, std::atan2(0.3, 1 - 1.5 * 1.5), more));
+}
+
+TEST(OrderCurves, of_touches_pass_the_section_at_which_the_orbit_is_closed) {
+    const Model model = with_stops({{"stop", "1 - x"}});
     BranchSettings settings = in_parameter(model, "F", 0.1, 5);
     const Branch branch = follow_branch(model, settled(model, "phase").orbit, settings);
     ASSERT_EQ(names(branch), "GR");
@@ -306,45 +313,10 @@ mode = "free"
 }
 
 TEST(OrderCurves, of_touches_pass_the_ends_of_a_half_orbit) {
-    // Between two stops: the one is touched at the phase of the linear response, which is that of the section where
-    // omega is 1.5, and the other half a period later.
-    const double at = std::atan2(0.3, 1 - 1.5 * 1.5);
-    const Model model = model_from(fmt::format(R"toml(
-[parameters]
-F = 0.3
-omega = 1.3
-[states]
-x = 0
-v = 0
-theta = {{ initial = 0, period = "2*pi" }}
-[modes.free]
-rates = {{ x = "v", v = "F*cos(theta) - 0.2*v - x", theta = "omega" }}
-watch = ["right", "left"]
-[events.right]
-function = "1 - x"
-[events.left]
-function = "1 + x"
-[jumps.impact]
-v = "-0.8*v"
-[[transitions]]
-mode = "free"
-event = "right"
-jump = "impact"
-next = "free"
-[[transitions]]
-mode = "free"
-event = "left"
-jump = "impact"
-next = "free"
-[sections.phase]
-state = "theta"
-value = {:.17g}
-[symmetries.reflection]
-map = {{ x = "-x", v = "-v", theta = "theta + pi" }}
-[initial]
-mode = "free"
-)toml",
-                                               at));
+    // Of two stops the one is touched at the phase of the linear response, the other half a period later.
+    const Model model =
+        with_stops({{"right", "1 - x"}, {"left", "1 + x"}},
+                   "[symmetries.reflection]\nmap = { x = \"-x\", v = \"-v\", theta = \"theta + pi\" }\n");
     BranchSettings settings = in_parameter(model, "F", 0.1, 5);
     const OrbitSolution start = settled(model, "phase");
     ASSERT_TRUE(start.orbit.symmetry);

@@ -62,10 +62,11 @@ TEST(SubharmonicCurves, of_folds_and_flips_with_one_impact_in_two_and_three_peri
                         EXPECT_NEAR(std::min(std::abs(there.sigma(after, true) - sigma),
                                              std::abs(there.sigma(after, false) - sigma)),
                                     0, 1e-10 * there.radius);
-                        if (point.type == PointType::fold)
+                        if (point.type == PointType::fold) {
                             EXPECT_NEAR(std::abs(sigma), there.fold(true), 1e-10 * there.radius);
-                        else if (std::abs(after) > 1e-3 * there.radius)
+                        } else if (std::abs(after) > 1e-3 * there.radius) {
                             EXPECT_NEAR(off_flip(there, after, sigma), 0, 1e-9);
+                        }
                         EXPECT_NEAR(one.solution.orbit.round(), 2 * std::numbers::pi * periods / there.omega, 1e-12);
                     }
                 }

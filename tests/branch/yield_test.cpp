@@ -1,6 +1,7 @@
 #include "graze/branch/yield.hpp"
 
 #include "driven_oscillator.hpp"
+#include "graze/symbolic/input_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -43,6 +44,32 @@ TEST(Yield, of_each_device_is_that_of_the_closed_form) {
         }
         EXPECT_GT(yield.largest_departure, 0);
     }
+}
+
+TEST(Yield, OfGivenDevicesIsThatOfTheClosedForm) {
+    Workshop shop;
+    MadeDevices given{{shop.model.independent_parameter("omega"), shop.model.independent_parameter("sigma")}, {}};
+    for (int i = 0; i < 50; ++i) // that depend on one another, as those of one process
+        given.values.push_back({shop.known.omega * (1 + 0.001 * i), shop.known.sigma * (1 - 0.002 * i)});
+    given.values.emplace_back(); // one that cannot be made
+    std::vector<double> told(given.values.size());
+    shop.settings.solved = [&](std::size_t i, const LocatedSolution& solution) { told[i] = solution.value; };
+    shop.settings.least = 0;
+    const Yield yield = yield_of(shop.model, shop.point, shop.force, given, shop.settings);
+    ASSERT_EQ(yield.found, 50U);
+    EXPECT_EQ(yield.failed, 1U);
+    EXPECT_EQ(yield.problems.front().first, "the device cannot be made");
+    for (std::size_t i = 0; i < 50; ++i) {
+        DrivenOscillator one = shop.known;
+        one.omega = given.values[i][0];
+        one.sigma = given.values[i][1];
+        EXPECT_NEAR(yield.devices[i].value / one.force(), 1, 1e-11);
+        EXPECT_EQ(told[i], yield.devices[i].value);
+    }
+    EXPECT_NEAR(yield.within.value().value, 50.0 / 51, 1e-15);
+    EXPECT_GT(yield.linear_deviation, 0);
+    given.values[0].pop_back();
+    EXPECT_THROW(yield_of(shop.model, shop.point, shop.force, given, shop.settings), InputError);
 }
 
 TEST(Yield, where_the_value_is_linear_has_the_statistics_of_what_was_drawn) {

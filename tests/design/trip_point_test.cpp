@@ -30,10 +30,17 @@ TEST(TripPoint, OfTheMemsSwitchIsThePublishedVoltage) {
 }
 
 TEST(TripPoint, OfTheDeviceIsTheSameInVolts) {
-    const TripPoint trip = trip_of(load_design("mems-switch-device"));
+    Design design = load_design("mems-switch-device");
+    const auto value = [&](const char* name) {
+        return design.model.parameter_values()[*design.model.find_parameter(name)];
+    };
+    const double gap = value("d");
+    design.set = {{"zeta", 0.02}, {"stop", 0.6 * gap}};
+    const TripPoint trip = trip_of(design);
     // Eq. (6.3), by hand: m w0^2 d^3 / (epsilon A / 2), with m in 1e-9 kg, w0 in 1e3/s, d in 1e-6 m, A in 1e-12 m^2.
-    const double w0 = 2e4 * std::numbers::pi;
-    const double unit = std::sqrt(2 * 14.6e-9 * w0 * w0 * 8e-18 / (8.8541878128e-12 * 250000e-12));
+    const double w0 = 2e3 * std::numbers::pi * value("f0");
+    const double unit = std::sqrt(2 * value("m") * 1e-9 * w0 * w0 * std::pow(1e-6 * gap, 3) /
+                                  (8.8541878128e-12 * value("area") * 1e-12));
     EXPECT_NEAR(trip.value(), 0.2013662121541341 * unit, 1e-12 * unit);
     EXPECT_EQ(class_at(trip).outcome, GrazingOutcome::lost);
 }

@@ -2,6 +2,7 @@
 
 #include "graze/model/model_file.hpp"
 #include "identify/recorded_motion.hpp"
+#include "identify/wall_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,33 +15,8 @@ namespace graze::testing {
 
 namespace {
 
-/// A damped oscillator that hits a wall: quick, and through three impacts.
 RecordedMotion wall_motion(std::size_t readings = 120) {
-    const Model model = parse_model(R"(
-name = "wall"
-[parameters]
-c = 0.1
-k = 4
-wall = 0.5
-e = 0.7
-[states]
-x = { initial = -2 }
-v = { initial = 0 }
-[modes.swing]
-rates = { x = "v", v = "-k*x - c*v" }
-watch = ["hit"]
-[events.hit]
-function = "wall - x"
-[jumps.bounce]
-v = "-e*v"
-[[transitions]]
-mode = "swing"
-event = "hit"
-jump = "bounce"
-next = "swing"
-)",
-                                    "wall.toml");
-    RecordedMotion motion(model, {"x", "v"}, 0.013, 6.0 / static_cast<double>(readings), readings);
+    RecordedMotion motion(wall_model(), {"x", "v"}, 0.013, 6.0 / static_cast<double>(readings), readings);
     for (const char* name : {"c", "k", "wall", "e"})
         motion.forget(name, 1.02);
     motion.forget_states();
@@ -194,28 +170,37 @@ TEST(FitErrorsSlow, ChaosBearsNoise) {
             << fit.numbers[j].name;
 }
 
-/// From guesses that are two and ten percent off, with slow impacts in the motion, which are missed easily: what is
-/// said to have converged is near the truth, and most is.
+namespace {
+
+/// Fifteen impacts, some of them slow: noise hides them, or makes others. (How many there are is not asked for: one may
+/// be so slow that the readings are as likely without it.)
+void expect_found_with_slow_impacts(std::uint64_t seed, double factor) {
+    RecordedMotion motion(load_model("impact-oscillator"), {"x", "v"}, 0, 0.05, 601);
+    for (const char* name : {"zeta", "omega", "sigma", "e"})
+        motion.forget(name, factor);
+    motion.forget_states();
+    motion.add_noise(0.005, seed);
+    const Fit fit = fit_model(motion.model, motion.task);
+    EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
+    // Of 4 numbers in some 50 fits, one in sixty would be beyond four errors by chance.
+    for (std::size_t j = 0; j < 4; ++j)
+        EXPECT_LE(std::abs(fit.numbers[j].estimate.value - motion.truth(j)), 4 * fit.numbers[j].estimate.error)
+            << fit.numbers[j].name << ", seed " << seed << ", guesses " << factor;
+}
+
+} // namespace
+
+/// Records of which a first way ends where an impact is missed, or one too many, and looks as if it had converged.
+TEST(FitErrors, SlowImpactsAreFound) {
+    for (const std::uint64_t seed : {8, 37})
+        expect_found_with_slow_impacts(seed, 1);
+}
+
+/// From the true values, and from guesses that are two, five and ten percent off.
 TEST(FitErrorsSlow, GuessesMakeNoDifference) {
-    int converged = 0;
-    for (std::uint64_t seed = 1; seed <= 3; ++seed)
-        for (const double factor : {1.02, 1.1}) {
-            RecordedMotion motion(load_model("impact-oscillator"), {"x", "v"}, 0, 0.05, 601);
-            for (const char* name : {"zeta", "omega", "sigma", "e"})
-                motion.forget(name, factor);
-            motion.forget_states();
-            motion.add_noise(0.005, seed);
-            const Fit fit = fit_model(motion.model, motion.task);
-            EXPECT_TRUE(fit.ending == FitEnding::converged || fit.ending == FitEnding::misfit) << fit.detail;
-            if (fit.ending != FitEnding::converged)
-                continue;
-            ++converged;
-            for (std::size_t j = 0; j < 4; ++j)
-                EXPECT_LE(std::abs(fit.numbers[j].estimate.value - motion.truth(j)),
-                          4.5 * fit.numbers[j].estimate.error)
-                    << fit.numbers[j].name << ", seed " << seed << ", guesses " << factor;
-        }
-    EXPECT_GE(converged, 4);
+    for (std::uint64_t seed = 1; seed <= 12; ++seed)
+        for (const double factor : {1.0, 1.02, 1.05, 1.1})
+            expect_found_with_slow_impacts(seed, factor);
 }
 
 } // namespace graze::testing

@@ -126,14 +126,25 @@ bool same(const std::map<std::string, std::string>& one, const std::map<std::str
     return one.size() == other.size();
 }
 
-/// Kills the program at random moments, until it has come to its end. @return how many times
-int killed(const Experiment& experiment, const std::string& records, unsigned seed, int longest, int at_most) {
+/// Carries the experiment out. @return how long that took
+std::chrono::microseconds carried_out(const Experiment& experiment, const std::string& records) {
+    const auto begin = std::chrono::steady_clock::now();
+    Process whole(experiment.command(records), experiment.path("said.txt"));
+    EXPECT_EQ(whole.wait(), 0) << whole.printed();
+    return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
+}
+
+/// Kills the program at random moments, until it has come to its end. The moments are such shares of the time that
+/// the whole takes that it cannot have come to its end before the last of them. @return how many times
+int killed(const Experiment& experiment, const std::string& records, unsigned seed, std::chrono::microseconds whole,
+           int at_most) {
+    const auto longest = static_cast<unsigned>(whole.count() / at_most);
     std::mt19937 random(seed);
     for (int times = 0;; ++times) {
         Process process(experiment.command(records), experiment.path("said.txt"));
         const int signal = times % 2 == 0 ? SIGKILL : SIGTERM;
         if (times < at_most) {
-            std::this_thread::sleep_for(std::chrono::microseconds(random() % static_cast<unsigned>(longest)));
+            std::this_thread::sleep_for(std::chrono::microseconds(random() % longest));
             process.signal(signal);
         }
         const int code = process.wait();
@@ -167,10 +178,9 @@ TEST(Acquire, CarriesOutAnExperimentAndIsDoneTheSecondTime) {
 
 TEST(Acquire, GoesOnAfterItHasBeenKilledWithTheSameRecords) {
     const Experiment experiment;
-    Process whole(experiment.command("whole"), experiment.path("said.txt"));
-    ASSERT_EQ(whole.wait(), 0) << whole.printed();
+    const auto whole = carried_out(experiment, "whole");
     const Experiment another;
-    EXPECT_GT(killed(another, "parts", 3, 40'000, 6), 2);
+    EXPECT_GT(killed(another, "parts", 3, whole, 6), 2);
     const auto parts = another.files("parts");
     EXPECT_TRUE(same(experiment.files("whole"), parts));
 }
@@ -178,11 +188,10 @@ TEST(Acquire, GoesOnAfterItHasBeenKilledWithTheSameRecords) {
 TEST(AcquireSlow, GoesOnAfterFiftyKillsWithTheSameRecords) {
     const std::string fine = "0.005"; // some two hundred records
     const Experiment experiment("", fine);
-    Process whole(experiment.command("whole"), experiment.path("said.txt"));
-    ASSERT_EQ(whole.wait(), 0) << whole.printed();
+    const auto whole = carried_out(experiment, "whole");
     for (const unsigned seed : {1U, 2U}) {
         const Experiment another("", fine);
-        EXPECT_EQ(killed(another, "parts", seed, 100'000, 50), 50) << "it was done before";
+        EXPECT_EQ(killed(another, "parts", seed, whole, 50), 50) << "it was done before";
         EXPECT_TRUE(same(experiment.files("whole"), another.files("parts")));
     }
 }

@@ -16,9 +16,9 @@ using ::testing::StartsWith;
 
 namespace {
 
-const std::vector<std::string> commands{"check",  "models",   "simulate", "run",     "info",   "export",    "plot",
-                                        "points", "orbit",    "grazing",  "trip",    "ladder", "tolerance", "design",
-                                        "record", "identify", "bench",    "acquire", "help",   "completion"};
+const std::vector<std::string> commands{"check",  "models", "simulate", "run",   "info",    "export",    "plot",
+                                        "points", "orbit",  "grazing",  "trip",  "ladder",  "tolerance", "design",
+                                        "layout", "record", "identify", "bench", "acquire", "help",      "completion"};
 
 /// What a shell command prints.
 std::string printed_by(const std::string& command) {

@@ -109,6 +109,16 @@ TEST_F(Points, ShowsOtherParametersWhereTheyDiffer) {
     const Csv csv_of_both(unquoted(mixed.out));
     EXPECT_EQ(csv_of_both.text(9, "parameter"), "w");
     EXPECT_EQ(csv_of_both.number(9, "value"), 1);
+    // Where there is no room for all, what is said twice goes: of a curve both parameters tell where it is.
+    {
+        ResultFile file(path, ResultFile::Access::write);
+        write_run(file, run_of("one_whose_name_takes_much_of_the_line", "orbit"),
+                  {orbit_of("", PointType::end, 3, true, true)});
+    }
+    const std::string narrow = header(run_graze({"points", path}).out);
+    for (const char* there : {" g ", " w ", " period ", " multiplier"})
+        EXPECT_THAT(narrow, HasSubstr(there));
+    EXPECT_THAT(narrow, Not(HasSubstr(" value ")));
 }
 
 TEST_F(Points, TellsPeopleWhatTheyLookAt) {

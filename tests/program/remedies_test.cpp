@@ -84,9 +84,9 @@ std::vector<Text> texts() {
 /// Commands with the help of each.
 std::map<std::string, std::string> commands() {
     std::map<std::string, std::string> result;
-    for (const char* name :
-         {"models", "check",  "simulate", "run",   "points",  "orbit",  "grazing", "trip", "ladder", "tolerance",
-          "design", "record", "identify", "bench", "acquire", "export", "plot",    "info", "help",   "completion"}) {
+    for (const char* name : {"models", "check",   "simulate",  "run",    "points", "orbit",  "grazing",
+                             "trip",   "ladder",  "tolerance", "design", "layout", "record", "identify",
+                             "bench",  "acquire", "export",    "plot",   "info",   "help",   "completion"}) {
         const Printed help = run_graze(std::string(name) + " --help");
         EXPECT_EQ(help.code, 0) << name;
         result[name] = help.out;

@@ -1,7 +1,7 @@
 #include "graze/record/record_file.hpp"
 
 #include "graze/record/record_writer.hpp"
-#include "record/temporary_folder.hpp"
+#include "symbolic/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 

@@ -37,6 +37,8 @@ struct YieldSettings {
     LocatedValueOptions solver;
     std::function<bool()> interrupted;                 ///< asked from any thread
     std::function<void(std::size_t devices)> progress; ///< how many are done; called from the calling thread
+    /// Told of what has been solved for each device that was found; called from any thread.
+    std::function<void(std::size_t device, const LocatedSolution& solution)> solved;
     /// @throws InputError naming what is out of range
     void validate() const;
 };
@@ -99,6 +101,18 @@ struct Yield {
 /// H. N. Nagaraja, "Order Statistics", 2003); of mean and standard deviation those for many devices.
 /// @throws InputError as LocatedValue does, and for settings out of range
 Yield yield_of(const System& system, const SpecialPoint& point, ParameterId control, const YieldSettings& settings);
+
+/// Devices whose parameters depend on one another, as those that one process has made.
+struct MadeDevices {
+    std::vector<ParameterId> parameters;
+    std::vector<std::vector<double>> values; ///< of each device, one for each parameter; none: it cannot be made
+};
+
+/// The same for given devices: without contributions, and with a deviation that the derivatives give to these devices.
+/// @param settings of which tolerances, devices and seed are not used
+/// @throws InputError also for devices with another number of values
+Yield yield_of(const System& system, const SpecialPoint& point, ParameterId control, const MadeDevices& devices,
+               const YieldSettings& settings);
 
 /// Limits of a share, of which `hits` of `trials` are seen. @throws InputError without trials, or for more hits
 ConfidenceInterval wilson_interval(std::size_t hits, std::size_t trials, double confidence);

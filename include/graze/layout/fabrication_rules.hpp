@@ -1,0 +1,38 @@
+#pragma once
+
+#include "graze/layout/layout.hpp"
+#include "graze/layout/lumped_model.hpp"
+#include "graze/layout/process_conditions.hpp"
+
+#include <string>
+#include <vector>
+
+namespace graze {
+
+/// What a device that was drawn has by a rule: the worst of it, or whatever breaks the rule.
+struct RuleFinding {
+    std::string rule; ///< as in [rules]
+    double value = 0, limit = 0;
+    std::string unit;
+    bool at_least = true; ///< whether the limit is the least value, or the greatest
+    std::string part;     ///< of the device
+    GridPoint at;         ///< of the die
+    std::string device;   ///< cell
+
+    bool holds() const { return at_least ? value >= limit : value <= limit; }
+    /// In one sentence.
+    std::string text() const;
+};
+
+/// Checks one device by its polygons: distances are those between edges that face each other, on the masks as drawn.
+/// Stops and stresses are of the device after the etch.
+/// @return the worst place of each rule, in the order of rule_fields, and after it further places that break it, 20 at
+/// most
+std::vector<RuleFinding> rule_findings(const DeviceFile& file, const Layout& layout, const DrawnDevice& device);
+/// Of all devices of a layout that differ.
+std::vector<RuleFinding> rule_findings(const DeviceFile& file, const Layout& layout);
+
+/// @throws InputErrors (InputError for one) with all that do not hold, at the place of the rule in the design file
+void require_rules(const DeviceFile& file, const std::vector<RuleFinding>& findings);
+
+} // namespace graze

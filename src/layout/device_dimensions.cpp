@@ -1,0 +1,75 @@
+#include "graze/layout/device_dimensions.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+using Device = LengthField<DeviceDimensions>;
+constexpr std::array device_table{
+    Device{"electrode_length", &DeviceDimensions::electrode_length, "length of the fixed electrode's face"},
+    Device{"electrode_width", &DeviceDimensions::electrode_width, "from the electrode's face to its pad"},
+    Device{"gap", &DeviceDimensions::gap, "between the electrodes"},
+    Device{"pad_length", &DeviceDimensions::pad_length, "of the electrode's contact pad, along the motion"},
+    Device{"pad_width", &DeviceDimensions::pad_width, "of the electrode's contact pad, across the motion"},
+    Device{"moat", &DeviceDimensions::moat, "between the fixed electrode and the frame"},
+    Device{"base_inset", &DeviceDimensions::base_inset, "by which the electrode hangs over its base"},
+    Device{"bar_width", &DeviceDimensions::bar_width, "of each upright bar of the H"},
+    Device{"bridge_width", &DeviceDimensions::bridge_width, "of the bar between them"},
+    Device{"clearance", &DeviceDimensions::clearance, "between what moves and what it moves along"},
+    Device{"flexure_width", &DeviceDimensions::flexure_width, "of a beam of the flexures"},
+    Device{"flexure_length", &DeviceDimensions::flexure_length, "of a beam of the flexures"},
+    Device{"flexure_spacing", &DeviceDimensions::flexure_spacing, "between neighbouring beams"},
+    Device{"flexure_middle", &DeviceDimensions::flexure_middle, "between the first beams of both sides"},
+    Device{"truss_width", &DeviceDimensions::truss_width, "of what joins beams"},
+    Device{"stop_gap", &DeviceDimensions::stop_gap, "between the stops and the mass"},
+    Device{"stop_width", &DeviceDimensions::stop_width, "of a stop"},
+    Device{"channel_width", &DeviceDimensions::channel_width, "of the channel between the stops"},
+    Device{"chamber_margin", &DeviceDimensions::chamber_margin, "of the chamber around what is etched from the front",
+           true},
+    Device{"die_length", &DeviceDimensions::die_length, "of the die, along the motion"},
+    Device{"die_width", &DeviceDimensions::die_width, "of the die, across the motion"},
+    Device{"frame_width", &DeviceDimensions::frame_width, "least distance of the chamber from the die's edge"},
+    Device{"mark_size", &DeviceDimensions::mark_size, "of an alignment mark; 0: none", true},
+    Device{"label_height", &DeviceDimensions::label_height, "of the letters on the die; 0: none", true},
+};
+
+using Process = LengthField<ProcessData>;
+constexpr std::array process_table{
+    Process{"wafer_thickness", &ProcessData::wafer_thickness, "of the wafer with the devices"},
+    Process{"chamber_depth", &ProcessData::chamber_depth, "of the chambers etched into its back"},
+};
+
+} // namespace
+
+std::span<const LengthField<DeviceDimensions>> device_fields() {
+    return device_table;
+}
+
+std::span<const LengthField<ProcessData>> process_fields() {
+    return process_table;
+}
+
+double length_on_grid(double value, const std::string& what, bool may_be_zero) {
+    if (!std::isfinite(value))
+        throw InputError(fmt::format("{} is not a finite number", what), "give a length in micrometres");
+    if (value < 0 || (value == 0 && !may_be_zero))
+        throw InputError(fmt::format("{} is {} um, not positive", what, value),
+                         may_be_zero ? "give zero or a positive length" : "give a positive length");
+    if (value > greatest_length)
+        throw InputError(fmt::format("{} is {} um, more than a metre", what, value),
+                         "give a length in micrometres, or with its unit as \"1.2 mm\"");
+    const double rounded = std::round(value * grid_per_micrometre) / grid_per_micrometre;
+    if (value > 0 && rounded == 0)
+        throw InputError(fmt::format("{} is {} um, less than the grid of 1 nm on which masks are drawn", what, value),
+                         "give a greater length");
+    return rounded;
+}
+
+} // namespace graze

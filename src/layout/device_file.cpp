@@ -1,0 +1,28 @@
+#include "graze/layout/device_file.hpp"
+
+#include "graze/design/design.hpp"
+#include "graze/model/catalogue.hpp"
+#include "graze/symbolic/text_file.hpp"
+#include "layout/device_file_reader.hpp"
+
+namespace graze {
+
+Place DeviceFile::place(const std::string& key) const {
+    for (std::string part = key; !part.empty(); part.resize(part.rfind('.') == std::string::npos ? 0 : part.rfind('.')))
+        if (const auto found = places.find(part); found != places.end())
+            return found->second;
+    return {file, 1, 1};
+}
+
+DeviceFile parse_device_file(std::string_view text, const std::string& file, const GivenLengths& given) {
+    const toml::table root = parse_toml(text, file, "docs/layout.md shows how a device is described");
+    return DeviceFileReader(file).read(root, given);
+}
+
+DeviceFile load_device_file(const std::string& name_or_path, const GivenLengths& given) {
+    const std::string text = is_model_path(name_or_path) ? read_text_file(name_or_path, "design", longest_model)
+                                                         : shipped_design_text(name_or_path);
+    return parse_device_file(text, name_or_path, given);
+}
+
+} // namespace graze

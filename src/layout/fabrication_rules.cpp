@@ -1,0 +1,240 @@
+#include "graze/layout/fabrication_rules.hpp"
+
+#include "graze/symbolic/input_errors.hpp"
+#include "layout/mask_edges.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t most_places = 20; // of one rule
+
+double micrometres(std::int64_t nanometres) {
+    return static_cast<double>(nanometres) / grid_per_micrometre;
+}
+
+class RuleCheck {
+public:
+    RuleCheck(const DeviceFile& file, const Layout& layout, const DrawnDevice& device)
+        : file_(&file), limits_(&file.rules), drawing_(&device.drawing), device_(device.cell) {
+        for (const PlacedShape& shape : flattened(layout.library, device.cell)) {
+            const int mask = shape.layer.layer;
+            if (mask == mask_layers::front.layer)
+                front_.push_back(shape.polygon);
+            else if (mask == mask_layers::back.layer)
+                back_.push_back(shape.polygon);
+        }
+    }
+
+    std::vector<RuleFinding> find() {
+        front_places_ = facing_edges(mask_edges(front_));
+        back_places_ = facing_edges(mask_edges(back_));
+        add_widths("smallest_line", limits_->smallest_line, false);
+        add_widths("smallest_gap", limits_->smallest_gap, true);
+        add_aspects();
+        add_overlap();
+        add_undercut();
+        add_motion();
+        return std::move(findings_);
+    }
+
+private:
+    /// A place's value, the worse the lower.
+    struct Measured {
+        double value;
+        std::string part;
+        GridPoint at;
+    };
+
+    void add(const std::string& rule, double limit, const char* unit, bool at_least, std::vector<Measured> places) {
+        std::stable_sort(places.begin(), places.end(), [&](const Measured& a, const Measured& b) {
+            return at_least ? a.value < b.value : a.value > b.value;
+        });
+        for (std::size_t i = 0; i < std::min(places.size(), most_places); ++i) {
+            const Measured& one = places[i];
+            RuleFinding finding{rule, one.value, limit, unit, at_least, one.part, one.at, device_};
+            if (i > 0 && finding.holds())
+                break;
+            findings_.push_back(std::move(finding));
+        }
+    }
+
+    static bool within_any(const std::vector<GridPolygon>& polygons, GridPoint point) {
+        return std::any_of(polygons.begin(), polygons.end(),
+                           [&](const GridPolygon& one) { return contains(one, point); });
+    }
+
+    /// What the silicon of the front is at a place.
+    std::string part_at(GridPoint point) const {
+        const auto has = [&](const std::vector<GridBox>& boxes) {
+            return std::any_of(boxes.begin(), boxes.end(), [&](const GridBox& box) {
+                return box.contains({point.x, point.y, point.x, point.y});
+            });
+        };
+        if (has(drawing_->beams()))
+            return "a beam";
+        if (has(drawing_->trusses()))
+            return "a truss";
+        if (contains(drawing_->mass, point))
+            return "the mass";
+        if (contains(drawing_->electrode, point))
+            return "the fixed electrode";
+        return within_any(drawing_->stops, point) ? "a stop" : "the frame";
+    }
+
+    /// Just beyond an edge, on its other side.
+    static GridPoint beyond(GridPoint edge, GridPoint from) {
+        const auto step = [](std::int64_t d) { return d > 0 ? 1 : d < 0 ? -1 : 0; };
+        return {edge.x + step(edge.x - from.x), edge.y + step(edge.y - from.y)};
+    }
+
+    std::string part_of(const FacingEdges& place, bool on_front) const {
+        if (!on_front)
+            return place.etched ? "a chamber" : "what remains between chambers";
+        if (!place.etched)
+            return part_at(place.middle());
+        const std::string one = part_at(beyond(place.first, place.second)),
+                          other = part_at(beyond(place.second, place.first));
+        return one == other ? "the trench within " + one : fmt::format("the trench between {} and {}", one, other);
+    }
+
+    void add_widths(const char* rule, double limit, bool etched) {
+        std::vector<Measured> places;
+        for (const bool on_front : {true, false})
+            for (const FacingEdges& place : on_front ? front_places_ : back_places_)
+                if (place.etched == etched)
+                    places.push_back({micrometres(place.distance), part_of(place, on_front), place.middle()});
+        add(rule, limit, "um", true, std::move(places));
+    }
+
+    void add_aspects() {
+        std::vector<Measured> places;
+        const ProcessData& process = file_->process;
+        for (const bool on_front : {true, false})
+            for (const FacingEdges& place : on_front ? front_places_ : back_places_)
+                if (place.etched) {
+                    const double depth = !on_front                           ? process.chamber_depth
+                                         : within_any(back_, place.middle()) ? process.layer_thickness()
+                                                                             : process.wafer_thickness;
+                    places.push_back({depth / micrometres(place.distance), part_of(place, on_front), place.middle()});
+                }
+        add("largest_aspect", limits_->largest_aspect, "", false, std::move(places));
+    }
+
+    /// How far within an area a polygon's edges stay from its outline; negative where a corner is outside.
+    std::vector<Measured> margins(const GridPolygon& inner, const std::vector<GridPolygon>& area,
+                                  const std::string& part) const {
+        std::vector<Measured> places;
+        const std::vector<MaskEdge> outline = mask_edges(area);
+        for (const MaskEdge& edge : mask_edges(std::span(&inner, 1)))
+            for (const MaskEdge& wall : outline) {
+                // Edges of the same direction that overlap, with the area beyond the wall on the polygon's side.
+                const std::int64_t low = std::max(edge.from, wall.from), high = std::min(edge.to, wall.to);
+                const std::int64_t distance = edge.side * (edge.at - wall.at), along = (low + high) / 2;
+                if (edge.upright != wall.upright || edge.side != wall.side || low >= high || distance < 0)
+                    continue;
+                places.push_back({micrometres(distance), part,
+                                  edge.upright ? GridPoint{edge.at, along} : GridPoint{along, edge.at}});
+            }
+        for (const GridPoint& corner : inner)
+            if (!within_any(area, corner))
+                places.push_back({-distance_of(corner, outline), part + ", which reaches out of it", corner});
+        return places;
+    }
+
+    /// From the nearest of edges.
+    static double distance_of(GridPoint point, const std::vector<MaskEdge>& edges) {
+        double least = std::numeric_limits<double>::infinity();
+        for (const MaskEdge& edge : edges) {
+            const std::int64_t across = edge.upright ? point.x : point.y, along = edge.upright ? point.y : point.x;
+            const std::int64_t aside = along - std::clamp(along, edge.from, edge.to);
+            least = std::min(least, std::hypot(micrometres(across - edge.at), micrometres(aside)));
+        }
+        return least;
+    }
+
+    void add_overlap() {
+        std::vector<Measured> places = margins(drawing_->mass, back_, "the mass");
+        const auto add_boxes = [&](const std::vector<GridBox>& boxes, const char* part) {
+            for (const GridBox& box : boxes)
+                for (Measured& one : margins(polygon_of(box), back_, part))
+                    places.push_back(std::move(one));
+        };
+        add_boxes(drawing_->beams(), "a beam");
+        add_boxes(drawing_->trusses(), "a truss");
+        add("chamber_overlap", limits_->chamber_overlap, "um", true, std::move(places));
+    }
+
+    void add_undercut() {
+        add("undercut", limits_->undercut, "um", true,
+            margins(drawing_->base, {drawing_->electrode}, "the fixed electrode's base"));
+    }
+
+    void add_motion() {
+        const LumpedModel lumped = lumped_model_of(*drawing_, file_->process, file_->conditions);
+        const GridPoint stop = bounding_middle(drawing_->stops.front());
+        const GridBox beam = drawing_->beams().front();
+        const GridPoint at_beam{(beam.left + beam.right) / 2, beam.top};
+        add("largest_stop_share", limits_->largest_stop_share, "", false,
+            {{lumped.stop / lumped.closure, "the stops, by the way until the electrodes touch", stop}});
+        constexpr double mega = 1e6;
+        add("largest_stress", limits_->largest_stress, "MPa", false,
+            {{lumped.stress_per_travel * lumped.stop / mega, "a beam, when the mass is at the stops", at_beam},
+             {lumped.stress_per_travel * lumped.closure / mega, "a beam, when the electrodes touch", at_beam}});
+        add("largest_squeeze", limits_->largest_squeeze, "", false,
+            {{lumped.squeeze, "the gas between the electrodes", bounding_middle(drawing_->electrode)}});
+    }
+
+    static GridPoint bounding_middle(const GridPolygon& polygon) {
+        const GridBox box = bounding_box(polygon);
+        return {(box.left + box.right) / 2, (box.bottom + box.top) / 2};
+    }
+
+    const DeviceFile* file_;
+    const RuleLimits* limits_;
+    const DeviceDrawing* drawing_;
+    std::string device_;
+    std::vector<GridPolygon> front_, back_;
+    std::vector<FacingEdges> front_places_, back_places_;
+    std::vector<RuleFinding> findings_;
+};
+
+} // namespace
+
+std::string RuleFinding::text() const {
+    const std::string in = unit.empty() ? "" : " " + unit;
+    return fmt::format("{} is {:.6g}{} for {}, at ({:.3f}, {:.3f}) um of {}, where {} {:.6g}{} is allowed", rule, value,
+                       in, part, micrometres(at.x), micrometres(at.y), device, at_least ? "at least" : "at most", limit,
+                       in);
+}
+
+std::vector<RuleFinding> rule_findings(const DeviceFile& file, const Layout& layout, const DrawnDevice& device) {
+    return RuleCheck(file, layout, device).find();
+}
+
+std::vector<RuleFinding> rule_findings(const DeviceFile& file, const Layout& layout) {
+    std::vector<RuleFinding> all;
+    for (const DrawnDevice& device : layout.devices)
+        for (RuleFinding& one : rule_findings(file, layout, device))
+            all.push_back(std::move(one));
+    return all;
+}
+
+void require_rules(const DeviceFile& file, const std::vector<RuleFinding>& findings) {
+    Mistakes mistakes;
+    for (const RuleFinding& one : findings)
+        mistakes.attempt([&] {
+            if (!one.holds())
+                throw InputError(file.place("rules." + one.rule), "rule " + one.text(),
+                                 "change the dimension or the rule, or draw it all the same by --despite-rules");
+        });
+    mistakes.throw_noted();
+}
+
+} // namespace graze

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "graze/layout/grid_polygon.hpp"
+
+#include <array>
+
+namespace graze {
+
+struct BoxCorner {
+    double x = 0, y = 0;
+};
+
+/// A box that is turned about its origin, and moved. Nanometres.
+class TurnedBox {
+public:
+    TurnedBox(const GridBox& box, GridPoint at, double angle);
+
+    const std::array<BoxCorner, 4>& corners() const { return corners_; }
+    /// Whether both have more than edges in common: no side of either separates them.
+    bool meets(const TurnedBox& other) const;
+
+private:
+    /// Whether all of another lies beyond one of the sides.
+    bool keeps_off(const TurnedBox& other) const;
+
+    std::array<BoxCorner, 4> corners_;
+    BoxCorner middle_;
+    double reach_ = 0;
+};
+
+} // namespace graze

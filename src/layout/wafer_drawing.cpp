@@ -1,0 +1,233 @@
+#include "graze/layout/alignment_mark.hpp"
+#include "graze/layout/layout.hpp"
+#include "graze/layout/mask_letters.hpp"
+#include "layout/device_cells.hpp"
+#include "layout/device_rules.hpp"
+#include "layout/turned_box.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace graze {
+
+namespace {
+
+constexpr double full_turn = 360;
+
+/// A circle with a flat below, as a polygon. Nanometres. @param flat distance of the flat from the middle
+GridPolygon wafer_outline(double radius, double flat) {
+    constexpr int corners = 720;
+    const double lowest = -std::min(flat, radius), half = std::sqrt(std::max(0.0, radius * radius - lowest * lowest));
+    const double from = std::atan2(lowest, half), to = std::numbers::pi - from;
+    const bool is_round = half < 1; // nothing to be cut off
+    GridPolygon outline;
+    for (int i = 0; i < (is_round ? corners : corners + 1); ++i) {
+        const double angle = from + (is_round ? 2 * std::numbers::pi : to - from) * i / corners;
+        outline.push_back({std::llround(radius * std::cos(angle)), std::llround(radius * std::sin(angle))});
+    }
+    return outline;
+}
+
+class WaferDrawing {
+public:
+    explicit WaferDrawing(const DeviceFile& file) : file_(file), plan_(file_.wafer) {
+        // What differs from device to device is said in the plan.
+        for (const auto& [name, values] : plan_.vary)
+            file_.places.insert_or_assign("device." + name, file.place("wafer.vary." + name));
+        radius_ = grid_per_micrometre * plan_.diameter / 2;
+        require(plan_.flat_length < plan_.diameter, "flat_length",
+                fmt::format("a flat of {} um is longer than the wafer's diameter, {} um", plan_.flat_length,
+                            plan_.diameter),
+                "give a shorter flat, or 0 for none");
+        require(2 * plan_.exclusion < plan_.diameter, "exclusion",
+                fmt::format("nothing is left within an exclusion of {} um", plan_.exclusion), "give a smaller one");
+        const double half_flat = grid_per_micrometre * plan_.flat_length / 2;
+        flat_ = std::sqrt(radius_ * radius_ - half_flat * half_flat);
+    }
+
+    Layout draw() {
+        layout_.library.name = cell_name(file_.name);
+        draw_devices();
+        place_sites();
+        require_places();
+        add_wafer();
+        return std::move(layout_);
+    }
+
+private:
+    void require(bool holds, const char* key, const std::string& problem, const std::string& remedy) const {
+        if (!holds)
+            throw InputError(file_.place(std::string("wafer.") + key), problem, remedy);
+    }
+
+    void draw_devices() {
+        std::vector<DeviceDimensions> different;
+        for (std::size_t i = 0; i < plan_.devices; ++i) {
+            DeviceDimensions one = file_.device;
+            for (const auto& [name, values] : plan_.vary)
+                for (const LengthField<DeviceDimensions>& field : device_fields())
+                    if (name == field.name)
+                        one.*field.member = values[i % values.size()];
+            const auto found = std::find(different.begin(), different.end(), one);
+            layout_.sites.push_back(static_cast<std::size_t>(found - different.begin()));
+            if (found == different.end())
+                different.push_back(one);
+        }
+        for (std::size_t i = 0; i < different.size(); ++i) {
+            const std::string ending = different.size() > 1 ? fmt::format("_{}", i + 1) : "";
+            layout_.devices.push_back({"DEVICE" + ending, draw_device(different[i], file_)});
+            add_device_cells(layout_.library, layout_.devices.back().drawing, ending);
+        }
+    }
+
+    const DeviceDrawing& device_at(std::size_t site) const { return layout_.devices[layout_.sites[site]].drawing; }
+
+    /// From the die's edge to the wafer's.
+    GridBox channel_of(const DeviceDrawing& device, std::int64_t margin) const {
+        const std::int64_t width = nanometres(device.dimensions.channel_width), low = -(width / 2);
+        const std::int64_t edge = std::llround(radius_) - nanometres(plan_.radius);
+        return {device.die.right, low - margin, std::max(edge, device.die.right), low + width + margin};
+    }
+
+    void place_sites() {
+        const auto count = static_cast<double>(plan_.devices);
+        const double first = plan_.devices % 2 == 0 ? 0.5 : 0.25; // of a pitch: none lies on the x axis
+        const double radius = grid_per_micrometre * plan_.radius;
+        for (std::size_t i = 0; i < plan_.devices; ++i) {
+            const double degrees = full_turn * (static_cast<double>(i) + first) / count;
+            const double angle = degrees * std::numbers::pi / (full_turn / 2);
+            layout_.site_degrees.push_back(degrees);
+            centres_.push_back({std::llround(radius * std::cos(angle)), std::llround(radius * std::sin(angle))});
+            dies_.emplace_back(device_at(i).die, centres_.back(), angle);
+            const GridBox channel = channel_of(device_at(i), nanometres(file_.device.chamber_margin));
+            channels_.emplace_back(channel, centres_.back(), angle);
+        }
+    }
+
+    std::string number(std::size_t site) const { return fmt::format("device {}", site + 1); }
+
+    void require_places() const {
+        const double usable = radius_ - grid_per_micrometre * plan_.exclusion;
+        const double lowest = -(flat_ - grid_per_micrometre * plan_.exclusion);
+        for (std::size_t i = 0; i < dies_.size(); ++i)
+            for (const BoxCorner& corner : dies_[i].corners())
+                require(std::hypot(corner.x, corner.y) <= usable && corner.y >= lowest, "radius",
+                        fmt::format("{} reaches into the exclusion at the wafer's edge", number(i)),
+                        "give a smaller radius, die or exclusion, or a larger wafer");
+        for (std::size_t distance = 1; distance <= dies_.size() / 2; ++distance) // neighbours first
+            for (std::size_t i = 0; i < dies_.size(); ++i) {
+                const std::size_t j = (i + distance) % dies_.size();
+                require(i == j ||
+                            !(dies_[i].meets(dies_[j]) || dies_[i].meets(channels_[j]) || channels_[i].meets(dies_[j])),
+                        "devices", fmt::format("{} and {} overlap", number(i), number(j)),
+                        "give fewer devices, smaller dies, or a larger radius");
+            }
+        require(plan_.mark_size == 0 || nanometres(plan_.mark_size) >= least_mark, "mark_size",
+                fmt::format("a mark of {} um is too small to be drawn", plan_.mark_size),
+                "give a greater mark_size, or 0 for none");
+        for (const TurnedBox& mark : marks())
+            for (std::size_t i = 0; i < dies_.size(); ++i)
+                require(!mark.meets(dies_[i]) && !mark.meets(channels_[i]), "mark_radius",
+                        fmt::format("an alignment mark of the wafer lies on {}", number(i)),
+                        "give another mark_radius, or fewer devices");
+        for (const TurnedBox& mark : marks())
+            for (const BoxCorner& corner : mark.corners())
+                require(std::hypot(corner.x, corner.y) <= radius_, "mark_radius",
+                        "the wafer's alignment marks lie beyond its edge", "give a smaller mark_radius");
+        require_label();
+    }
+
+    std::vector<TurnedBox> marks() const {
+        const std::int64_t size = nanometres(plan_.mark_size), radius = nanometres(plan_.mark_radius);
+        if (size == 0)
+            return {};
+        const GridBox box = GridBox{0, 0, size, size}.moved({-(size / 2), -(size / 2)});
+        return {TurnedBox(box, {radius, 0}, 0), TurnedBox(box, {-radius, 0}, 0)};
+    }
+
+    /// Of both masks, one above the other.
+    std::string label(int mask) const {
+        return fmt::format("{} MASK {}", plan_.label.empty() ? file_.name : plan_.label, mask);
+    }
+
+    void require_label() const {
+        const std::int64_t height = nanometres(plan_.label_height), width = letters_width(label(1), height);
+        if (height == 0)
+            return;
+        const char* key = plan_.label.empty() ? "label_height" : "label";
+        require(can_be_drawn(label(1)), key, fmt::format("'{}' has letters that are not drawn on masks", label(1)),
+                "use letters of English, digits, blanks and . , - + = / _ : ( )");
+        require(height >= letter_rows, "label_height", "the letters are too small to be drawn",
+                "give a greater label_height, or 0 for none");
+        const TurnedBox box({-(width / 2), -2 * height, width - width / 2, 2 * height}, {}, 0);
+        for (std::size_t i = 0; i < dies_.size(); ++i)
+            require(!box.meets(dies_[i]) && !box.meets(channels_[i]), key,
+                    fmt::format("the letters '{}' lie on {}", label(1), number(i)),
+                    "give a shorter label or a smaller label_height");
+        for (const TurnedBox& mark : marks())
+            require(!box.meets(mark), key, fmt::format("the letters '{}' lie on an alignment mark", label(1)),
+                    "give a shorter label or a smaller label_height");
+    }
+
+    void add_site(std::size_t i) {
+        const DeviceDrawing& device = device_at(i);
+        const DeviceDimensions& d = device.dimensions;
+        LayoutCell site;
+        site.name = fmt::format("SITE_{}", i + 1);
+        site.references.push_back({layout_.devices[layout_.sites[i]].cell, {}, false, 0});
+        if (const GridBox channel = channel_of(device, 0); channel.width() > 0) {
+            site.add(mask_layers::front, channel);
+            site.add(mask_layers::back, channel_of(device, nanometres(d.chamber_margin)));
+        }
+        const std::int64_t edge = edge_distance(d), letters = nanometres(d.label_height);
+        if (letters > 0)
+            add_letters(site, mask_layers::front_letters, fmt::format("{}", i + 1),
+                        {device.die.left + edge, device.die.bottom + edge}, letters);
+        layout_.library.cells.push_back(std::move(site));
+    }
+
+    void add_wafer() {
+        LayoutCell wafer;
+        wafer.name = "WAFER";
+        for (std::size_t i = 0; i < dies_.size(); ++i) {
+            add_site(i);
+            wafer.references.push_back({fmt::format("SITE_{}", i + 1), centres_[i], false, layout_.site_degrees[i]});
+        }
+        const double exclusion = grid_per_micrometre * plan_.exclusion;
+        wafer.add(mask_layers::wafer, wafer_outline(radius_, flat_));
+        wafer.add(mask_layers::usable, wafer_outline(radius_ - exclusion, flat_ - exclusion));
+        const std::int64_t size = nanometres(plan_.mark_size), at = nanometres(plan_.mark_radius);
+        if (size > 0) {
+            layout_.library.cells.push_back(alignment_mark("WAFER_MARK", size));
+            wafer.references.push_back({"WAFER_MARK", {at, 0}, false, 0});
+            wafer.references.push_back({"WAFER_MARK", {-at, 0}, false, 0});
+        }
+        const std::int64_t height = nanometres(plan_.label_height);
+        if (height > 0) {
+            const std::int64_t left = -(letters_width(label(1), height) / 2);
+            add_letters(wafer, mask_layers::front_letters, label(2), {left, height / 2}, height);
+            add_letters(wafer, mask_layers::back_letters, label(1), {left, -height / 2 - height}, height, true);
+        }
+        wafer.texts.push_back({mask_layers::notes, {0, 0}, file_.name, plan_.label_height});
+        layout_.library.cells.push_back(std::move(wafer));
+        layout_.top = "WAFER";
+    }
+
+    DeviceFile file_;
+    const WaferPlan& plan_;
+    double radius_ = 0, flat_ = 0; ///< nanometres, the latter from the middle to the flat
+    std::vector<GridPoint> centres_;
+    std::vector<TurnedBox> dies_, channels_;
+    Layout layout_;
+};
+
+} // namespace
+
+Layout draw_wafer_layout(const DeviceFile& file) {
+    return WaferDrawing(file).draw();
+}
+
+} // namespace graze

@@ -1,0 +1,40 @@
+#include "program/layout_arguments.hpp"
+
+#include "program/declared_option.hpp"
+
+namespace graze {
+
+namespace {
+
+constexpr const char* layout_text = R"(Draw the masks of a switch.
+DESIGN is the name of one that comes with graze, or a TOML file whose table [device] has the dimensions (docs/layout.md): an
+H-shaped mass on folded flexures, a fixed electrode, two stops with a channel for a laser beam, on two masks. Prints what is
+drawn and its areas and gaps, measured from the polygons.)";
+
+constexpr const char* layout_examples = R"(Examples:
+  graze layout mems-switch-device --output device.gds --picture device.svg
+  graze layout mems-switch-device --wafer --output wafer.gds --picture wafer.png
+  graze layout mine.toml --set stop_gap=7.5 --set folds=2
+  graze layout mine.toml --wafer --mask 1 --output mask1.gds        one mask alone)";
+
+} // namespace
+
+void declare_layout_command(CLI::App& app, Arguments& arguments) {
+    LayoutArguments& layout = arguments.layout;
+    CLI::App& command = *app.add_subcommand("layout", layout_text);
+    command.footer(layout_examples);
+    command.add_option("DESIGN", layout.design, "Name of one that comes with graze, or a file")
+        ->type_name("")
+        ->required();
+    declare_option(command, "What is drawn", "--set", layout.set, "NAME=VALUE",
+                   "Another dimension of [device] or [process], in micrometres; repeat for several");
+    command.add_flag("--wafer", layout.wafer, "The wafer with its devices, instead of one")->group("What is drawn");
+    declare_option(command, "What is drawn", "--mask", layout.mask, "N", "Mask 1 (mirrored) or 2 alone")
+        ->check(whole_number(1, 2));
+    declare_option(command, "Where results go", "--output", layout.file, "FILE", "Write the drawing as GDSII (.gds)");
+    declare_option(command, "Where results go", "--picture", layout.picture, "FILE",
+                   "Draw a picture (.svg, .png or .pdf)");
+    declare_digits(command, layout.output);
+}
+
+} // namespace graze

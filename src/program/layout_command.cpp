@@ -1,0 +1,85 @@
+#include "graze/layout/device_measures.hpp"
+#include "graze/layout/gds_stream.hpp"
+#include "graze/layout/layout.hpp"
+#include "graze/symbolic/input_error.hpp"
+#include "program/commands.hpp"
+#include "program/layout_picture.hpp"
+#include "program/output_file.hpp"
+#include "program/picture.hpp"
+#include "program/values.hpp"
+
+#include <fmt/format.h>
+
+namespace graze {
+
+namespace {
+
+void add_row(Table& table, const std::string& cell, const std::string& what, double value, const char* unit) {
+    table.add(cell);
+    table.add(what);
+    table.add(value);
+    table.add(unit);
+}
+
+void add_measures(Table& table, const DrawnDevice& device, const DeviceFile& file) {
+    const DeviceMeasures measures = measures_of(device.drawing);
+    const auto length = [&](const char* what, double value) { add_row(table, device.cell, what, value, "um"); };
+    const auto area = [&](const char* what, double value) { add_row(table, device.cell, what, value, "um^2"); };
+    length("gap", measures.gap);
+    length("facing length", measures.facing_length);
+    length("stop gap", measures.stop_gap);
+    length("stop length", measures.stop_length);
+    add_row(table, device.cell, "beams", static_cast<double>(measures.beams), "");
+    length("beam width", measures.beam_width);
+    length("beam length", measures.beam_length);
+    length("beam spacing", measures.beam_spacing);
+    length("thickness", file.process.layer_thickness());
+    area("mass", measures.mass_area);
+    area("trusses", measures.truss_area);
+    area("beams", measures.beam_area);
+    area("fixed electrode", measures.electrode_area);
+    area("its base", measures.base_area);
+    area("chambers", measures.chamber_area);
+    area("etched through", measures.etched_area);
+}
+
+Table table_of(const Layout& layout, const DeviceFile& file) {
+    Table table({{"cell", ""}, {"what", ""}, {"value", ""}, {"unit", ""}});
+    for (const DrawnDevice& device : layout.devices)
+        add_measures(table, device, file);
+    for (std::size_t i = 0; i < layout.sites.size(); ++i)
+        add_row(table, layout.devices[layout.sites[i]].cell, fmt::format("direction of device {}", i + 1),
+                layout.site_degrees[i], "degrees");
+    for (const auto& [layer, area] : areas_of(layout.library, layout.top))
+        add_row(table, layout.top, fmt::format("layer {}/{}: {}", layer.layer, layer.datatype, layer_text(layer)), area,
+                "um^2");
+    return table;
+}
+
+} // namespace
+
+int layout_command(const LayoutArguments& arguments, const Console& console) {
+    const std::string& path = arguments.file;
+    if (!path.empty())
+        picture_ending(path, "--output", {"gds", "gds2", "gdsii"});
+    if (!arguments.picture.empty())
+        picture_ending(arguments.picture, "--picture", {"svg", "png", "pdf"});
+    require_distinct({{"the design", arguments.design}, {"--output", path}, {"--picture", arguments.picture}});
+    const DeviceFile file = load_device_file(arguments.design, parameter_values(arguments.set));
+    Layout layout = arguments.wafer ? draw_wafer_layout(file) : draw_device_layout(file);
+    const Table table = table_of(layout, file);
+    if (!arguments.picture.empty())
+        draw_layout(layout, arguments.picture);
+    if (!path.empty()) {
+        if (!arguments.mask)
+            add_masks(layout);
+        write_file(path, gds_stream(arguments.mask ? mask_library(layout, *arguments.mask) : layout.library));
+    }
+    JsonObject heading;
+    heading.add("design", file.name);
+    heading.add("top", layout.top);
+    deliver(table, arguments.output, heading, console);
+    return exit_success;
+}
+
+} // namespace graze

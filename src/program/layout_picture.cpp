@@ -1,0 +1,285 @@
+#include "program/layout_picture.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "program/gnuplot_text.hpp"
+#include "program/output_file.hpp"
+#include "program/picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+namespace graze {
+
+namespace {
+
+constexpr double page_width = 1000, page_height = 1420; ///< pixels, as all places on the page
+constexpr double letter = 15;                           ///< height of letters
+
+/// A rectangle of the page, from the upper left corner.
+struct PageBox {
+    double left, top, width, height;
+};
+
+struct LayerStyle {
+    MaskLayer layer;
+    const char* colour;
+};
+
+/// From the lowest to the uppermost.
+constexpr LayerStyle device_styles[] = {
+    {mask_layers::die, "#d9d9d9"},           {mask_layers::wafer, "#d9d9d9"},       {mask_layers::front, "#ffffff"},
+    {mask_layers::front_letters, "#ffffff"}, {mask_layers::front_marks, "#ffffff"}, {mask_layers::electrode, "#ee7733"},
+    {mask_layers::stops, "#666666"},         {mask_layers::mass, "#4477aa"},        {mask_layers::trusses, "#77aadd"},
+    {mask_layers::beams, "#225588"},
+};
+constexpr LayerStyle mask_styles[][3] = {
+    {{mask_layers::back, "#222222"}, {mask_layers::back_letters, "#222222"}, {mask_layers::back_marks, "#222222"}},
+    {{mask_layers::front, "#222222"}, {mask_layers::front_letters, "#222222"}, {mask_layers::front_marks, "#222222"}}};
+
+/// What is written beside the drawing, and where its line leads. Micrometres.
+struct PartLabel {
+    std::string text;
+    double x, y;
+    bool to_left;
+};
+
+class LayoutPicture {
+public:
+    LayoutPicture(const Layout& layout, const std::string& ending)
+        : layout_(&layout), ending_(ending), shapes_(flattened(layout.library, layout.top)) {
+        for (const PlacedShape& shape : shapes_)
+            by_layer_[shape.layer].push_back(&shape.polygon);
+    }
+
+    std::string text(const std::string& output) {
+        const bool is_wafer = !layout_->sites.empty();
+        const GridBox all = box_of(is_wafer ? mask_layers::wafer : mask_layers::die);
+        const PageBox schematic{0, 30, page_width, 860};
+        if (is_wafer)
+            draw_wafer(schematic, all);
+        else
+            draw_device(schematic);
+        const double side = 460, top = page_height - side - 10;
+        for (const int mask : {1, 2}) {
+            const PageBox place{mask == 1 ? 30 : page_width - side - 30, top, side, side};
+            begin_panel(place, all, 0.02);
+            outline(is_wafer ? mask_layers::wafer : mask_layers::die, "#888888");
+            for (const LayerStyle& style : mask_styles[mask - 1])
+                fill(style);
+            end_panel();
+            page_text(mask == 1 ? "mask 1: etched from the back (seen from the front)"
+                                : "mask 2: etched through from the front",
+                      place.left + side / 2, top - letter);
+        }
+        return head(output) + data_ + commands_ + "unset multiplot\nset output\n";
+    }
+
+private:
+    std::string head(const std::string& output) const {
+        const std::string font = fmt::format("font 'sans,{:.3g}'", ending_ == "pdf" ? 0.75 * letter : letter);
+        std::string terminal;
+        if (ending_ == "png")
+            terminal = fmt::format("pngcairo noenhanced size {:.0f},{:.0f} fontscale 0.75", page_width, page_height);
+        else if (ending_ == "pdf")
+            terminal = fmt::format("pdfcairo noenhanced size {:.3f}in,{:.3f}in", page_width / 96, page_height / 96);
+        else
+            terminal = fmt::format("svg noenhanced size {:.0f},{:.0f} background rgb 'white'", page_width, page_height);
+        return fmt::format("set terminal {} {}\nset output {}\nset encoding utf8\nunset key\nunset tics\nunset border\n"
+                           "set style fill solid\nset multiplot\n",
+                           terminal, font, quoted_path(output));
+    }
+
+    GridBox box_of(MaskLayer layer) const {
+        const auto found = by_layer_.find(layer);
+        if (found == by_layer_.end())
+            return {};
+        GridBox box = bounding_box(*found->second.front());
+        for (const GridPolygon* one : found->second)
+            box = box.with(bounding_box(*one));
+        return box;
+    }
+
+    /// What is drawn fills a part of the page, in its own proportions. @param margin of its larger side
+    void begin_panel(const PageBox& place, const GridBox& box, double margin, double side_room = 0) {
+        const double width = static_cast<double>(box.width()) / grid_per_micrometre;
+        const double height = static_cast<double>(box.height()) / grid_per_micrometre;
+        scale_ = std::max(width * (1 + 2 * margin) / (place.width - 2 * side_room),
+                          height * (1 + 2 * margin) / place.height);
+        const double x = static_cast<double>(box.left + box.right) / 2 / grid_per_micrometre;
+        const double y = static_cast<double>(box.bottom + box.top) / 2 / grid_per_micrometre;
+        left_ = x - scale_ * place.width / 2;
+        right_ = x + scale_ * place.width / 2;
+        bottom_ = y - scale_ * place.height / 2;
+        top_ = y + scale_ * place.height / 2;
+        commands_ += fmt::format(
+            "unset arrow\nunset label\nunset object\nset lmargin at screen {:.6g}\nset rmargin at screen {:.6g}\n"
+            "set tmargin at screen {:.6g}\nset bmargin at screen {:.6g}\n"
+            "set xrange [{:.10g}:{:.10g}]\nset yrange [{:.10g}:{:.10g}]\n",
+            place.left / page_width, (place.left + place.width) / page_width, 1 - place.top / page_height,
+            1 - (place.top + place.height) / page_height, left_, right_, bottom_, top_);
+    }
+
+    void end_panel() {
+        commands_ += "plot " + (plots_.empty() ? "NaN" : plots_) + '\n';
+        plots_.clear();
+    }
+
+    /// @param closed or else without the seam at y = 0, along which polygons touch
+    std::string block(MaskLayer layer, bool closed) {
+        const std::string name = fmt::format("$l{}_{}_{}", layer.layer, layer.datatype, ++blocks_);
+        data_ += name + " << EOD\n";
+        for (const GridPolygon* polygon : by_layer_[layer]) {
+            for (std::size_t i = 0; i <= polygon->size(); ++i) {
+                const GridPoint& point = (*polygon)[i % polygon->size()];
+                if (!closed && i > 0 && point.y == 0 && (*polygon)[i - 1].y == 0)
+                    data_ += '\n';
+                data_ += fmt::format("{:.10g} {:.10g}\n", static_cast<double>(point.x) / grid_per_micrometre,
+                                     static_cast<double>(point.y) / grid_per_micrometre);
+            }
+            data_ += '\n';
+        }
+        data_ += "EOD\n";
+        return name;
+    }
+
+    void fill(const LayerStyle& style) {
+        if (!by_layer_.contains(style.layer))
+            return;
+        if (!plots_.empty())
+            plots_ += ", ";
+        // With an edge of its own colour, or seams would show where polygons touch.
+        plots_ += fmt::format("{} with filledcurves closed fc rgb '{}' fs solid border lc rgb '{}' lw 0.3",
+                              block(style.layer, true), style.colour, style.colour);
+    }
+
+    void outline(MaskLayer layer, const char* colour, const char* dashes = "1") {
+        if (!by_layer_.contains(layer))
+            return;
+        if (!plots_.empty())
+            plots_ += ", ";
+        plots_ += fmt::format("{} with lines lc rgb '{}' dt {} lw 1", block(layer, layer != mask_layers::back), colour,
+                              dashes);
+    }
+
+    void page_text(const std::string& text, double x, double y) {
+        commands_ += fmt::format("set label \"{}\" at screen {:.6g},{:.6g} center\n", plain(text), x / page_width,
+                                 1 - y / page_height);
+        commands_ += "plot NaN\n";
+        commands_ += "unset label\n";
+    }
+
+    void draw_device(const PageBox& place) {
+        const DeviceDrawing& drawing = layout_->devices.front().drawing;
+        begin_panel(place, drawing.chamber_box, 0.06, 270);
+        for (const LayerStyle& style : device_styles)
+            fill(style);
+        outline(mask_layers::back, "#aa3377", "2");
+        outline(mask_layers::base, "#aa3377", "3");
+        const std::vector<PartLabel> labels = part_labels(drawing);
+        for (const bool to_left : {true, false})
+            write_labels(labels, to_left);
+        end_panel();
+    }
+
+    static std::vector<PartLabel> part_labels(const DeviceDrawing& drawing) {
+        const DeviceDimensions& d = drawing.dimensions;
+        const auto um = [](std::int64_t value) { return static_cast<double>(value) / grid_per_micrometre; };
+        const GridBox mass = bounding_box(drawing.mass), electrode = bounding_box(drawing.electrode);
+        const GridBox stop = bounding_box(drawing.stops.front()), lower_stop = bounding_box(drawing.stops.back());
+        const std::vector<GridBox> beams = drawing.beams(), trusses = drawing.trusses();
+        const GridBox &beam = beams[2 * d.folds], &chamber = drawing.chamber_box;
+        const double face = um(electrode.right);
+        const double upper_half = um(mass.top) - um(trusses.front().bottom);
+        return {
+            {"frame", um(chamber.left), um(chamber.top) + 0.6 * (um(chamber.top) - um(mass.top)), true},
+            {"chamber on the back", um(chamber.left) + um(chamber.width()) / 4, um(chamber.top), true},
+            {fmt::format("gap d = {:.6g} µm", d.gap), face + d.gap / 2, um(electrode.top) * 0.9, true},
+            {"fixed electrode", face - d.electrode_width / 2, um(electrode.top) * 0.55, true},
+            {"its bonded base", um(electrode.left) + d.base_inset, d.pad_width * 0.2, true},
+            {"contact pad", um(electrode.left) + d.pad_length * 0.3, -d.pad_width * 0.2, true},
+            {fmt::format("moat, {:.6g} µm", d.moat), um(electrode.left) + d.pad_length * 0.3,
+             -d.pad_width / 2 - d.moat / 2, true},
+            {fmt::format("folded flexure, {} beams", 4 * d.folds), um(beam.right), um(beam.top) - 0.15 * upper_half,
+             false},
+            {fmt::format("beam, {:.6g} by {:.6g} µm", d.flexure_width, d.flexure_length),
+             um(beams[2 * d.folds + 1].left), um(beam.top) - 0.4 * upper_half, false},
+            {"truss", um(trusses.front().right) - d.flexure_width, um(trusses.front().top) - d.truss_width / 2, false},
+            {"mass (H)", um(mass.right) - d.bar_width / 2,
+             um(stop.top) + 0.4 * (um(trusses.front().bottom) - um(stop.top)), false},
+            {fmt::format("stop, gap {:.6g} µm", d.stop_gap), um(stop.left) + d.stop_gap,
+             um(stop.top) - d.stop_width / 3, false},
+            {fmt::format("channel, {:.6g} µm", d.channel_width), um(chamber.right), 0, false},
+            {"stop", um(stop.left) + d.stop_gap, um(lower_stop.bottom) + d.stop_width / 3, false},
+            {"frame", um(chamber.right) + d.chamber_margin, um(chamber.bottom) * 0.6, false},
+        };
+    }
+
+    /// Below one another on one side, near to where their lines lead.
+    void write_labels(const std::vector<PartLabel>& labels, bool to_left) {
+        std::vector<PartLabel> here;
+        std::copy_if(labels.begin(), labels.end(), std::back_inserter(here),
+                     [&](const PartLabel& one) { return one.to_left == to_left; });
+        std::stable_sort(here.begin(), here.end(), [](const PartLabel& a, const PartLabel& b) { return a.y > b.y; });
+        const double step = 2.2 * letter * scale_;
+        std::vector<double> places;
+        for (const PartLabel& one : here)
+            places.push_back(places.empty() ? one.y : std::min(one.y, places.back() - step));
+        const double least = bottom_ + step;
+        for (std::size_t i = places.size(); i-- > 0;)
+            places[i] = std::max(places[i], i + 1 < places.size() ? places[i + 1] + step : least);
+        for (std::size_t i = 0; i < here.size(); ++i) {
+            const double room = 250 * scale_;
+            const double x = to_left ? left_ + room : right_ - room;
+            commands_ += fmt::format("set label \"{}\" at {:.10g},{:.10g} {} front\n", plain(here[i].text),
+                                     to_left ? x - 5 * scale_ : x + 5 * scale_, places[i], to_left ? "right" : "left");
+            commands_ += fmt::format("set arrow from {:.10g},{:.10g} to {:.10g},{:.10g} nohead lw 0.8 lc rgb '#000000' "
+                                     "front\n",
+                                     x, places[i], here[i].x, here[i].y);
+            commands_ +=
+                fmt::format("set object circle at {:.10g},{:.10g} size {:.6g} fc rgb '#000000' fs solid front\n",
+                            here[i].x, here[i].y, 2.5 * scale_);
+        }
+    }
+
+    void draw_wafer(const PageBox& place, const GridBox& all) {
+        begin_panel(place, all, 0.02);
+        fill({mask_layers::wafer, "#d9d9d9"});
+        outline(mask_layers::usable, "#888888", "2");
+        fill({mask_layers::back, "#bbaacc"});
+        for (const LayerStyle& style : device_styles)
+            if (style.layer != mask_layers::wafer && style.layer != mask_layers::die)
+                fill(style);
+        fill({mask_layers::back_marks, "#aa3377"});
+        fill({mask_layers::back_letters, "#bbaacc"});
+        outline(mask_layers::die, "#999999");
+        outline(mask_layers::wafer, "#444444");
+        end_panel();
+    }
+
+    const Layout* layout_;
+    std::string ending_;
+    std::vector<PlacedShape> shapes_;
+    std::map<MaskLayer, std::vector<const GridPolygon*>> by_layer_;
+    double scale_ = 1, left_ = 0, right_ = 0, bottom_ = 0, top_ = 0; ///< micrometres, the first for a pixel
+    std::string data_, commands_, plots_;
+    std::size_t blocks_ = 0;
+};
+
+} // namespace
+
+std::string layout_picture_script(const Layout& layout, const std::string& ending, const std::string& output) {
+    return LayoutPicture(layout, ending).text(output);
+}
+
+void draw_layout(const Layout& layout, const std::string& path) {
+    const std::string ending = picture_ending(path, "--picture", {"svg", "png", "pdf"});
+    FileReplacement file(path);
+    draw_by_gnuplot(layout_picture_script(layout, ending, file.temporary_path()), file, ending, path,
+                    "look whether this gnuplot is of version 5.2 or later");
+    file.commit();
+}
+
+} // namespace graze

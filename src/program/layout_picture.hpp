@@ -1,0 +1,16 @@
+#pragma once
+
+#include "graze/layout/layout.hpp"
+
+#include <string>
+
+namespace graze {
+
+/// The device with its parts named, or the wafer, and both masks below, drawn with gnuplot.
+/// @param ending svg, png or pdf; @param output the file that the commands write
+std::string layout_picture_script(const Layout& layout, const std::string& ending, const std::string& output);
+
+/// @throws InputError when gnuplot is missing or fails, or the file cannot be written
+void draw_layout(const Layout& layout, const std::string& path);
+
+} // namespace graze

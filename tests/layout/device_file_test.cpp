@@ -1,0 +1,92 @@
+#include "graze/layout/device_file.hpp"
+
+#include "graze/design/design.hpp"
+#include "graze/symbolic/input_errors.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+
+namespace graze::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string message(const std::string& device, const GivenLengths& given = {}) {
+    try {
+        parse_device_file("name = \"one\"\n[device]\n" + device, "one.toml", given);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(DeviceFile, ReadsLengthsInAnyUnitOnTheGrid) {
+    const DeviceFile file = parse_device_file(R"(name = "one"
+[device]
+gap = "12 um"
+stop_gap = "0.6*12"
+flexure_length = "1.2 mm"
+flexure_width = "5.5e-6 m"
+bar_width = 100.0004
+folds = 3
+[process]
+chamber_depth = "0.05 mm"
+[wafer]
+diameter = "10 cm"
+vary = { stop_gap = [5, "5500 nm"] }
+[rules]
+smallest_gap = "0.005 mm"
+)",
+                                              "one.toml");
+    EXPECT_EQ(file.device.gap, 12);
+    EXPECT_EQ(file.device.stop_gap, 7.2);
+    EXPECT_EQ(file.device.flexure_length, 1200);
+    EXPECT_EQ(file.device.flexure_width, 5.5);
+    EXPECT_EQ(file.device.bar_width, 100);
+    EXPECT_EQ(file.device.folds, 3U);
+    EXPECT_EQ(file.process.layer_thickness(), 250);
+    EXPECT_EQ(file.wafer.diameter, 100'000);
+    EXPECT_EQ(file.rules.smallest_gap, 5);
+    ASSERT_EQ(file.wafer.vary.size(), 1U);
+    EXPECT_EQ(file.wafer.vary[0].second, (std::vector<double>{5, 5.5}));
+    EXPECT_EQ(file.place("device.gap").text(), "one.toml:3:7");
+    EXPECT_EQ(file.place("device.moat").text(), "one.toml:2:2") << "the section's";
+    EXPECT_EQ(file.place("none").text(), "one.toml:1:1");
+}
+
+TEST(DeviceFile, SaysWhatIsWrongAndWhere) {
+    const std::vector<std::pair<std::string, std::string>> mistakes{
+        {"gap = -3", "one.toml:3:7: device.gap is -3 um, not positive; give a positive length"},
+        {"gap = 0", "one.toml:3:7: device.gap is 0 um, not positive; give a positive length"},
+        {"gap = nan", "one.toml:3:7: device.gap is not a finite number; give a finite number"},
+        {"gap = \"1/0\"", "one.toml:3:8: '1/0' has no finite value"},
+        {"gap = 1e9", "one.toml:3:7: device.gap is 1000000000 um, more than a metre"},
+        {"gap = \"0.1 nm\"", "one.toml:3:7: device.gap is 0.0001 um, less than the grid of 1 nm"},
+        {"gap = \"3 inch\"", "one.toml:3:"},
+        {"gap = true", "one.toml:3:7: device.gap must be a number or an expression"},
+        {"folds = 0", "one.toml:3:9: device.folds is 0; give a whole number from 1 to 100"},
+        {"gapp = 3", "one.toml:3:1: unknown key 'gapp' in device; did you mean 'gap'?"},
+        {"[wafr]", "unknown key 'wafr'; did you mean 'wafer'?"},
+        {"[process]\nchamber_depth = 300", "one.toml:4:17: the chambers, 300 um deep, leave nothing of the wafer"},
+        {"[wafer]\nvary = { gapp = [1] }", "one.toml:4:10: unknown key 'gapp' in wafer.vary; did you mean 'gap'?"},
+    };
+    for (const auto& [text, said] : mistakes)
+        EXPECT_THAT(message(text), HasSubstr(said));
+    EXPECT_THAT(message("", {{"gap", -1}}), HasSubstr("--set gap: gap is -1 um, not positive"));
+    EXPECT_THAT(message("", {{"gab", 1}}),
+                HasSubstr("--set gab: a device has no dimension 'gab'; did you mean 'gap'?"));
+    EXPECT_THAT(message("", {{"folds", 1.5}}), HasSubstr("give a whole number"));
+    EXPECT_THROW(parse_device_file("name = \"one\"\n", "one.toml"), InputError) << "nothing to be drawn";
+    EXPECT_THROW(parse_device_file("[device]\n", "one.toml"), InputError) << "no name";
+}
+
+TEST(DeviceFile, IsReadByTheDesignerToo) {
+    const DeviceFile file = load_device_file("mems-switch-device", {{"gap", 20}});
+    EXPECT_EQ(file.device.gap, 20);
+    EXPECT_EQ(file.place("device.gap").file, "--set gap");
+    EXPECT_EQ(load_design("mems-switch-device").name, file.name);
+}
+
+} // namespace
+} // namespace graze::testing

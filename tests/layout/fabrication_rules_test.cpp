@@ -1,0 +1,109 @@
+#include "graze/layout/fabrication_rules.hpp"
+
+#include "graze/symbolic/input_errors.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+
+namespace graze {
+namespace {
+
+using ::testing::HasSubstr;
+
+DeviceFile shipped() {
+    return load_device_file("mems-switch-device");
+}
+
+std::vector<RuleFinding> found(const DeviceFile& file) {
+    return rule_findings(file, draw_device_layout(file));
+}
+
+const RuleFinding& of(const std::vector<RuleFinding>& findings, const std::string& rule) {
+    return *std::find_if(findings.begin(), findings.end(), [&](const auto& one) { return one.rule == rule; });
+}
+
+/// What is said when a rule is broken; empty where all hold.
+std::string message(const DeviceFile& file) {
+    try {
+        require_rules(file, found(file));
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(FabricationRules, MeasureTheShippedDevice) {
+    const DeviceFile file = shipped();
+    const std::vector<RuleFinding> findings = found(file);
+    ASSERT_EQ(findings.size(), rule_fields().size());
+    for (std::size_t i = 0; i < findings.size(); ++i) {
+        EXPECT_EQ(findings[i].rule, rule_fields()[i].name);
+        EXPECT_TRUE(findings[i].holds()) << findings[i].text();
+    }
+    EXPECT_EQ(of(findings, "smallest_line").value, 7);
+    EXPECT_EQ(of(findings, "smallest_line").part, "a beam");
+    EXPECT_EQ(of(findings, "smallest_gap").value, 8.4);
+    EXPECT_EQ(of(findings, "smallest_gap").part, "the trench between the mass and a stop");
+    EXPECT_NEAR(of(findings, "largest_aspect").value, 250 / 8.4, 1e-12);
+    EXPECT_EQ(of(findings, "undercut").value, 40);
+    // The chamber reaches 50 um beyond what is etched, that 40 um beyond the mass; the base is 14.185 + 40 um away.
+    EXPECT_NEAR(of(findings, "chamber_overlap").value, 54.185, 1e-9);
+    EXPECT_NEAR(of(findings, "largest_stop_share").value, 9 / 14.785, 1e-12);
+    EXPECT_EQ(message(file), "");
+}
+
+TEST(FabricationRules, AreBrokenByDimensions) {
+    const auto broken = [](auto change) {
+        DeviceFile file = shipped();
+        change(file);
+        return message(file);
+    };
+    EXPECT_THAT(broken([](DeviceFile& f) { f.device.flexure_width = 4.9; }),
+                HasSubstr("rule smallest_line is 4.9 um for a beam, at ("));
+    EXPECT_THAT(broken([](DeviceFile& f) { f.device.stop_gap = 5.5; }),
+                HasSubstr("smallest_gap is 5.5 um for the trench between the mass and a stop, at ("));
+    EXPECT_THAT(broken([](DeviceFile& f) { f.rules.largest_aspect = 20; }), HasSubstr("at most 20 is allowed"));
+    EXPECT_THAT(broken([](DeviceFile& f) { f.device.base_inset = 28; }), HasSubstr("undercut is 28 um"));
+    EXPECT_THAT(broken([](DeviceFile& f) { f.device.stop_gap = 14; }), HasSubstr("largest_stop_share is"));
+    EXPECT_THAT(broken([](DeviceFile& f) { f.rules.largest_stress = 15; }),
+                HasSubstr("largest_stress is 18.1155 MPa for a beam, when the electrodes touch"));
+    EXPECT_THAT(broken([](DeviceFile& f) { f.rules.largest_squeeze = 0.05; }), HasSubstr("largest_squeeze is"));
+    // Without a margin the chamber ends with the trench around the mass.
+    EXPECT_THAT(broken([](DeviceFile& f) {
+                    f.device.chamber_margin = 0;
+                    f.rules.chamber_overlap = 45;
+                }),
+                HasSubstr("chamber_overlap is 40 um for the mass"));
+}
+
+TEST(FabricationRules, TellEachBrokenOneWithItsPlaceInTheFile) {
+    DeviceFile file = shipped();
+    file.device.stop_gap = 5;
+    file.device.flexure_width = 4;
+    try {
+        require_rules(file, found(file));
+        FAIL();
+    } catch (const InputErrors& errors) {
+        EXPECT_GT(errors.all().size(), 4U); // every beam, both stops, the aspect of these
+        for (const InputError& error : errors.all())
+            EXPECT_GT(error.place().line, 1U);
+    }
+}
+
+TEST(FabricationRules, KnowWhatReachesOutOfItsChamber) {
+    const DeviceFile file = shipped();
+    Layout layout = draw_device_layout(file);
+    // The mass is drawn a millimetre aside from its chamber.
+    for (GridPoint& corner : layout.devices[0].drawing.mass)
+        corner.y += 1'000'000;
+    const std::vector<RuleFinding> findings = rule_findings(file, layout, layout.devices[0]);
+    const RuleFinding& overlap = of(findings, "chamber_overlap");
+    EXPECT_FALSE(overlap.holds());
+    EXPECT_LT(overlap.value, -800);
+    EXPECT_THAT(overlap.part, HasSubstr("the mass, which reaches out of it"));
+}
+
+} // namespace
+} // namespace graze

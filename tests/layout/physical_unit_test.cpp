@@ -1,0 +1,38 @@
+#include "graze/layout/physical_unit.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+
+#include <gtest/gtest.h>
+
+namespace graze {
+namespace {
+
+double in(double value, const char* from, const char* to) {
+    return converted(value, physical_unit(from), physical_unit(to));
+}
+
+TEST(PhysicalUnit, ConvertsWithOneRounding) {
+    EXPECT_EQ(in(14.6e-9, "kg", "ug"), 14.6);
+    EXPECT_EQ(in(250000, "um^2", "m^2"), 2.5e-7);
+    EXPECT_EQ(in(0.3, "um", "m"), 0.3e-6);
+    EXPECT_EQ(in(1, "N/m", "kg/s^2"), 1);
+    EXPECT_EQ(in(2330, "kg/m^3", "g/cm^3"), 2.33);
+    EXPECT_EQ(in(1, "F V", "A s"), 1);
+    EXPECT_EQ(in(1, "kHz", "1/ms"), 1);
+    EXPECT_EQ(in(1, "Pa s", "N s/m^2"), 1);
+    EXPECT_EQ(in(1, "GPa", "N/um^2"), 1e-3);
+    EXPECT_EQ(in(1, "μm", "µm"), 1);
+    EXPECT_EQ(in(3, "rad/ms", "1/s"), 3000);
+    EXPECT_EQ(in(1, "Mm", "nm"), 1e15); // from nano to mega
+    EXPECT_EQ(physical_unit(""), PhysicalUnit());
+}
+
+TEST(PhysicalUnit, RefusesOthers) {
+    for (const char* wrong : {"inch", "um^", "um^x", "um^99", "xm", "um^1.5", "kk", "(m)"})
+        EXPECT_THROW(physical_unit(wrong), InputError) << wrong;
+    EXPECT_THROW(in(1, "um", "um^2"), InputError);
+    EXPECT_THROW(in(1, "deg", "rad"), InputError); // no power of ten
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,18 @@
+#include "graze/symbolic/trimmed.hpp"
+
+#include <gtest/gtest.h>
+
+namespace graze {
+namespace {
+
+TEST(Trimmed, LeavesWhatIsBetweenBlanks) {
+    EXPECT_EQ(trimmed(" \ta b\t "), "a b");
+    EXPECT_EQ(trimmed("a"), "a");
+    EXPECT_EQ(trimmed(" \t "), "");
+    EXPECT_EQ(trimmed(""), "");
+    EXPECT_EQ(trimmed(" a\n"), "a\n");
+    EXPECT_EQ(trimmed(" a\n", " \n"), "a");
+}
+
+} // namespace
+} // namespace graze
