@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 namespace graze {
 
@@ -17,12 +16,6 @@ namespace {
 
 constexpr std::size_t most_overshoots = 100, most_dimensions = 50, most_planes = 20, most_points = 401,
                       most_devices = 1'000'000;
-
-/// Relative to the folder of the file that names it.
-std::string beside(const std::string& file, const std::string& path) {
-    return std::filesystem::path(path).is_relative() ? (std::filesystem::path(file).parent_path() / path).string()
-                                                     : path;
-}
 
 /// An error of what has no place of its own stands where it is named.
 template <class Work>

@@ -17,6 +17,7 @@ namespace graze {
 /// designer's.
 struct DeviceFile {
     std::string name, text, file;
+    std::string model = "mems-switch-device"; ///< a shipped one, or a path: whose parameters the device has
     DeviceDimensions device;
     ProcessData process;
     ProcessConditions conditions; ///< of [process], too
