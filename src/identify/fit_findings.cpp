@@ -10,6 +10,9 @@ namespace graze {
 
 namespace {
 
+/// No reading is right to more than that of its range.
+constexpr double round_off = 1e-12;
+
 /// What is left of readings, output by output, in the order of records and times.
 struct Rests {
     std::vector<std::vector<double>> of_output;
@@ -121,7 +124,8 @@ double variance_of(const FitRows& rows, const Rests& rests, double freedom) {
                 pull = u / part;
                 slope = (2 - part) / (part * part);
             }
-            squares += pull * pull;
+            const double rounded = round_off * rows.range(o) / rows.noise[o];
+            squares += pull * pull + rounded * rounded;
             slopes += slope;
             count += 1;
         }
@@ -138,7 +142,7 @@ std::string text_of(const std::vector<FreeCombination::Part>& parts, const std::
 
 FreeCombination combination(const FitDecomposition& parts, Eigen::Index k, const std::vector<FittedNumber>& numbers,
                             const std::vector<double>& scales, const std::vector<std::size_t>& order) {
-    constexpr double least = 0.01;
+    constexpr double least = 0.01, nothing = 1e-6;
     FreeCombination result;
     result.strength = parts.values[0] > 0 ? parts.values[k] / parts.values[0] : 0;
     std::vector<FreeCombination::Part> all;
@@ -147,7 +151,7 @@ FreeCombination combination(const FitDecomposition& parts, Eigen::Index k, const
         const auto c = static_cast<Eigen::Index>(i);
         const double length = parts.lengths[c] > 0 ? parts.lengths[c] : 1, value = numbers[order[i]].estimate.value;
         const double change = parts.directions(c, k) / length;
-        all.push_back({order[i], value != 0 ? change * scales[i] / value : change});
+        all.push_back({order[i], std::abs(value) > nothing * scales[i] ? change * scales[i] / value : change});
         largest = std::abs(all.back().change) > std::abs(largest) ? all.back().change : largest;
     }
     for (FreeCombination::Part part : all) {
@@ -191,6 +195,7 @@ void describe_outputs(const FitRows& rows, const Rests& rests, Fit& fit) {
                     pairs += 1;
                 }
             }
+        output.unchanging = spread == 0;
         output.share = spread > 0 ? 1 - squares / spread : 0;
         output.correlation = squares > 0 ? products / squares : 0;
         output.independent = std::abs(output.correlation) * std::sqrt(std::max(pairs, 1.0)) <= chance;
@@ -204,7 +209,6 @@ void describe_outputs(const FitRows& rows, const Rests& rests, Fit& fit) {
 
 /// Of what is left of an output, unless the noise was given.
 double noise_of(const FitRows& rows, std::size_t output, std::vector<double> rests) {
-    constexpr double floor = 1e-12; // of ranges: round-off
     if (const double given = rows.task().outputs[output].noise; given > 0)
         return given;
     const auto readings = static_cast<double>(readings_of(rows.task()));
@@ -218,7 +222,7 @@ double noise_of(const FitRows& rows, std::size_t output, std::vector<double> res
         std::nth_element(rests.begin(), middle, rests.end());
         noise = of_normal * *middle / std::sqrt(freed);
     }
-    return std::max(noise, floor * rows.range(output));
+    return std::max(noise, round_off * rows.range(output));
 }
 
 /// Numbers with errors and correlations, and what is not told.
@@ -241,6 +245,8 @@ void describe_numbers(const FitRows& rows, const FitPoint& point, const std::vec
         const auto c = static_cast<Eigen::Index>(i);
         if (parts.known[i]) {
             numbers[i].estimate.error = scales[i] * std::sqrt(variance * parts.covariance(c, c));
+            if (rows.robust && rows.loss() == FitLoss::squares) // what a contact at a reading keeps it from
+                numbers[i].estimate.error = std::hypot(numbers[i].estimate.error, scales[i] * parts.step[c]);
             numbers[i].estimate.freedom = fit.freedom;
             for (std::size_t j = 0; j < numbers.size(); ++j) {
                 const auto d = static_cast<Eigen::Index>(j);
@@ -315,7 +321,7 @@ std::string unreadable(const FitRows& rows, const std::vector<PieceRows>& known)
 }
 
 FitChecks check_point(const FitRows& rows, const FitPoint& point, const std::vector<PieceRows>& known, double joint) {
-    constexpr double part_of_error = 0.01, nothing = 1e-9, part_of_noise = 1e-3;
+    constexpr double nothing = 1e-9, part_of_noise = 1e-3;
     FitChecks checks;
     double squares = 0;
     const std::vector<FitPiece>& pieces = rows.layout.pieces;
@@ -347,9 +353,10 @@ FitChecks check_point(const FitRows& rows, const FitPoint& point, const std::vec
         const double slope = information.rows.col(first + j).dot(information.rows.col(count));
         beyond = beyond && (unknown.greatest - value < value - unknown.least ? slope <= 0 : slope >= 0);
     }
-    const bool still = std::sqrt(parts.gain + information.eliminated) <= part_of_error * size ||
-                       parts.step.size() == 0 || parts.step.lpNorm<Eigen::Infinity>() <= nothing;
-    checks.stationary = beyond && still;
+    checks.off = parts.step.size() == 0 || parts.step.lpNorm<Eigen::Infinity>() <= nothing
+                     ? 0
+                     : std::sqrt(parts.gain + information.eliminated) / size;
+    checks.held_well = beyond;
     return checks;
 }
 

@@ -16,7 +16,8 @@ void describe(FitRows& rows, const FitPoint& point, const std::vector<PieceRows>
 
 /// What makes a point the result, or not: half of the reasons are words for Fit::detail.
 struct FitChecks {
-    bool stationary = false; ///< a further step would change the numbers by a hundredth of their errors at most
+    double off = 0;        ///< how far a further step would change the numbers, relative to their errors
+    bool held_well = true; ///< numbers at bounds would go beyond
     double gap = 0, allowed_gap = 0;
     std::string broken; ///< the first motion that ends early; empty without
     bool modes_agree = true;

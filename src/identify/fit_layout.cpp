@@ -47,6 +47,27 @@ void require_outputs(const FitTask& task) {
     }
 }
 
+/// A reading that is out of all proportion leaves no digits to the others.
+void require_proportion(const FitTask& task) {
+    constexpr double most = 1e12;
+    for (std::size_t r = 0; r < task.records.size(); ++r)
+        for (const FitRecord::Readings& readings : task.records[r].readings) {
+            std::vector<double> sizes;
+            for (const double value : readings.values)
+                sizes.push_back(std::abs(value));
+            const auto upper = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() * 3 / 4);
+            std::nth_element(sizes.begin(), upper, sizes.end());
+            for (std::size_t i = 0; i < readings.values.size(); ++i)
+                if (const double size = std::abs(readings.values[i]); *upper > 0 && size / most > *upper)
+                    throw InputError(
+                        fmt::format("the reading {:.6g} of '{}' at time {:.9g}{} is out of all proportion: three "
+                                    "quarters of its readings are {:.6g} at most",
+                                    readings.values[i], task.outputs[readings.output].name, task.records[r].times[i],
+                                    task.records.size() > 1 ? fmt::format(" of record {}", r + 1) : "", *upper),
+                        "leave that row out");
+        }
+}
+
 void require_record(const System& system, const FitTask& task, const FitRecord& record) {
     const std::size_t times = record.times.size();
     if (times < 2 || record.readings.empty())
@@ -118,6 +139,7 @@ void require_task(const System& system, const FitTask& task, const FitSettings& 
         unknown += record.unknown_states.size();
         readings += record.times.size() * record.readings.size();
     }
+    require_proportion(task);
     if (unknown == 0)
         throw InputError("nothing is to be found", "name a parameter, gain, offset or state that is not known");
     if (readings <= unknown)

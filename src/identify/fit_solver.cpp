@@ -234,6 +234,7 @@ StageReport minimise(FitRows& rows, FitPoint& point, const FitStage& stage, cons
     report.interrupted = summary.termination_type == ceres::USER_FAILURE || rows.is_interrupted();
     report.failed = summary.termination_type == ceres::FAILURE;
     report.cost = summary.final_cost;
+    report.gained = summary.initial_cost - summary.final_cost;
     report.iterations = static_cast<int>(summary.iterations.size());
     return report;
 }

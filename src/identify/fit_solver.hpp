@@ -22,7 +22,8 @@ struct StageReport {
     bool converged = false, interrupted = false;
     bool failed = false; ///< nothing could be evaluated at the point itself
     int iterations = 0;
-    double cost = 0; ///< half the sum of squares that is left
+    double cost = 0;   ///< half the sum of squares that is left
+    double gained = 0; ///< by how much that is less than at the beginning
 };
 
 /// What is told after each iteration: its number, and half the sum of squares. @return false to end

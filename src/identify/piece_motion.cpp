@@ -238,9 +238,11 @@ const PredictedMotion& PieceMotion::follow(const MotionPiece& piece) {
     motion_.complete = trajectory.outcome().ending == Ending::end_time;
     motion_.differentiable = motion_.differentiable && trajectory.tangents_valid();
     if (!motion_.complete)
-        motion_.detail = fmt::format("the motion ends at time {:.9g}: {}{}{}", trajectory.outcome().time,
-                                     name_of(trajectory.outcome().ending),
-                                     trajectory.outcome().detail.empty() ? "" : ", ", trajectory.outcome().detail);
+        motion_.detail = fmt::format(
+            "the motion ends at time {:.9g}: {}{}{}{}", trajectory.outcome().time, name_of(trajectory.outcome().ending),
+            trajectory.outcome().detail.empty() ? "" : ", ", trajectory.outcome().detail,
+            trajectory.outcome().ending == Ending::chatter ? " in the model"
+                                                           : "; begin from other guesses, or bound parameters");
     for (std::size_t i = watcher.taken(); i < piece.times.size(); ++i)
         take(i, motion_.end_state, motion_.end_derivatives);
     return motion_;

@@ -138,14 +138,21 @@ void DeviceFileReader::read_vary(const TomlEntry& entry) {
     reader_.each_of(entry, {}, [&](const TomlEntry& item) {
         result_.places.emplace(item.path, reader_.toml().place(*item.node));
         const LengthField<DeviceDimensions>* field = field_named(device_fields(), item.name);
-        if (!field)
-            fail_unknown(item, entry.path, names_of_fields(device_fields()));
+        const bool folds = item.name == "folds";
+        if (!field && !folds) {
+            std::vector<std::string> known = names_of_fields(device_fields());
+            known.emplace_back("folds");
+            fail_unknown(item, entry.path, known);
+        }
         const std::vector<TomlEntry> items = reader_.toml().elements(item);
         if (items.empty() || items.size() > most_values)
             reader_.fail(item, fmt::format("{} has {} values", item.path, items.size()),
                          fmt::format("give from 1 to {}", most_values));
         auto& [name, values] = result_.wafer.vary.emplace_back(item.name, std::vector<double>());
-        reader_.each(items, [&](const TomlEntry& one) { values.push_back(length(one, field->may_be_zero)); });
+        reader_.each(items, [&](const TomlEntry& one) {
+            values.push_back(folds ? static_cast<double>(reader_.count(one, 1, most_folds))
+                                   : length(one, field->may_be_zero));
+        });
     });
 }
 

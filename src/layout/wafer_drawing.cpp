@@ -67,10 +67,14 @@ private:
         std::vector<DeviceDimensions> different;
         for (std::size_t i = 0; i < plan_.devices; ++i) {
             DeviceDimensions one = file_.device;
-            for (const auto& [name, values] : plan_.vary)
+            for (const auto& [name, values] : plan_.vary) {
+                const double value = values[i % values.size()];
+                if (name == "folds")
+                    one.folds = static_cast<std::size_t>(value);
                 for (const LengthField<DeviceDimensions>& field : device_fields())
                     if (name == field.name)
-                        one.*field.member = values[i % values.size()];
+                        one.*field.member = value;
+            }
             const auto found = std::find(different.begin(), different.end(), one);
             layout_.sites.push_back(static_cast<std::size_t>(found - different.begin()));
             if (found == different.end())
@@ -163,6 +167,11 @@ private:
         require(height >= letter_rows, "label_height", "the letters are too small to be drawn",
                 "give a greater label_height, or 0 for none");
         const TurnedBox box({-(width / 2), -2 * height, width - width / 2, 2 * height}, {}, 0);
+        const double usable = radius_ - grid_per_micrometre * plan_.exclusion;
+        for (const BoxCorner& corner : box.corners())
+            require(std::hypot(corner.x, corner.y) <= usable, key,
+                    fmt::format("the letters '{}' reach beyond the part for devices", label(1)),
+                    "give a shorter label or a smaller label_height");
         for (std::size_t i = 0; i < dies_.size(); ++i)
             require(!box.meets(dies_[i]) && !box.meets(channels_[i]), key,
                     fmt::format("the letters '{}' lie on {}", label(1), number(i)),

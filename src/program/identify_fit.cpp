@@ -164,7 +164,7 @@ ParameterFile parameter_file(const Fit& fit, const FitRequest& request) {
 }
 
 /// What makes one doubt the errors, or the model.
-void warn(const Fit& fit, const Console& console) {
+void warn(const Fit& fit, const FitRequest& request, const Console& console) {
     const auto say = [&](const std::string& text) { console.err << "graze: warning: " << text << '\n'; };
     for (const FreeCombination& free : fit.free)
         say(fmt::format("readings do not tell {}", free.text));
@@ -173,7 +173,12 @@ void warn(const Fit& fit, const Console& console) {
         misplaced += record.misplaced;
     if (misplaced > 0)
         say(fmt::format("at {} times readings were on the other side of a contact", misplaced));
-    for (const FittedOutput& output : fit.outputs) {
+    for (std::size_t o = 0; o < fit.outputs.size(); ++o) {
+        const FittedOutput& output = fit.outputs[o];
+        if (output.unchanging && !(request.task.outputs[o].noise > 0))
+            say(fmt::format("all readings of '{}' are the same, which tells nothing of their noise: say it by "
+                            "--deviation {}=VALUE; errors are too small",
+                            output.name, output.name));
         constexpr double deviations = 5;
         if (output.chi_square > 1 + deviations * std::sqrt(2 / static_cast<double>(output.readings)))
             say(fmt::format("what is left of '{}' is {:.3g} times as large as its noise", output.name,
@@ -249,7 +254,7 @@ int identify_fit(const IdentifyArguments& arguments, const Console& console) {
     const bool kept = usable || fit.ending == FitEnding::misfit;
     if (!arguments.save.empty() && kept)
         write_file(arguments.save, write_parameter_file(parameter_file(fit, request)));
-    warn(fit, console);
+    warn(fit, request, console);
     if (!usable)
         console.err << fmt::format("graze: {}: {}{}\n", name_of(fit.ending), fit.detail,
                                    arguments.save.empty() || kept ? "" : "; nothing is saved");

@@ -34,7 +34,8 @@ void declare_layout_command(CLI::App& app, Arguments& arguments) {
     command.add_flag("--wafer", layout.wafer, "The wafer with its devices, instead of one")->group("What is drawn");
     declare_option(command, "What is drawn", "--mask", layout.mask, "N", "Mask 1 (mirrored) or 2 alone")
         ->check(whole_number(1, 2));
-    declare_option(command, "Where results go", "--output", layout.file, "FILE", "Write the drawing as GDSII (.gds)");
+    declare_option(command, "Where results go", "--output", layout.file, "FILE",
+                   "Write the drawing as GDSII (.gds), or a picture as --picture does");
     declare_option(command, "Where results go", "--picture", layout.picture, "FILE",
                    "Draw a picture (.svg, .png or .pdf)");
     declare_option(command, "Where results go", "--parameters", layout.parameters, "FILE",

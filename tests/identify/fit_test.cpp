@@ -1,6 +1,7 @@
 #include "graze/identify/fit.hpp"
 
 #include "graze/model/model_file.hpp"
+#include "graze/symbolic/input_error.hpp"
 #include "identify/recorded_motion.hpp"
 #include "identify/wall_model.hpp"
 
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 namespace graze::testing {
 
@@ -197,6 +199,122 @@ rates = { x = "v", v = "cos(w*tau) - 4*x - c*v", tau = 1 }
         motion.forget(name, 1.05);
     motion.forget_states();
     expect_found(motion);
+}
+
+namespace {
+
+/// A ball that is dropped: it comes to rest after infinitely many bounces.
+Model dropped_ball(const std::string& chatter = "chatter = { jump = \"stop\", mode = \"rest\" }") {
+    return parse_model(R"(
+name = "drop"
+[parameters]
+g = 9.81
+e = 0.6
+[states]
+x = { initial = 1 }
+v = { initial = 0 }
+[initial]
+mode = "fall"
+[modes.fall]
+rates = { x = "v", v = "-g" }
+watch = ["floor"]
+[modes.rest]
+rates = { x = 0, v = 0 }
+[events.floor]
+function = "x"
+[jumps.bounce]
+v = "-e*v"
+[jumps.stop]
+v = 0
+x = 0
+[[transitions]]
+mode = "fall"
+event = "floor"
+jump = "bounce"
+next = "fall"
+)" + chatter,
+                       "drop.toml");
+}
+
+} // namespace
+
+/// More than half of the record is rest, with readings on both sides of the floor.
+TEST(Fit, BearsRestAfterChatter) {
+    for (const std::uint64_t seed : {1, 2, 3}) {
+        RecordedMotion motion(dropped_ball(), {"x"}, 0, 0.01, 400);
+        ASSERT_GT(motion.contacts, 10U);
+        motion.forget("g", 0.97);
+        motion.forget("e", 0.95);
+        motion.forget_states();
+        motion.add_noise(0.02, seed);
+        const Fit fit = fit_model(motion.model, motion.task);
+        EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
+        for (std::size_t j = 0; j < 2; ++j) // by chance once in 3000 fits
+            EXPECT_LE(std::abs(fit.numbers[j].estimate.value - motion.truth(j)), 4 * fit.numbers[j].estimate.error);
+    }
+}
+
+TEST(Fit, SaysThatTheModelDoesNotTellWhatFollowsChatter) {
+    RecordedMotion motion(dropped_ball(), {"x"}, 0, 0.02, 200);
+    motion.model = dropped_ball("");
+    motion.forget("e", 1.01);
+    const Fit fit = fit_model(motion.model, motion.task);
+    EXPECT_EQ(name_of(fit.ending), "broken");
+    EXPECT_THAT(fit.detail, ::testing::HasSubstr("give it `chatter = { jump = ..., mode = ... }` in the model"));
+    EXPECT_THAT(fit.detail, ::testing::Not(::testing::HasSubstr("guesses")));
+}
+
+/// An output that is nought for ever, and one that is large only as another is small.
+TEST(Fit, NamesGainsThatNothingTells) {
+    const Model model = parse_model(R"(
+name = "two"
+[parameters]
+k = 2
+[states]
+x = { initial = 1 }
+z = { initial = 0 }
+[modes.m]
+rates = { x = "-k*x", z = "-z" }
+)",
+                                    "two.toml");
+    for (const bool noise : {false, true}) {
+        RecordedMotion motion(model, {"x", "z"}, 0, 0.05, 60);
+        motion.forget("k", 1.1);
+        motion.task.outputs[0].gain_unknown = motion.task.outputs[1].gain_unknown = true;
+        motion.task.records[0].unknown_states = {0};
+        if (noise)
+            motion.add_noise(0.01, 5);
+        const Fit fit = fit_model(motion.model, motion.task);
+        EXPECT_EQ(name_of(fit.ending), "undetermined") << fit.detail;
+        ASSERT_EQ(fit.free.size(), 2U);
+        EXPECT_THAT(fit.free[0].text + fit.free[1].text, ::testing::HasSubstr("gain of z"));
+        EXPECT_THAT(fit.free[0].text + fit.free[1].text, ::testing::HasSubstr("gain of x"));
+        EXPECT_THAT(fit.free[0].text + fit.free[1].text, ::testing::HasSubstr("x(0)"));
+    }
+}
+
+TEST(Fit, NamesAReadingThatIsOutOfAllProportion) {
+    RecordedMotion motion(dropped_ball(), {"x", "v"}, 0, 0.02, 50);
+    motion.forget("g", 1.1);
+    motion.task.records[0].readings[1].values[7] = -1e308;
+    try {
+        fit_model(motion.model, motion.task);
+        FAIL() << "it was fitted";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), ::testing::HasSubstr("the reading -1e+308 of 'v' at time 0.14 is out of"));
+    }
+}
+
+/// A converter that is stuck tells nothing of its noise.
+TEST(Fit, AConstantChannelHasNoExactInterval) {
+    const Model model = parse_model("name = \"still\"\n[parameters]\nc = 5\n[states]\nx = { initial = 1 }\n"
+                                    "[modes.m]\nrates = { x = 0 }\n",
+                                    "still.toml");
+    RecordedMotion motion(model, {"x"}, 0, 0.1, 30);
+    motion.task.outputs[0].offset_unknown = true;
+    const Fit fit = fit_model(motion.model, motion.task);
+    EXPECT_TRUE(fit.outputs[0].unchanging);
+    EXPECT_GT(fit.numbers[0].estimate.half_width(), 0);
 }
 
 } // namespace graze::testing

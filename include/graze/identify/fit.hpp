@@ -116,6 +116,7 @@ struct FittedOutput {
     double correlation = 0;   ///< of neighbouring residuals
     bool independent = true;  ///< that is no more than chance makes it (four standard deviations)
     std::size_t outliers = 0; ///< readings further off than five standard deviations
+    bool unchanging = false;  ///< all its readings are the same, which tells nothing of their noise
 };
 
 struct FittedRecord {
