@@ -4,6 +4,7 @@
 #include "graze/model/catalogue.hpp"
 #include "graze/symbolic/file_name.hpp"
 #include "layout/quantity_reader.hpp"
+#include "layout/spread_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -234,7 +235,8 @@ DeviceFile DeviceFileReader::read(const toml::table& root, const GivenLengths& g
     StudyReader::each(reader_.toml().entries(root, ""), [&](const TomlEntry& entry) {
         mistakes_.attempt([&] {
             require_design_key(reader_.toml(), entry);
-            if (entry.name == "device" || entry.name == "process" || entry.name == "wafer" || entry.name == "rules")
+            if (entry.name == "device" || entry.name == "process" || entry.name == "wafer" || entry.name == "rules" ||
+                entry.name == "spread")
                 result_.places.emplace(entry.name, entry.place);
             if (entry.name == "name") {
                 result_.name = reader_.toml().string(entry);
@@ -252,6 +254,8 @@ DeviceFile DeviceFileReader::read(const toml::table& root, const GivenLengths& g
                 read_process(entry);
             } else if (entry.name == "rules") {
                 read_rules(entry);
+            } else if (entry.name == "spread") {
+                result_.spread = read_spread(reader_, entry);
             } else if (entry.name == "wafer") {
                 read_wafer(entry);
             }
