@@ -29,7 +29,11 @@ public:
     }
 
     std::string text(const std::string& ending, const std::string& output) {
-        return head(ending, output) + outlines() + devices() + plot();
+        std::string text = head(ending, output);
+        text += outlines();
+        text += devices(); // says what there is to be plotted
+        text += plot();
+        return text;
     }
 
 private:
@@ -104,12 +108,17 @@ private:
                 rings += at + "\n";
                 has_rings_ = true;
             }
-            // Towards the middle there is room for the value.
-            constexpr double nearer = 0.68;
+            // Beside what lies to the sides, beyond what lies above or below: there the values of eight devices have
+            // room.
             constexpr std::size_t few = 12; // devices on a wafer
+            const bool aside = std::abs(dx) > std::abs(dy);
+            const double farther = aside ? 1 : 1.36, beside = aside ? std::copysign(0.09, dx) : 0;
             if (plan_->devices <= few)
-                labels += fmt::format("set label \"{:.4g}\" at {:.6g},{:.6g} center front font ',9'\n", device.value,
-                                      x + nearer * dx, y + nearer * dy);
+                labels += fmt::format("set label \"{:.4g}\" at {:.6g},{:.6g} {} front font ',9'\n", device.value,
+                                      x + farther * dx + beside, y + farther * dy,
+                                      !aside   ? "center"
+                                      : dx > 0 ? "left"
+                                               : "right");
         }
         return found + "EOD\n" + rings + "EOD\n" + crosses + "EOD\n" + labels;
     }
