@@ -55,7 +55,7 @@ DeviceAddress device_address(const std::string& text, const Place& place) {
 }
 
 Experiment parse_experiment(std::string_view text, const std::string& file) {
-    const toml::table root = parse_toml(text, file);
+    const toml::table root = parse_toml(text, file, "docs/experiment.md shows how an experiment is written");
     return ExperimentReader(file).read(root);
 }
 
