@@ -1,5 +1,6 @@
 #include "graze/flow/roots.hpp"
 
+#include "flow/kept_sign.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "root_isolation.hpp"
 
@@ -32,62 +33,9 @@ void restore_start(std::span<const double> c, double length, Root& root) {
         root = {root.kind, at, value};
 }
 
-/// What is known of a sum throughout an interval: its sign (0 where that is not certain), and its least size.
-struct Kept {
-    int sign = 0;
-    double least = 0;
-};
-
-/// Sum of factor(k) |c_k| s^(k - first), k >= first. Odd and even terms are summed side by side.
-template <class Factor>
-double sum_of_sizes(std::span<const double> c, std::size_t first, double s, Factor factor) {
-    const double square = s * s;
-    double sums[2] = {0, 0};
-    std::size_t k = c.size();
-    if ((k - first) % 2 == 1) {
-        --k;
-        sums[0] = factor(static_cast<double>(k)) * std::abs(c[k]);
-    }
-    double orders[2] = {static_cast<double>(k), static_cast<double>(k) + 1};
-    for (const double* pair = c.data() + k; k > first; k -= 2) {
-        pair -= 2;
-        for (std::size_t j = 0; j < 2; ++j) {
-            orders[j] -= 2;
-            sums[j] = sums[j] * square + factor(orders[j]) * std::abs(pair[j]);
-        }
-    }
-    return sums[0] + sums[1] * s;
-}
-
-/// Whether the sum of the terms factor(k) c_k s^(k - first), k >= first, keeps its sign for 0 <= s <= length: it is
-/// between its partial sums at `length`, as in `enclosure`. Of the small terms behind the first ones only sizes count.
-/// @param factor exact
-template <class Factor>
-Kept kept_sign(std::span<const double> c, std::size_t first, double length, Factor factor) {
-    if (c.size() <= first || !(length > 0))
-        return {};
-    constexpr std::size_t signed_terms = 8;
-    const double sign = c[first] > 0 ? 1 : -1;
-    double sum = 0, size = 0, power = sign, least = infinity, order = static_cast<double>(first);
-    const std::size_t behind = std::min(c.size(), first + signed_terms);
-    for (std::size_t k = first; k < behind; ++k) {
-        const double term = factor(order) * c[k] * power;
-        sum += term;
-        size += std::abs(term);
-        least = std::min(least, sum);
-        power *= length;
-        order += 1;
-    }
-    const double rest = sum_of_sizes(c, behind, length, factor) * std::abs(power);
-    // The factor has a round-off of its own.
-    const double share = unit_roundoff * static_cast<double>(2 * c.size() + 9);
-    least = std::min(least, sum - rest) - share * (size + rest);
-    return least > 0 && least < infinity ? Kept{sign > 0 ? 1 : -1, least} : Kept{};
-}
-
 /// Of its second derivative.
-Kept kept_bend(std::span<const double> c, double length) {
-    return kept_sign(c, 2, length, [](double k) { return k * (k - 1); });
+roots::Kept kept_bend(std::span<const double> c, double length) {
+    return roots::kept_sign(c, 2, length, [](double k) { return k * (k - 1); });
 }
 
 /// How far a polynomial may fall below its value at a place where its slope is some 0, over a distance in which its
@@ -164,7 +112,7 @@ bool RootFinder::surely_positive(std::span<const double> c, double length, RootS
 }
 
 int RootFinder::trend(std::span<const double> c, double length) {
-    return kept_sign(c, 1, length, [](double k) { return k; }).sign;
+    return roots::kept_sign(c, 1, length, [](double k) { return k; }).sign;
 }
 
 /// Where a polynomial that bends upwards throughout is least. @param slope at the end
@@ -181,7 +129,7 @@ double RootFinder::lowest_place(std::span<const double> c, double length, double
 /// @return whether it has one; nothing where that is not so simple, or where there may be a touch
 std::optional<bool> RootFinder::falls_once_or_never(std::span<const double> c, double length, int way, double touch,
                                                     Root& root) {
-    const Kept bend = way == 0 ? kept_bend(c, length) : Kept{};
+    const roots::Kept bend = way == 0 ? kept_bend(c, length) : roots::Kept{};
     if (way == 0 && bend.sign <= 0)
         return std::nullopt;
     const PointValue end = evaluate(c, length);
@@ -249,7 +197,7 @@ bool RootFinder::crosses_once_or_never(std::span<const double> c, double length,
     const int at_start = c[0] > 0 ? 1 : -1;
     const PointValue end = evaluate(c, length);
     const int at_end = end.sign();
-    if (at_end == at_start && kept_sign(c, 0, length, [](double) { return 1; }).sign == at_start)
+    if (at_end == at_start && roots::kept_sign(c, length) == at_start)
         return true;
     if (at_end == 0 || trend(c, length) == 0)
         return false;
@@ -265,7 +213,7 @@ bool RootFinder::simple_minimum(std::span<const double> c, double length, Minimu
     if (c.empty() || !std::isfinite(c[0]))
         return false;
     const int way = trend(c, length);
-    const Kept bend = way == 0 ? kept_bend(c, length) : Kept{};
+    const roots::Kept bend = way == 0 ? kept_bend(c, length) : roots::Kept{};
     if (way == 0 && bend.sign == 0)
         return false;
     const double bound_at_start = c[0] - 4 * unit_roundoff * std::abs(c[0]);

@@ -93,7 +93,7 @@ StepMaps::StepMaps(const VariationalModes& modes)
       lanes_(static_cast<std::size_t>(lanes_of(LaneKind::ensemble, best_instruction_set()))),
       flows_(modes.modes().size()), product_(map_size_), queues_(flows_.size()), times_(lanes_),
       states_here_(states_ * lanes_), states_there_(states_here_.size()), units_(map_size_ * lanes_),
-      sums_(units_.size()), slopes_(units_.size()) {
+      sums_(units_.size()), slopes_(units_.size()), worst_(lanes_) {
     for (std::size_t d = 0; d < directions_; ++d)
         std::fill_n(&units_[(d * directions_ + d) * lanes_], lanes_, 1.0);
 }
@@ -132,9 +132,7 @@ std::size_t StepMaps::add(std::size_t mode, std::span<const double> state, doubl
     const std::size_t step = steps();
     queues_[mode].push_back({.step = step, .state = numbers_.size(), .length = length, .attempt = length});
     numbers_.insert(numbers_.end(), state.begin(), state.end());
-    maps_.resize(maps_.size() + map_size_, 0.0);
-    for (std::size_t d = 0; d < directions_; ++d)
-        maps_[step * map_size_ + d * directions_ + d] = 1;
+    maps_.resize(maps_.size() + map_size_);
     return step;
 }
 
@@ -167,16 +165,19 @@ void StepMaps::compute(std::size_t mode, std::span<Part> parts) {
     load(parts);
     here.jet->compute(states_here_);
     here.columns.compute(units_);
-    find_reaches(here.columns, parts);
     for (std::size_t lane = 0; lane < lanes_; ++lane)
         times_[lane] = parts[lane < parts.size() ? lane : 0].attempt;
+    find_reaches(here.columns, parts);
     here.jet->evaluate_states(times_, states_there_);
     here.columns.evaluate(times_, sums_, slopes_);
     here.end_jet->begin(states_there_);
     here.end_columns.begin(sums_);
+    const EndAllowance allowance{StepCheck::allowance * tolerance_ + TangentCheck::round_off, 0,
+                                 StepCheck::smallest_size};
+    here.columns.misfit(here.end_columns, allowance, times_, scale_, sums_, slopes_, worst_);
     for (std::size_t lane = 0; lane < parts.size(); ++lane) {
         Part& part = parts[lane];
-        if (!believe(part, misfit(here, lane, part.attempt))) {
+        if (!believe(part, worst_[lane])) {
             queues_[mode].push_back(part);
             continue;
         }
@@ -187,70 +188,38 @@ void StepMaps::compute(std::size_t mode, std::span<Part> parts) {
         const std::size_t state = numbers_.size();
         for (std::size_t i = 0; i < states_; ++i)
             numbers_.push_back(states_there_[i * lanes_ + lane]);
-        queues_[mode].push_back({.step = part.step, .state = state, .length = left, .attempt = left});
+        queues_[mode].push_back({.step = part.step,
+                                 .state = state,
+                                 .length = left,
+                                 .attempt = left,
+                                 .first_misfit = 0,
+                                 .halvings = 0,
+                                 .accepted = false,
+                                 .first = false});
     }
-}
-
-/// The larger of a direction's last two terms, relative to its size.
-double StepMaps::last_terms(const ColumnSeries& columns, std::size_t column, std::size_t lane, double length) const {
-    const auto order = static_cast<std::size_t>(order_);
-    double power = 1, size = 0, last = 0;
-    for (std::size_t k = 1; k < order; ++k)
-        power *= length;
-    const std::span<const Series> series = columns.series().subspan(column * directions_, directions_);
-    for (std::size_t r = 0; r < directions_; ++r) {
-        const double *c = series[r].first + lane, scale = 1 / scale_[r];
-        size = std::max(size,
-                        scale * (std::abs(c[0]) + length * (std::abs(c[lanes_]) + length * std::abs(c[2 * lanes_]))));
-        last =
-            std::max(last, scale * std::max(std::abs(c[(order - 1) * lanes_]), length * std::abs(c[order * lanes_])));
-    }
-    return power * last / size;
 }
 
 /// How far each part can be followed at once.
 void StepMaps::find_reaches(const ColumnSeries& columns, std::span<Part> parts) {
+    constexpr int rounds = 6; // sizes shrink with the step
     if (order_ < 3)
         return;
     const double root = 1.0 / (order_ - 1);
-    for (std::size_t lane = 0; lane < parts.size(); ++lane) {
-        double reach = parts[lane].attempt;
-        for (std::size_t d = 0; d < directions_ && !parts[lane].accepted; ++d) {
-            double worst = last_terms(columns, d, lane, reach);
-            // Sizes shrink with the step: a few rounds.
-            for (int round = 0; round < 6 && worst > tolerance_; ++round) {
-                reach *= std::pow(tolerance_ / worst, root);
-                worst = last_terms(columns, d, lane, reach);
+    bool too_long = true;
+    for (int round = 0; round < rounds && too_long; ++round) {
+        columns.tails(times_, scale_, worst_);
+        too_long = false;
+        for (std::size_t lane = 0; lane < parts.size(); ++lane)
+            if (worst_[lane] > tolerance_ && !parts[lane].accepted) {
+                times_[lane] *= std::pow(tolerance_ / worst_[lane], root);
+                too_long = true;
             }
-        }
-        if (std::isfinite(reach) && reach > 0)
-            parts[lane].attempt = reach;
     }
-}
-
-/// By how much slopes of the directions' polynomials differ from what the variational equations say, in units of what
-/// is allowed.
-double StepMaps::misfit(const Flow& flow, std::size_t lane, double length) const {
-    double most = 0;
-    const std::span<const Series> here = flow.columns.series(), there = flow.end_columns.series();
-    for (std::size_t d = 0; d < directions_; ++d) {
-        double apart = 0, size = 0;
-        bool finite = true;
-        for (std::size_t r = 0; r < directions_; ++r) {
-            const std::size_t entry = d * directions_ + r, at = entry * lanes_ + lane;
-            const double *c = here[entry].first + lane, scale = 1 / scale_[r];
-            const double rate = there[entry].first[lanes_ + lane];
-            const double difference = length * std::abs(slopes_[at] - rate) * scale;
-            finite = finite && std::isfinite(difference);
-            apart = std::max(apart, difference);
-            size = std::max(size, StepCheck::size_over(c[0], c[lanes_], sums_[at], rate, length) * scale);
-        }
-        most = finite ? std::max(most, apart / ((StepCheck::allowance * tolerance_ + TangentCheck::round_off) * size))
-                      : std::numeric_limits<double>::infinity();
-        if (!finite)
-            break;
+    for (std::size_t lane = 0; lane < parts.size(); ++lane) {
+        if (std::isfinite(times_[lane]) && times_[lane] > 0)
+            parts[lane].attempt = times_[lane];
+        times_[lane] = parts[lane].attempt;
     }
-    return most;
 }
 
 /// Whether a part is good enough; one that is not is to be halved.
@@ -274,6 +243,11 @@ bool StepMaps::believe(Part& part, double misfit) const {
 /// What the step has been followed for so far, and this part of it behind.
 void StepMaps::apply(const Part& part, std::size_t lane) {
     double* map = &maps_[part.step * map_size_];
+    if (part.first) {
+        for (std::size_t i = 0; i < directions_ * directions_; ++i)
+            map[i] = sums_[i * lanes_ + lane];
+        return;
+    }
     std::fill(product_.begin(), product_.end(), 0.0);
     for (std::size_t d = 0; d < directions_; ++d)
         for (std::size_t j = 0; j < directions_; ++j)

@@ -71,6 +71,7 @@ private:
         double first_misfit = 0;
         int halvings = 0;
         bool accepted = false; ///< whatever comes out: what differs is round-off
+        bool first = true;     ///< nothing of the step has been followed before
     };
     /// Series of the states and of W, in lanes: where steps begin, and where they end.
     struct Flow {
@@ -81,9 +82,7 @@ private:
     Flow& flow(std::size_t mode);
     void load(std::span<const Part> parts);
     void find_reaches(const ColumnSeries& columns, std::span<Part> parts);
-    double last_terms(const ColumnSeries& columns, std::size_t column, std::size_t lane, double length) const;
     void compute(std::size_t mode, std::span<Part> parts);
-    double misfit(const Flow& flow, std::size_t lane, double length) const;
     bool believe(Part& part, double misfit) const;
     void apply(const Part& part, std::size_t lane);
 
@@ -95,10 +94,11 @@ private:
     std::vector<std::unique_ptr<Flow>> flows_; ///< of modes, made when first needed
     std::vector<double> scale_, numbers_;      ///< of steps' first states
     std::vector<double> maps_, product_;
-    std::vector<std::vector<Part>> queues_;                               ///< of each mode
-    std::vector<Part> batch_;                                             ///< what is in lanes now
-    std::vector<double> parameters_, times_, states_here_, states_there_; ///< in lanes, as all that follows
-    std::vector<double> units_, sums_, slopes_;                           ///< W where steps begin and end
+    std::vector<std::vector<Part>> queues_; ///< of each mode
+    std::vector<Part> batch_;               ///< what is in lanes now
+    // In lanes: of the parts that are followed now ...
+    std::vector<double> parameters_, times_, states_here_, states_there_;
+    std::vector<double> units_, sums_, slopes_, worst_; ///< ... W where they begin and end, and what is wrong with it
 };
 
 } // namespace graze

@@ -41,10 +41,45 @@ void ColumnSeries::compute(std::span<const double> start, int highest) {
 }
 
 void ColumnSeries::evaluate(std::span<const double> times, std::span<double> values, std::span<double> slopes) const {
-    require_room(times.size(), width_, "times");
-    require_room(values.size(), series_.size() * width_, "entries of a matrix");
-    require_room(slopes.size(), series_.size() * width_, "slopes of a matrix");
+    require_lanes(times);
+    require_entries(values);
+    require_entries(slopes);
     table_.sums_and_slopes(series_.data(), degrees_.data(), series_.size(), times.data(), values.data(), slopes.data());
+}
+
+void ColumnSeries::tails(std::span<const double> lengths, std::span<const double> scales,
+                         std::span<double> worst) const {
+    require_lanes(lengths);
+    require_rows(scales);
+    require_lanes(worst);
+    require_room(static_cast<std::size_t>(order_), 2, "coefficients behind the first");
+    table_.column_tails(operands_, order_, lengths.data(), scales.data(), worst.data());
+}
+
+void ColumnSeries::misfit(const ColumnSeries& end, const EndAllowance& allowance, std::span<const double> lengths,
+                          std::span<const double> scales, std::span<const double> values,
+                          std::span<const double> slopes, std::span<double> worst) const {
+    require_size(end.series_.size(), series_.size(), "entries of a matrix");
+    require_size(end.size_, size_, "coefficients of series");
+    require_lanes(lengths);
+    require_rows(scales);
+    require_entries(values);
+    require_entries(slopes);
+    require_lanes(worst);
+    table_.column_misfit(operands_,
+                         {end.numbers_.data(), values.data(), slopes.data(), lengths.data(), scales.data(),
+                          allowance.rates, allowance.smallest},
+                         worst.data());
+}
+
+void ColumnSeries::require_lanes(std::span<const double> numbers) const {
+    require_room(numbers.size(), width_, "numbers, one for each lane,");
+}
+void ColumnSeries::require_entries(std::span<const double> numbers) const {
+    require_room(numbers.size(), series_.size() * width_, "entries of a matrix");
+}
+void ColumnSeries::require_rows(std::span<const double> numbers) const {
+    require_room(numbers.size(), operands_.rows, "scales of rows");
 }
 
 } // namespace graze

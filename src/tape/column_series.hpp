@@ -40,8 +40,22 @@ public:
     std::span<const Series> series() const { return series_; }
     /// Sums of the series and of their derivatives, in each lane at its own time, laid out as the start.
     void evaluate(std::span<const double> times, std::span<double> values, std::span<double> slopes) const;
+    /// The largest share, of all columns, that the last two terms have at a length of time in the column's first three.
+    /// @param lengths [lane]; @param scales of the rows, in units of which the largest counts; @param worst [lane]
+    void tails(std::span<const double> lengths, std::span<const double> scales, std::span<double> worst) const;
+    /// By how much slopes at ends of steps differ from what the equations say there, as far as a column's largest
+    /// differences, sizes and rates go (those of StepCheck::size_over), in units of what is allowed; infinity where
+    /// something is not finite.
+    /// @param end columns of another jet of the same tape, begun at the ends with `values`; @param values, slopes as
+    /// from `evaluate`; @param allowance the share of rates, and what is added to sizes
+    void misfit(const ColumnSeries& end, const EndAllowance& allowance, std::span<const double> lengths,
+                std::span<const double> scales, std::span<const double> values, std::span<const double> slopes,
+                std::span<double> worst) const;
 
 private:
+    void require_lanes(std::span<const double> numbers) const;
+    void require_entries(std::span<const double> numbers) const;
+    void require_rows(std::span<const double> numbers) const;
     void compute(std::span<const double> start, int highest);
 
     const KernelTable& table_;

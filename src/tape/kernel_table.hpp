@@ -116,6 +116,14 @@ struct ColumnOperands {
     std::size_t rows, count, size;     ///< rows and columns of W; numbers in a series
 };
 
+/// What the columns are judged by: [entry * width + lane], entries column by column; [lane]; [row].
+struct ColumnEnds {
+    const double* there;            ///< like `ColumnOperands::columns`, begun at the ends
+    const double *values, *slopes;  ///< of the polynomials at the ends
+    const double *lengths, *scales; ///< of the steps; of the rows
+    double allowed, smallest;       ///< share of sizes that differences may come to; what is added to sizes
+};
+
 /// Linear combinations of fewer terms than this have kernels of their own; row 0 is for all others.
 inline constexpr int combination_kernels = 8;
 
@@ -173,6 +181,12 @@ struct KernelTable {
     std::size_t (*tangent_misfit)(const TangentStates& states, const TangentEnds& ends, std::size_t from);
     /// Coefficients 1 .. highest of the columns from coefficient 0. (Only for ensembles.)
     void (*columns)(const ColumnOperands& operands, Order highest);
+    /// The largest share, of all columns, that a column's last two terms have in its first three. (So are these two.)
+    void (*column_tails)(const ColumnOperands& operands, Order highest, const double* lengths, const double* scales,
+                         double* worst);
+    /// By how much columns' slopes differ from their rates at ends of steps, in units of what is allowed; infinity
+    /// where something is not finite.
+    void (*column_misfit)(const ColumnOperands& operands, const ColumnEnds& ends, double* worst);
     Kernel constant[operation_count]; ///< on numbers; row `number` and `symbol` are empty
 };
 

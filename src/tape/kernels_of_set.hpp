@@ -141,8 +141,11 @@ constexpr KernelTable make_table() {
     table.bound = &bound<V>;
     table.steps = &steps<V>;
     table.guard = &guard<V>;
-    if constexpr (std::is_same_v<V, Ensemble>)
+    if constexpr (std::is_same_v<V, Ensemble>) {
         table.columns = &columns<V>;
+        table.column_tails = &column_tails<V>;
+        table.column_misfit = &column_misfit<V>;
+    }
     if constexpr (std::is_same_v<V, Tangent>) {
         table.tangent_tails = &tangent_tails<V>;
         table.tangent_misfit = &tangent_misfit<V>;

@@ -114,9 +114,10 @@ std::size_t Trajectory::passed_with_period(double step, const Outlook& outlook, 
         for (std::size_t w = 0; w < mode.watched.size(); ++w) {
             const auto& states = mode.gradients[w].states;
             const auto at = std::find(states.begin(), states.end(), i);
+            if (watches_[w].side <= 0 || at == states.end())
+                continue;
             const double value = evaluate_polynomial(event_series(w), step);
-            if (watches_[w].side <= 0 || at == states.end() || !(value >= 0) ||
-                !(evaluate_derivative(event_series(w), step) < 0))
+            if (!(value >= 0) || !(evaluate_derivative(event_series(w), step) < 0))
                 continue;
             for (const std::size_t state : states)
                 inputs_[state] = evaluate_state(state, step);
@@ -204,8 +205,12 @@ void Trajectory::note_size(std::size_t w) {
                                             -15 * rise + 7 * slope - 2 * bend,
                                             6 * rise - 3 * slope + bend};
         constexpr int samples = 16;
-        for (int i = 1; i < samples; ++i)
-            size.largest = std::max(size.largest, std::abs(evaluate_polynomial(quintic, i / double(samples))));
+        for (int i = 1; i < samples; ++i) {
+            double there = 0;
+            for (std::size_t k = quintic.size(); k-- > 0;)
+                there = there * (i / double(samples)) + quintic[k];
+            size.largest = std::max(size.largest, std::abs(there));
+        }
     }
     size.largest = std::max(size.largest, std::abs(value));
     size.time = time_;

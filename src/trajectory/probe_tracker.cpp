@@ -1,5 +1,6 @@
 #include "trajectory/probe_tracker.hpp"
 
+#include "flow/kept_sign.hpp"
 #include "trajectory/series.hpp"
 
 #include <algorithm>
@@ -11,11 +12,15 @@ ProbeTracker::ProbeTracker(const Simulation& simulation, std::span<const double>
                            std::span<const double> periods)
     : simulation_(simulation), phase_values_(phase_values.begin(), phase_values.end()),
       periods_(periods.begin(), periods.end()), roots_(simulation.order()), tracked_(simulation.probes().size()),
-      work_(static_cast<std::size_t>(simulation.order()) + 1) {
+      work_(static_cast<std::size_t>(simulation.order()) + 1), gathered_(work_.size()) {
     for (std::size_t p = 0; p < tracked_.size(); ++p) {
         const Probe& probe = simulation.probes()[p];
         const bool phase = probe.kind == Probe::Kind::phase;
-        followed_.push_back({probe.kind, phase ? probe.state : simulation.series_of_probe(p)});
+        followed_.push_back({probe.kind, phase ? probe.state : simulation.series_of_probe(p), {}});
+        for (std::size_t mode = 0; phase && mode < simulation.model().modes.size(); ++mode) {
+            const std::size_t degree = simulation.system().mode(mode).tape.degrees[probe.state];
+            followed_.back().sizes.push_back(std::min(work_.size() - 1, degree) + 1);
+        }
     }
     found_.reserve(16);
     changes_.reserve(16);
@@ -53,8 +58,7 @@ void ProbeTracker::locate(std::size_t index, double value) {
 void ProbeTracker::leave_section(std::size_t index, const Step& step) {
     const Probe& probe = simulation_.probes()[index];
     const double period = periods_[probe.state];
-    const auto size = static_cast<std::size_t>(step.order) + 1;
-    const std::span<const double> c{step.states[probe.state].first, size};
+    const std::span<const double> c = series_of_phase(index, step);
     const std::size_t leading = leading_index(c, step.length, roundoff * period);
     if (leading == 0)
         return;
@@ -110,25 +114,24 @@ std::span<const ProbeTracker::Found> ProbeTracker::search(const Step& step) {
     constexpr std::size_t none = static_cast<std::size_t>(-1);
     std::size_t phase = none; // whose reach is known
     double reach = 0;
-    const auto size = static_cast<std::size_t>(step.order) + 1;
     for (std::size_t p = 0; p < followed_.size(); ++p) {
         const std::size_t index = followed_[p].index;
         const Tracked& tracked = tracked_[p];
         if (followed_[p].kind == Probe::Kind::phase) {
             if (index != phase)
-                reach = reach_of_phase(index, step);
+                reach = size_beyond_start(series_of_phase(p, step), step.length) * (1 + roundoff);
             phase = index;
             if (tracked.on_section || tracked.is_near(step.states[index][0], reach))
                 search_phase(p, step, reach);
             continue;
         }
-        const double* c = step.observed[index].first;
+        const std::span<const double> c = without_gaps(step.observed[index], work_.size());
         if (followed_[p].kind == Probe::Kind::crossing) {
-            search_series(p, {c, size}, step.length, false);
-        } else if (tracked.side == 0 || RootFinder::trend({c, size}, step.length) != tracked.side) {
-            for (std::size_t k = 0; k + 1 < size; ++k)
+            search_series(p, c, step.length, false);
+        } else if (tracked.side == 0 || RootFinder::trend(c, step.length) != tracked.side) {
+            for (std::size_t k = 0; k + 1 < c.size(); ++k)
                 work_[k] = static_cast<double>(k + 1) * c[k + 1];
-            search_series(p, {work_.data(), size - 1}, step.length, true);
+            search_series(p, {work_.data(), c.size() - 1}, step.length, true);
         }
     }
     arc_start_ = false;
@@ -164,11 +167,10 @@ void ProbeTracker::note(std::size_t probe, double at, int direction, bool at_con
 void ProbeTracker::search_series(std::size_t probe, std::span<const double> c, double length, bool extremum) {
     Tracked& tracked = tracked_[probe];
     int now = c[0] > 0 ? 1 : -1;
-    const double first = std::abs(c[0]), rest = size_beyond_start(c, length);
-    if (now == tracked.side && first > rest * (1 + roundoff)) // it keeps its sign
+    if (now == tracked.side && roots::kept_sign(c, length) == now)
         return;
     remember_start();
-    const double noise = roundoff * (first + rest);
+    const double noise = roundoff * (std::abs(c[0]) + size_beyond_start(c, length));
     RootStart start = RootStart::as_is;
     if (std::abs(c[0]) <= noise) {
         const std::size_t leading = leading_index(c, length, noise);
@@ -192,15 +194,19 @@ void ProbeTracker::search_series(std::size_t probe, std::span<const double> c, d
     }
 }
 
-/// How far a phase may go within the step.
-double ProbeTracker::reach_of_phase(std::size_t state, const Step& step) const {
-    return size_beyond_start(series_of_phase(state, step), step.length) * (1 + roundoff);
+/// Coefficients of one lane, side by side; valid until the next ones are asked for.
+std::span<const double> ProbeTracker::without_gaps(const Series& series, std::size_t size) {
+    if (series.stride == 1)
+        return {series.first, size};
+    for (std::size_t k = 0; k < size; ++k)
+        gathered_[k] = series[k];
+    return {gathered_.data(), size};
 }
 
 /// Without the coefficients that are zero: the rate of a phase may be constant.
-std::span<const double> ProbeTracker::series_of_phase(std::size_t state, const Step& step) const {
-    const std::size_t degree = simulation_.system().mode(step.mode).tape.degrees[state];
-    return {step.states[state].first, std::min(static_cast<std::size_t>(step.order), degree) + 1};
+std::span<const double> ProbeTracker::series_of_phase(std::size_t probe, const Step& step) {
+    const Followed& followed = followed_[probe];
+    return without_gaps(step.states[followed.index], followed.sizes[step.mode]);
 }
 
 void ProbeTracker::search_phase(std::size_t index, const Step& step, double reach) {
@@ -212,7 +218,7 @@ void ProbeTracker::search_phase(std::size_t index, const Step& step, double reac
         if (tracked.on_section)
             return;
     }
-    const std::span<const double> c = series_of_phase(followed_[index].index, step);
+    const std::span<const double> c = series_of_phase(index, step);
     for (double from = 0; tracked.is_near(c[0], reach);) {
         int direction = 0;
         double at = 0;

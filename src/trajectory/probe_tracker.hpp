@@ -58,12 +58,13 @@ private:
     /// What is asked of the simulation at every step.
     struct Followed {
         Probe::Kind kind;
-        std::size_t index; ///< of a phase's state, or of what is observed
+        std::size_t index;              ///< of a phase's state, or of what is observed
+        std::vector<std::size_t> sizes; ///< of a phase's series in each mode: coefficients that may not be zero
     };
     void search_series(std::size_t probe, std::span<const double> c, double length, bool extremum);
     void search_phase(std::size_t probe, const Step& step, double reach);
-    double reach_of_phase(std::size_t state, const Step& step) const;
-    std::span<const double> series_of_phase(std::size_t state, const Step& step) const;
+    std::span<const double> without_gaps(const Series& series, std::size_t size);
+    std::span<const double> series_of_phase(std::size_t probe, const Step& step);
     void remember_start();
     void note(std::size_t probe, double at, int direction, bool at_contact);
     void change(std::size_t probe, int direction);
@@ -77,7 +78,7 @@ private:
     std::vector<Tracked> tracked_, tracked_at_start_; ///< now, and at the start of the step just searched ...
     bool remembered_ = false;                         ///< ... unless nothing has changed
     std::vector<Change> changes_;
-    std::vector<double> work_;
+    std::vector<double> work_, gathered_;
     std::vector<Root> found_roots_;
     std::vector<Found> found_;
     bool arc_start_ = true;

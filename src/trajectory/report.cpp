@@ -19,10 +19,6 @@ bool Trajectory::make_step(double& length) {
     if (length > 4 * std::numeric_limits<double>::epsilon() * std::abs(time_))
         contacts_now_ = 0;
     const std::size_t watched = compiled_mode_->watched.size();
-    // Roots are sought in series without gaps.
-    if (!simulation_.probes().empty() && series_.data() == lane_series_.data())
-        for (std::size_t i = 0; i < series_.size(); ++i)
-            series(i);
     Step step;
     step.start = time_;
     step.length = length;

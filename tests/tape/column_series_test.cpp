@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace graze {
 namespace {
 
@@ -126,6 +128,52 @@ TEST(ColumnSeries, SumUpToTheExponentialOfAConstantMatrix) {
         for (std::size_t i = 0; i < 6; ++i)
             for (std::size_t l = 0; l < lanes; ++l)
                 EXPECT_NEAR(end.series()[i].first[lanes + l], slopes[i * lanes + l], 8 * eps) << i << " " << l;
+    }
+}
+
+/// x' = a x, whose column is exp(a t): what is said of tails and misfits in closed form, each lane at its own length.
+TEST(ColumnSeries, SayHowFarTheyCanBeFollowed) {
+    constexpr int order = 6;
+    constexpr double rate = 2, factor = 1.5, scale = 3;
+    Problem p;
+    const Expression x = p.state("x", 0.4);
+    p.rates = {p.graph->number(rate) * x};
+    const Linearised linear(p);
+    for (const auto set : testing::supported_sets()) {
+        const auto jet = make_jet(linear.tape, order, LaneKind::ensemble, set),
+                   end_jet = make_jet(linear.tape, order, LaneKind::ensemble, set);
+        const auto width = static_cast<std::size_t>(jet->width());
+        const std::vector<double> states(width, 0.4), scales{scale};
+        std::vector<double> start(width, factor), lengths(width), values(width), slopes(width), worst(width);
+        for (std::size_t l = 0; l < width; ++l)
+            lengths[l] = 0.05 + 0.01 * static_cast<double>(l);
+        start[1] = std::numeric_limits<double>::quiet_NaN();
+        jet->compute(states);
+        ColumnSeries series(*jet, linear.tape, linear.entries, 1, 1, set),
+            end(*end_jet, linear.tape, linear.entries, 1, 1, set);
+        series.compute(start);
+        series.tails(lengths, scales, worst);
+        for (std::size_t l = 0; l < width; ++l)
+            if (l != 1) {
+                const double h = rate * lengths[l], beginning = 1 + h + h * h / 2;
+                EXPECT_NEAR(worst[l], std::pow(h, 5) / 120 / beginning, 8 * eps) << l; // larger than h^6/720
+            }
+        series.evaluate(lengths, values, slopes);
+        end_jet->begin(states);
+        end.begin(values);
+        constexpr double allowed = 1e-6;
+        series.misfit(end, {allowed, 0, 0}, lengths, scales, values, slopes, worst);
+        for (std::size_t l = 0; l < width; ++l) {
+            if (l == 1) {
+                EXPECT_EQ(worst[l], std::numeric_limits<double>::infinity());
+                continue;
+            }
+            // The slope lacks the last term of the rate, which the value has.
+            const double h = rate * lengths[l], value = values[l] / factor, missing = h * std::pow(h, 6) / 720;
+            EXPECT_NEAR(worst[l] * allowed, missing / (value * (1 + 0.25 * h)), 8 * eps) << l;
+        }
+        EXPECT_THROW(series.tails(lengths, {}, worst), InputError);
+        EXPECT_THROW(series.misfit(end, {allowed, 0, 0}, {}, scales, values, slopes, worst), InputError);
     }
 }
 

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "bernstein.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+namespace graze::roots {
+
+/// What is known of a sum throughout an interval: its sign (0 where that is not certain), and its least size.
+struct Kept {
+    int sign = 0;
+    double least = 0;
+};
+
+/// Sum of factor(k) |c_k| s^(k - first), k >= first. Odd and even terms are summed side by side.
+template <class Factor>
+double sum_of_sizes(std::span<const double> c, std::size_t first, double s, Factor factor) {
+    const double square = s * s;
+    double sums[2] = {0, 0};
+    std::size_t k = c.size();
+    if ((k - first) % 2 == 1) {
+        --k;
+        sums[0] = factor(static_cast<double>(k)) * std::abs(c[k]);
+    }
+    double orders[2] = {static_cast<double>(k), static_cast<double>(k) + 1};
+    for (const double* pair = c.data() + k; k > first; k -= 2) {
+        pair -= 2;
+        for (std::size_t j = 0; j < 2; ++j) {
+            orders[j] -= 2;
+            sums[j] = sums[j] * square + factor(orders[j]) * std::abs(pair[j]);
+        }
+    }
+    return sums[0] + sums[1] * s;
+}
+
+/// Whether the sum of the terms factor(k) c_k s^(k - first), k >= first, keeps its sign for 0 <= s <= length: it is
+/// between its partial sums at `length`, as in `enclosure`. Of the small terms behind the first ones only sizes count.
+/// @param factor exact
+template <class Factor>
+Kept kept_sign(std::span<const double> c, std::size_t first, double length, Factor factor) {
+    if (c.size() <= first || !(length > 0))
+        return {};
+    constexpr std::size_t signed_terms = 8;
+    const double sign = c[first] > 0 ? 1 : -1;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double sum = 0, size = 0, power = sign, least = infinity, order = static_cast<double>(first);
+    const std::size_t behind = std::min(c.size(), first + signed_terms);
+    for (std::size_t k = first; k < behind; ++k) {
+        const double term = factor(order) * c[k] * power;
+        sum += term;
+        size += std::abs(term);
+        least = std::min(least, sum);
+        power *= length;
+        order += 1;
+    }
+    const double rest = sum_of_sizes(c, behind, length, factor) * std::abs(power);
+    // The factor has a round-off of its own.
+    const double share = bernstein::unit_roundoff * static_cast<double>(2 * c.size() + 9);
+    least = std::min(least, sum - rest) - share * (size + rest);
+    return least > 0 && least < infinity ? Kept{sign > 0 ? 1 : -1, least} : Kept{};
+}
+
+/// The same of the polynomial itself: 1 or -1 where it is so throughout, else 0.
+inline int kept_sign(std::span<const double> c, double length) {
+    return kept_sign(c, 0, length, [](double) { return 1; }).sign;
+}
+
+} // namespace graze::roots
