@@ -93,6 +93,10 @@ if(TARGET graze_executable)
             )
         endif()
     endif()
+    add_test(NAME layout.other_readers COMMAND bash ${PROJECT_SOURCE_DIR}/tests/layout/readers/read_drawings.sh
+                                               $<TARGET_FILE:graze_executable> ${PROJECT_BINARY_DIR}/drawings
+    )
+    set_tests_properties(layout.other_readers PROPERTIES SKIP_RETURN_CODE 77 LABELS slow TIMEOUT 600)
     add_test(NAME demo COMMAND bash ${PROJECT_SOURCE_DIR}/examples/demo.sh ${PROJECT_BINARY_DIR}/demo)
     set_tests_properties(
         demo PROPERTIES ENVIRONMENT "GRAZE=$<TARGET_FILE:graze_executable>" LABELS slow TIMEOUT 1200

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 namespace graze {
 
@@ -17,12 +16,6 @@ namespace {
 
 constexpr std::size_t most_overshoots = 100, most_dimensions = 50, most_planes = 20, most_points = 401,
                       most_devices = 1'000'000;
-
-/// Relative to the folder of the file that names it.
-std::string beside(const std::string& file, const std::string& path) {
-    return std::filesystem::path(path).is_relative() ? (std::filesystem::path(file).parent_path() / path).string()
-                                                     : path;
-}
 
 /// An error of what has no place of its own stands where it is named.
 template <class Work>
@@ -203,6 +196,7 @@ void DesignReader::read_trip(const TomlEntry& entry) {
         if (item.name == "cycles") {
             trip.cycles = static_cast<double>(reader_.count(item, 1, 1'000'000));
         } else if (item.name == "overshoots") {
+            trip.place = reader_.toml().place(*item.node);
             reader_.each(reader_.toml().elements(item), [&](const TomlEntry& one) {
                 if (trip.overshoots.size() == most_overshoots)
                     reader_.fail(item, fmt::format("there are more than {} overshoots", most_overshoots),
@@ -372,6 +366,7 @@ void DesignReader::read_wanted_item(const TomlEntry& item) {
         wanted.outcome = outcomes[reader_.choice(item, {"trips", "persists", "folds"})];
     } else if (item.name == "reset") {
         std::tie(wanted.least_reset, wanted.greatest_reset) = reader_.range(design_.model, item);
+        wanted.reset_place = reader_.toml().place(*item.node);
     } else if (item.name == "clear") {
         wanted.clear = reader_.positive(design_.model, item);
     } else if (item.name == "trip_time") {

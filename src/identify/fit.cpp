@@ -5,6 +5,7 @@
 #include "identify/fit_findings.hpp"
 #include "identify/fit_solver.hpp"
 #include "identify/fit_start.hpp"
+#include "identify/fit_twins.hpp"
 
 #include <fmt/format.h>
 
@@ -73,21 +74,12 @@ public:
         }
         describe(rows_, best.point, best.known, last_joint, fit);
         judge(best.report, check_point(rows_, best.point, best.known, last_joint), fit);
-        return fit;
+        if (fit.ending != FitEnding::converged && fit.ending != FitEnding::misfit)
+            return fit;
+        return chosen(best, std::move(fit));
     }
 
 private:
-    void require_noise() const {
-        constexpr double most = 1e12; // beyond, squares of what is left lose their digits
-        for (std::size_t o = 0; o < rows_.task().outputs.size(); ++o)
-            if (const MeasuredOutput& output = rows_.task().outputs[o];
-                output.noise > 0 && !(output.noise <= most * rows_.range(o) && output.noise >= rows_.range(o) / most))
-                throw InputError(
-                    fmt::format("the noise {} of '{}' is out of proportion: its readings have a range of {:.6g}",
-                                output.noise, output.name, rows_.range(o)),
-                    "give the standard deviation of its readings");
-    }
-
     /// Where a fit has come to.
     struct Way {
         FitLayout layout;
@@ -99,6 +91,51 @@ private:
         std::size_t contacts = 0;
         bool exact = false, noise_alone = false; ///< what is left: nothing; nothing but noise
     };
+
+    /// Of solutions that meet the readings as well, one whose signs are those of the guesses.
+    Fit chosen(const Way& way, Fit fit) {
+        const std::vector<FoundTwin> twins = twins_of(rows_, way.point, way.known, fit);
+        std::vector<double> shared;
+        for (const FittedNumber& number : fit.numbers)
+            shared.push_back(number.estimate.value);
+        const std::size_t strays = strays_of(rows_.task(), shared);
+        for (const FoundTwin& twin : twins)
+            if (twin.strays < strays)
+                return moved_to(twin, std::move(fit));
+        for (const FoundTwin& twin : twins)
+            if (twin.strays == strays)
+                fit.twins.push_back(twin.twin);
+        return fit;
+    }
+    Fit moved_to(const FoundTwin& twin, Fit before) {
+        point_ = twin.point;
+        for (std::size_t k = 0; k < pieces().size(); ++k)
+            pieces()[k].mode = twin.modes[k];
+        FitStage stage;
+        stage.joint = last_joint;
+        stage.most_iterations = settings_->most_iterations;
+        Fit fit;
+        fit.iterations = before.iterations;
+        const StageReport report = make(stage, 0, 1, fit);
+        const Way way = way_here(report);
+        if (!unreadable(rows_, way.known).empty())
+            return before;
+        describe(rows_, way.point, way.known, last_joint, fit);
+        judge(report, check_point(rows_, way.point, way.known, last_joint), fit);
+        return fit.ending == before.ending ? chosen(way, std::move(fit)) : before;
+    }
+
+    void require_noise() const {
+        constexpr double most = 1e12; // beyond, squares of what is left lose their digits
+        for (std::size_t o = 0; o < rows_.task().outputs.size(); ++o)
+            if (const MeasuredOutput& output = rows_.task().outputs[o];
+                output.noise > 0 && !(output.noise <= most * rows_.range(o) && output.noise >= rows_.range(o) / most))
+                throw InputError(
+                    fmt::format("the noise {} of '{}' is out of proportion: its readings have a range of {:.6g}",
+                                output.noise, output.name, rows_.range(o)),
+                    "give the standard deviation of its readings");
+    }
+
     Way way_here(const StageReport& report) {
         Way way{rows_.layout, rows_.noise, point_, report, rows_.evaluate(point_)};
         for (const PieceRows& piece : way.known)

@@ -7,9 +7,9 @@
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
-#include <glog/logging.h>
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -33,6 +33,11 @@ public:
             if (size > 0)
                 mutable_parameter_block_sizes()->push_back(static_cast<int>(size));
         set_num_residuals(static_cast<int>(states_ + shared_ + 1 + ahead_));
+    }
+
+    /// Whether it can be evaluated there; if so, that is kept for when it is asked for.
+    bool can_begin(const Eigen::VectorXd& shared, const Eigen::VectorXd& states) const {
+        return update(shared, states);
     }
 
     bool Evaluate(const double* const* numbers, double* rests, double** slopes) const override {
@@ -139,18 +144,6 @@ private:
     const FitPoint* point_;
 };
 
-/// Ceres tells its log, on standard error, of points that cannot be evaluated.
-class QuietLog {
-public:
-    QuietLog() { FLAGS_minloglevel = google::GLOG_FATAL; }
-    ~QuietLog() { FLAGS_minloglevel = before_; }
-    QuietLog(const QuietLog&) = delete;
-    QuietLog& operator=(const QuietLog&) = delete;
-
-private:
-    int before_ = FLAGS_minloglevel;
-};
-
 void set_bounds(ceres::Problem& problem, const FitRows& rows, double* shared) {
     for (std::size_t j = 0; j < rows.task().parameters.size(); ++j) {
         const UnknownParameter& unknown = rows.task().parameters[j];
@@ -173,6 +166,7 @@ StageReport minimise(FitRows& rows, FitPoint& point, const FitStage& stage, cons
             problem.AddResidualBlock(new PriorCost(block, stage.prior), nullptr, block.data());
     };
     Eigen::Index unknowns = point.shared.size();
+    bool possible = true;
     for (std::size_t k = 0; k < pieces.size(); ++k) {
         if (!is_active(k))
             continue;
@@ -184,14 +178,23 @@ StageReport minimise(FitRows& rows, FitPoint& point, const FitStage& stage, cons
         const bool joined = pieces[k].leads && is_active(k + 1);
         if (joined)
             blocks.push_back(point.states[k + 1].data());
-        if (!blocks.empty())
-            problem.AddResidualBlock(new PieceCost(rows, pieces[k], joined, stage.joint), nullptr, blocks);
+        if (!blocks.empty()) {
+            auto* cost = new PieceCost(rows, pieces[k], joined, stage.joint);
+            problem.AddResidualBlock(cost, nullptr, blocks);
+            possible = possible && cost->can_begin(point.shared, point.states[k]);
+        }
         hold(point.states[k]);
         unknowns += point.states[k].size();
     }
     if (!stage.states_only)
         hold(point.shared);
     StageReport report;
+    if (!possible) { // Ceres would say so, in its log
+        report.failed = true;
+        report.cost = std::numeric_limits<double>::infinity();
+        report.interrupted = rows.is_interrupted();
+        return report;
+    }
     if (point.shared.size() > 0 && problem.HasParameterBlock(point.shared.data())) {
         const bool all_held = stage.held.size() == static_cast<std::size_t>(point.shared.size());
         if (!stage.held.empty() && !all_held)
@@ -226,15 +229,12 @@ StageReport minimise(FitRows& rows, FitPoint& point, const FitStage& stage, cons
     options.num_threads = 1;
     options.callbacks.push_back(&callback);
     ceres::Solver::Summary summary;
-    {
-        const QuietLog quiet;
-        ceres::Solve(options, &problem, &summary);
-    }
+    ceres::Solve(options, &problem, &summary);
     report.converged = summary.termination_type == ceres::CONVERGENCE;
     report.interrupted = summary.termination_type == ceres::USER_FAILURE || rows.is_interrupted();
     report.failed = summary.termination_type == ceres::FAILURE;
-    report.cost = summary.final_cost;
-    report.gained = summary.initial_cost - summary.final_cost;
+    report.cost = report.failed ? std::numeric_limits<double>::infinity() : summary.final_cost;
+    report.gained = report.failed ? 0 : summary.initial_cost - summary.final_cost;
     report.iterations = static_cast<int>(summary.iterations.size());
     return report;
 }

@@ -1,8 +1,10 @@
 #include "layout/device_file_reader.hpp"
 
 #include "design/design_keys.hpp"
+#include "graze/model/catalogue.hpp"
 #include "graze/symbolic/file_name.hpp"
 #include "layout/quantity_reader.hpp"
+#include "layout/spread_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -136,14 +138,21 @@ void DeviceFileReader::read_vary(const TomlEntry& entry) {
     reader_.each_of(entry, {}, [&](const TomlEntry& item) {
         result_.places.emplace(item.path, reader_.toml().place(*item.node));
         const LengthField<DeviceDimensions>* field = field_named(device_fields(), item.name);
-        if (!field)
-            fail_unknown(item, entry.path, names_of_fields(device_fields()));
+        const bool folds = item.name == "folds";
+        if (!field && !folds) {
+            std::vector<std::string> known = names_of_fields(device_fields());
+            known.emplace_back("folds");
+            fail_unknown(item, entry.path, known);
+        }
         const std::vector<TomlEntry> items = reader_.toml().elements(item);
         if (items.empty() || items.size() > most_values)
             reader_.fail(item, fmt::format("{} has {} values", item.path, items.size()),
                          fmt::format("give from 1 to {}", most_values));
         auto& [name, values] = result_.wafer.vary.emplace_back(item.name, std::vector<double>());
-        reader_.each(items, [&](const TomlEntry& one) { values.push_back(length(one, field->may_be_zero)); });
+        reader_.each(items, [&](const TomlEntry& one) {
+            values.push_back(folds ? static_cast<double>(reader_.count(one, 1, most_folds))
+                                   : length(one, field->may_be_zero));
+        });
     });
 }
 
@@ -222,11 +231,16 @@ DeviceFile DeviceFileReader::read(const toml::table& root, const GivenLengths& g
     StudyReader::each(reader_.toml().entries(root, ""), [&](const TomlEntry& entry) {
         mistakes_.attempt([&] {
             require_design_key(reader_.toml(), entry);
-            if (entry.name == "device" || entry.name == "process" || entry.name == "wafer" || entry.name == "rules")
+            if (entry.name == "device" || entry.name == "process" || entry.name == "wafer" || entry.name == "rules" ||
+                entry.name == "spread")
                 result_.places.emplace(entry.name, entry.place);
             if (entry.name == "name") {
                 result_.name = reader_.toml().string(entry);
                 require_file_name(result_.name, "name of a design", reader_.toml().place(*entry.node));
+            } else if (entry.name == "model") {
+                const std::string model = reader_.toml().string(entry);
+                result_.model = is_model_path(model) ? beside(result_.file, model) : model;
+                result_.places.emplace(entry.name, reader_.toml().place(*entry.node));
             } else if (entry.name == "text") {
                 result_.text = reader_.toml().string(entry);
             } else if (entry.name == "device") {
@@ -236,6 +250,8 @@ DeviceFile DeviceFileReader::read(const toml::table& root, const GivenLengths& g
                 read_process(entry);
             } else if (entry.name == "rules") {
                 read_rules(entry);
+            } else if (entry.name == "spread") {
+                result_.spread = read_spread(reader_, entry);
             } else if (entry.name == "wafer") {
                 read_wafer(entry);
             }

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 
 namespace graze {
 
@@ -29,6 +31,13 @@ private:
 std::string at(GridPoint point) {
     return fmt::format("({:.3f}, {:.3f}) um", static_cast<double>(point.x) / grid_per_micrometre,
                        static_cast<double>(point.y) / grid_per_micrometre);
+}
+
+/// Of what takes room, that which takes most: what does not fit is most likely due to it.
+const char* greatest(std::initializer_list<std::pair<const char*, double>> parts) {
+    return std::max_element(parts.begin(), parts.end(),
+                            [](const auto& a, const auto& b) { return a.second < b.second; })
+        ->first;
 }
 
 struct Part {
@@ -71,11 +80,19 @@ void require_drawable(const DeviceDimensions& d, const DeviceFile& file) {
     rules.require(d.folds >= 1 && d.folds <= most_folds, "folds", fmt::format("device.folds is {}", d.folds),
                   fmt::format("give a whole number from 1 to {}", most_folds));
     const double half = d.mass_half_length();
-    rules.require(2 * (half + d.clearance + d.chamber_margin + d.frame_width) <= d.die_width, "flexure_length",
-                  fmt::format("flexures of {} um make a mass {} um long, which does not fit on a die {} um wide",
-                              d.flexure_length, 2 * half, d.die_width),
-                  fmt::format("give shorter flexures, or a die_width of at least {} um",
-                              2 * (half + d.clearance + d.chamber_margin + d.frame_width)));
+    const double across = 2 * (half + d.clearance + d.chamber_margin + d.frame_width);
+    const char* longest = greatest({{"flexure_length", 2 * d.flexure_length},
+                                    {"truss_width", 4 * d.truss_width},
+                                    {"bridge_width", d.bridge_width},
+                                    {"clearance", 4 * d.clearance},
+                                    {"chamber_margin", 2 * d.chamber_margin},
+                                    {"frame_width", 2 * d.frame_width}});
+    rules.require(
+        across <= d.die_width, longest,
+        fmt::format("flexures of {} um make a mass {} um long, which with clearance, chamber and frame takes {} um "
+                    "of a die {} um wide",
+                    d.flexure_length, 2 * half, across, d.die_width),
+        fmt::format("give a smaller {}, or a die_width of at least {} um", longest, across));
     rules.require(
         d.electrode_length <= 2 * half, "electrode_length",
         fmt::format("the fixed electrode, {} um long, is longer than the mass of {} um", d.electrode_length, 2 * half),
@@ -99,12 +116,25 @@ void require_drawable(const DeviceDimensions& d, const DeviceFile& file) {
         fmt::format("the fixed electrode with its moat takes {} um of a die {} um wide", 2 * half_across, d.die_width),
         fmt::format("give a smaller electrode and pad, or a die_width of at least {} um",
                     2 * (half_across + d.frame_width)));
-    const double length = d.chamber_margin + d.moat + d.pad_length + d.electrode_width + d.gap + 2 * d.bar_width +
-                          2 * d.notch_half_width() + d.clearance + d.chamber_margin;
+    const double left = std::max(d.clearance, d.moat + d.pad_length + d.electrode_width + d.gap);
+    const double length = left + 2 * d.bar_width + 2 * d.notch_half_width() + d.clearance + 2 * d.chamber_margin;
+    const auto beams = 4 * static_cast<double>(d.folds);
+    longest = greatest({{"pad_length", d.pad_length},
+                        {"electrode_width", d.electrode_width},
+                        {"gap", d.gap},
+                        {"moat", d.moat},
+                        {"bar_width", 2 * d.bar_width},
+                        {"flexure_spacing", beams * d.flexure_spacing},
+                        {"flexure_width", beams * d.flexure_width},
+                        {"flexure_middle", d.flexure_middle},
+                        {"clearance", 2 * d.clearance},
+                        {"chamber_margin", 2 * d.chamber_margin},
+                        {"frame_width", 2 * d.frame_width}});
     rules.require(
-        length + 2 * d.frame_width <= d.die_length, "die_length",
-        fmt::format("the device, {} um long with its chamber, does not fit on a die {} um long", length, d.die_length),
-        fmt::format("give a die_length of at least {} um, or smaller parts", length + 2 * d.frame_width));
+        length + 2 * d.frame_width <= d.die_length, longest,
+        fmt::format("device and frame, {} um long, do not fit on a die {} um long", length + 2 * d.frame_width,
+                    d.die_length),
+        fmt::format("give a smaller {}, or a die_length of at least {} um", longest, length + 2 * d.frame_width));
     // Letters and marks stand in the strip between the chamber and the die's upper edge.
     const double edge = d.frame_width / 4;
     const double strip = d.die_width / 2 - std::max(half + d.clearance + d.chamber_margin, half_across) - 2 * edge;

@@ -52,7 +52,11 @@ private:
         GridPoint at;
     };
 
+    bool is_given(const std::string& rule) const { return file_->places.contains("rules." + rule); }
+
     void add(const std::string& rule, double limit, const char* unit, bool at_least, std::vector<Measured> places) {
+        if (!is_given(rule))
+            return;
         std::stable_sort(places.begin(), places.end(), [&](const Measured& a, const Measured& b) {
             return at_least ? a.value < b.value : a.value > b.value;
         });
@@ -177,7 +181,9 @@ private:
     }
 
     void add_motion() {
-        const LumpedModel lumped = lumped_model_of(*drawing_, file_->process, file_->conditions);
+        if (!is_given("largest_stop_share") && !is_given("largest_stress") && !is_given("largest_squeeze"))
+            return;
+        const LumpedModel lumped = lumped_model_of(*drawing_, *file_);
         const GridPoint stop = bounding_middle(drawing_->stops.front());
         const GridBox beam = drawing_->beams().front();
         const GridPoint at_beam{(beam.left + beam.right) / 2, beam.top};

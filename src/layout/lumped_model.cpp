@@ -4,6 +4,7 @@
 #include "graze/layout/physical_unit.hpp"
 #include "graze/layout/plate_attraction.hpp"
 #include "graze/layout/squeeze_film.hpp"
+#include "graze/model/catalogue.hpp"
 #include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
@@ -151,7 +152,26 @@ LumpedModel lumped_model_of(const DeviceDrawing& drawing, const ProcessData& pro
 }
 
 LumpedModel lumped_model_of(const DeviceFile& file) {
-    return lumped_model_of(draw_device(file), file.process, file.conditions);
+    return lumped_model_of(draw_device(file), file);
+}
+
+LumpedModel lumped_model_of(const DeviceDrawing& drawing, const DeviceFile& file) {
+    try {
+        return lumped_model_of(drawing, file.process, file.conditions);
+    } catch (const InputError& error) {
+        throw InputError(file.place(file.places.contains("process.bias") ? "process.bias" : "process"), error.problem(),
+                         error.remedy());
+    }
+}
+
+Model model_of(const DeviceFile& file) {
+    try {
+        return load_model(file.model);
+    } catch (const InputError& error) {
+        if (!error.place().file.empty())
+            throw;
+        throw InputError(file.place("model"), error.problem(), error.remedy());
+    }
 }
 
 ParameterFile parameters_of(const LumpedModel& lumped, const Model& model) {

@@ -67,10 +67,14 @@ private:
         std::vector<DeviceDimensions> different;
         for (std::size_t i = 0; i < plan_.devices; ++i) {
             DeviceDimensions one = file_.device;
-            for (const auto& [name, values] : plan_.vary)
+            for (const auto& [name, values] : plan_.vary) {
+                const double value = values[i % values.size()];
+                if (name == "folds")
+                    one.folds = static_cast<std::size_t>(value);
                 for (const LengthField<DeviceDimensions>& field : device_fields())
                     if (name == field.name)
-                        one.*field.member = values[i % values.size()];
+                        one.*field.member = value;
+            }
             const auto found = std::find(different.begin(), different.end(), one);
             layout_.sites.push_back(static_cast<std::size_t>(found - different.begin()));
             if (found == different.end())
@@ -117,7 +121,15 @@ private:
                 require(std::hypot(corner.x, corner.y) <= usable && corner.y >= lowest, "radius",
                         fmt::format("{} reaches into the exclusion at the wafer's edge", number(i)),
                         "give a smaller radius, die or exclusion, or a larger wafer");
-        for (std::size_t distance = 1; distance <= dies_.size() / 2; ++distance) // neighbours first
+        double widest = 0;
+        for (const TurnedBox& die : dies_)
+            widest = std::max(widest, die.reach());
+        for (std::size_t distance = 1; distance <= dies_.size() / 2; ++distance) { // neighbours first
+            // Farther than this from the other one's radius, along which its channel goes, there is nothing to meet.
+            const double angle =
+                2 * std::numbers::pi * static_cast<double>(distance) / static_cast<double>(dies_.size());
+            if (grid_per_micrometre * plan_.radius * std::sin(std::min(angle, std::numbers::pi / 2)) > 2 * widest)
+                break;
             for (std::size_t i = 0; i < dies_.size(); ++i) {
                 const std::size_t j = (i + distance) % dies_.size();
                 require(i == j ||
@@ -125,6 +137,7 @@ private:
                         "devices", fmt::format("{} and {} overlap", number(i), number(j)),
                         "give fewer devices, smaller dies, or a larger radius");
             }
+        }
         require(plan_.mark_size == 0 || nanometres(plan_.mark_size) >= least_mark, "mark_size",
                 fmt::format("a mark of {} um is too small to be drawn", plan_.mark_size),
                 "give a greater mark_size, or 0 for none");
@@ -163,6 +176,11 @@ private:
         require(height >= letter_rows, "label_height", "the letters are too small to be drawn",
                 "give a greater label_height, or 0 for none");
         const TurnedBox box({-(width / 2), -2 * height, width - width / 2, 2 * height}, {}, 0);
+        const double usable = radius_ - grid_per_micrometre * plan_.exclusion;
+        for (const BoxCorner& corner : box.corners())
+            require(std::hypot(corner.x, corner.y) <= usable, key,
+                    fmt::format("the letters '{}' reach beyond the part for devices", label(1)),
+                    "give a shorter label or a smaller label_height");
         for (std::size_t i = 0; i < dies_.size(); ++i)
             require(!box.meets(dies_[i]) && !box.meets(channels_[i]), key,
                     fmt::format("the letters '{}' lie on {}", label(1), number(i)),

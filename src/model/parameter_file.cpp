@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t longest = 16'000'000;
 
-ParameterFile::Values values_of(const TomlReader& toml, const TomlEntry& group) {
+ParameterFile::Values values_of(const TomlReader& toml, const TomlEntry& group, std::map<std::string, Place>& places) {
     ParameterFile::Values values;
     for (const TomlEntry& entry : toml.entries(toml.table(group), group.path)) {
         const auto number = entry.node->value<double>();
@@ -24,6 +24,7 @@ ParameterFile::Values values_of(const TomlReader& toml, const TomlEntry& group) 
             throw InputError(toml.place(*entry.node), fmt::format("'{}' is not finite", entry.name),
                              "give a finite number");
         values.emplace_back(entry.name, *number);
+        places[entry.path] = entry.place;
     }
     return values;
 }
@@ -53,16 +54,20 @@ std::string table_of(const char* name, const ParameterFile::Values& values) {
 } // namespace
 
 ParameterFile parse_parameter_file(const std::string& text, const std::string& path) {
-    const toml::table root = parse_toml(text, path);
+    const toml::table root =
+        parse_toml(text, path, "docs/measure-identify-predict.md shows how a file of parameters is written");
     const TomlReader toml(path);
     ParameterFile file;
     for (const TomlEntry& entry : toml.entries(root, "", {"model", "text", "set", "from", "errors"})) {
-        if (entry.name == "model")
+        if (entry.name == "model") {
             file.model = toml.line(entry);
-        else if (entry.name == "text")
+            file.places["model"] = entry.place;
+        } else if (entry.name == "text")
             file.text = toml.string(entry);
         else
-            (entry.name == "set" ? file.set : entry.name == "from" ? file.from : file.errors) = values_of(toml, entry);
+            (entry.name == "set"    ? file.set
+             : entry.name == "from" ? file.from
+                                    : file.errors) = values_of(toml, entry, file.places);
     }
     return file;
 }

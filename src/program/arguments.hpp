@@ -130,10 +130,10 @@ struct DesignArguments {
 };
 
 struct LayoutArguments {
-    std::string design, file, picture;
+    std::string design, file, picture, parameters, recipe;
     std::vector<std::string> set;
     std::optional<int> mask;
-    bool wafer = false;
+    bool wafer = false, despite_rules = false;
     OutputArguments output;
 };
 

@@ -1,3 +1,4 @@
+#include "graze/study/residual_figure.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/figure.hpp"
@@ -17,12 +18,9 @@ int identify_command(const IdentifyArguments& arguments, const Console& console)
         picture_ending(plot, "--plot", {"svg", "png", "pdf"});
     if (arguments.what == "fit")
         return identify_fit(arguments, console);
-    const Identified found = arguments.what == "decrement"     ? identify_decrement(arguments)
-                             : arguments.what == "restitution" ? identify_restitution(arguments)
-                             : arguments.what == "coupling"    ? identify_coupling(arguments)
-                                                               : identify_impedance(arguments);
+    const Identification found = identify_from_files(arguments);
     Table table({{"name", ""}, {"unit", ""}, {"value", ""}, {"error", ""}, {"low", ""}, {"high", ""}, {"freedom", ""}});
-    for (const Identified::Value& value : found.values) {
+    for (const Identification::Value& value : found.values) {
         const Estimate& estimate = value.estimate;
         const bool known = estimate.freedom > 0;
         constexpr double nothing = std::numeric_limits<double>::quiet_NaN(); // an empty cell
@@ -39,7 +37,7 @@ int identify_command(const IdentifyArguments& arguments, const Console& console)
     heading.add("what", arguments.what);
     heading.add("probability", 0.95);
     if (!plot.empty())
-        draw_figure(found.figure, plot, arguments.reading.data);
+        draw_figure(residual_figure(found), plot, arguments.reading.data);
     deliver(table, arguments.reading.output, heading, console);
     for (const std::string& warning : found.warnings)
         console.err << fmt::format("graze: warning: {}\n", warning);

@@ -168,6 +168,9 @@ void warn(const Fit& fit, const FitRequest& request, const Console& console) {
     const auto say = [&](const std::string& text) { console.err << "graze: warning: " << text << '\n'; };
     for (const FreeCombination& free : fit.free)
         say(fmt::format("readings do not tell {}", free.text));
+    for (const FitTwin& twin : fit.twins)
+        say(fmt::format("readings are met as well with {}: bound what is known, as by --free NAME=GUESS:LEAST:GREATEST",
+                        twin.text));
     std::size_t misplaced = 0;
     for (const FittedRecord& record : fit.records)
         misplaced += record.misplaced;

@@ -9,13 +9,16 @@ namespace {
 constexpr const char* layout_text = R"(Draw the masks of a switch.
 DESIGN is the name of one that comes with graze, or a TOML file whose table [device] has the dimensions (docs/layout.md): an
 H-shaped mass on folded flexures, a fixed electrode, two stops with a channel for a laser beam, on two masks. Prints what is
-drawn and its areas and gaps, measured from the polygons.)";
+drawn and its areas and gaps, measured from the polygons, and the numbers of the model that moves as it would after the
+etch. Nothing is written where a rule of [rules] is broken.)";
 
 constexpr const char* layout_examples = R"(Examples:
   graze layout mems-switch-device --output device.gds --picture device.svg
   graze layout mems-switch-device --wafer --output wafer.gds --picture wafer.png
   graze layout mine.toml --set stop_gap=7.5 --set folds=2
-  graze layout mine.toml --wafer --mask 1 --output mask1.gds        one mask alone)";
+  graze layout mine.toml --wafer --mask 1 --output mask1.gds        one mask alone
+  graze layout mine.toml --set bias=0.4 --parameters etched.toml
+  graze simulate mems-switch-device --set @etched.toml --time 6     moves as it would)";
 
 } // namespace
 
@@ -27,13 +30,20 @@ void declare_layout_command(CLI::App& app, Arguments& arguments) {
         ->type_name("")
         ->required();
     declare_option(command, "What is drawn", "--set", layout.set, "NAME=VALUE",
-                   "Another dimension of [device] or [process], in micrometres; repeat for several");
+                   "Another number of [device], in micrometres, or of [process], in its unit; repeat for several");
     command.add_flag("--wafer", layout.wafer, "The wafer with its devices, instead of one")->group("What is drawn");
     declare_option(command, "What is drawn", "--mask", layout.mask, "N", "Mask 1 (mirrored) or 2 alone")
         ->check(whole_number(1, 2));
-    declare_option(command, "Where results go", "--output", layout.file, "FILE", "Write the drawing as GDSII (.gds)");
+    declare_option(command, "Where results go", "--output", layout.file, "FILE",
+                   "Write the drawing as GDSII (.gds), or a picture as --picture does");
     declare_option(command, "Where results go", "--picture", layout.picture, "FILE",
                    "Draw a picture (.svg, .png or .pdf)");
+    declare_option(command, "Where results go", "--parameters", layout.parameters, "FILE",
+                   "Write the device's mass, frequency, damping, area and gaps, after the etch, for --set @FILE");
+    declare_option(command, "Where results go", "--recipe", layout.recipe, "FILE",
+                   "Write how it is made, step by step (Markdown)");
+    command.add_flag("--despite-rules", layout.despite_rules, "Write files although a rule of [rules] is broken")
+        ->group("Where results go");
     declare_digits(command, layout.output);
 }
 

@@ -1,8 +1,10 @@
 #include "graze/layout/device_measures.hpp"
 #include "graze/layout/gds_stream.hpp"
 #include "graze/layout/layout.hpp"
+#include "graze/layout/process_recipe.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
+#include "program/layout_model.hpp"
 #include "program/layout_picture.hpp"
 #include "program/output_file.hpp"
 #include "program/picture.hpp"
@@ -41,6 +43,7 @@ void add_measures(Table& table, const DrawnDevice& device, const DeviceFile& fil
     area("its base", measures.base_area);
     area("chambers", measures.chamber_area);
     area("etched through", measures.etched_area);
+    add_lumped_rows(table, file, device);
 }
 
 Table table_of(const Layout& layout, const DeviceFile& file) {
@@ -56,20 +59,62 @@ Table table_of(const Layout& layout, const DeviceFile& file) {
     return table;
 }
 
+const std::vector<std::string> picture_kinds{"svg", "png", "pdf"};
+
+struct AskedFiles {
+    std::string gds;
+    std::vector<std::string> pictures;
+};
+
+/// `--output` names either kind.
+AskedFiles asked_for(const LayoutArguments& arguments) {
+    AskedFiles files;
+    if (!arguments.picture.empty()) {
+        picture_ending(arguments.picture, "--picture", picture_kinds);
+        files.pictures.push_back(arguments.picture);
+    }
+    std::vector<std::string> all = picture_kinds;
+    all.insert(all.begin(), {"gds", "gds2", "gdsii"});
+    if (arguments.file.empty())
+        return files;
+    const std::string ending = picture_ending(arguments.file, "--output", all);
+    if (ending.starts_with("gds"))
+        files.gds = arguments.file;
+    else
+        files.pictures.push_back(arguments.file);
+    if (arguments.mask && files.gds.empty())
+        throw InputError({"--mask", 0, 0}, "pictures have both masks", "give --output a name that ends in .gds");
+    return files;
+}
+
+/// Nothing is written unless all can be.
+void require_places(const LayoutArguments& arguments) {
+    const std::vector<NamedFile> files{{"the design", arguments.design},
+                                       {"--output", arguments.file},
+                                       {"--picture", arguments.picture},
+                                       {"--parameters", arguments.parameters},
+                                       {"--recipe", arguments.recipe}};
+    require_distinct(files);
+    for (std::size_t i = 1; i < files.size(); ++i)
+        if (!files[i].path.empty())
+            require_writable(files[i].path);
+}
+
 } // namespace
 
 int layout_command(const LayoutArguments& arguments, const Console& console) {
-    const std::string& path = arguments.file;
-    if (!path.empty())
-        picture_ending(path, "--output", {"gds", "gds2", "gdsii"});
-    if (!arguments.picture.empty())
-        picture_ending(arguments.picture, "--picture", {"svg", "png", "pdf"});
-    require_distinct({{"the design", arguments.design}, {"--output", path}, {"--picture", arguments.picture}});
+    const auto [path, pictures] = asked_for(arguments);
+    require_places(arguments);
     const DeviceFile file = load_device_file(arguments.design, parameter_values(arguments.set));
     Layout layout = arguments.wafer ? draw_wafer_layout(file) : draw_device_layout(file);
+    const bool ruled = check_rules(file, layout, arguments.despite_rules, console);
     const Table table = table_of(layout, file);
-    if (!arguments.picture.empty())
-        draw_layout(layout, arguments.picture);
+    if (!arguments.parameters.empty())
+        write_device_parameters(file, arguments.parameters);
+    if (!arguments.recipe.empty())
+        write_file(arguments.recipe, recipe_text(file));
+    for (const std::string& picture : pictures)
+        draw_layout(layout, picture);
     if (!path.empty()) {
         if (!arguments.mask)
             add_masks(layout);
@@ -79,7 +124,7 @@ int layout_command(const LayoutArguments& arguments, const Console& console) {
     heading.add("design", file.name);
     heading.add("top", layout.top);
     deliver(table, arguments.output, heading, console);
-    return exit_success;
+    return ruled ? exit_success : exit_irregular;
 }
 
 } // namespace graze

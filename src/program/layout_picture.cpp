@@ -44,6 +44,7 @@ struct PartLabel {
     std::string text;
     double x, y;
     bool to_left;
+    double below = 0; ///< by how much it stands lower than where its line leads
 };
 
 class LayoutPicture {
@@ -151,7 +152,7 @@ private:
         if (!plots_.empty())
             plots_ += ", ";
         // With an edge of its own colour, or seams would show where polygons touch.
-        plots_ += fmt::format("{} with filledcurves closed fc rgb '{}' fs solid border lc rgb '{}' lw 0.3",
+        plots_ += fmt::format("{} with filledcurves closed fc rgb '{}' fs solid border lc rgb '{}' lw 0.7",
                               block(style.layer, true), style.colour, style.colour);
     }
 
@@ -173,7 +174,7 @@ private:
 
     void draw_device(const PageBox& place) {
         const DeviceDrawing& drawing = layout_->devices.front().drawing;
-        begin_panel(place, drawing.chamber_box, 0.06, 270);
+        begin_panel(place, drawing.chamber_box, 0.02, 235);
         for (const LayerStyle& style : device_styles)
             fill(style);
         outline(mask_layers::back, "#aa3377", "2");
@@ -188,32 +189,28 @@ private:
         const DeviceDimensions& d = drawing.dimensions;
         const auto um = [](std::int64_t value) { return static_cast<double>(value) / grid_per_micrometre; };
         const GridBox mass = bounding_box(drawing.mass), electrode = bounding_box(drawing.electrode);
-        const GridBox stop = bounding_box(drawing.stops.front()), lower_stop = bounding_box(drawing.stops.back());
+        const GridBox stop = bounding_box(drawing.stops.front());
         const std::vector<GridBox> beams = drawing.beams(), trusses = drawing.trusses();
         const GridBox &beam = beams[2 * d.folds], &chamber = drawing.chamber_box;
         const double face = um(electrode.right);
-        const double upper_half = um(mass.top) - um(trusses.front().bottom);
+        const GridBox& truss = trusses[trusses.size() / 2]; // of the lower flexure
         return {
-            {"frame", um(chamber.left), um(chamber.top) + 0.6 * (um(chamber.top) - um(mass.top)), true},
-            {"chamber on the back", um(chamber.left) + um(chamber.width()) / 4, um(chamber.top), true},
+            {"chamber on the back", um(mass.left), um(chamber.top), true},
             {fmt::format("gap d = {:.6g} µm", d.gap), face + d.gap / 2, um(electrode.top) * 0.9, true},
             {"fixed electrode", face - d.electrode_width / 2, um(electrode.top) * 0.55, true},
             {"its bonded base", um(electrode.left) + d.base_inset, d.pad_width * 0.2, true},
             {"contact pad", um(electrode.left) + d.pad_length * 0.3, -d.pad_width * 0.2, true},
             {fmt::format("moat, {:.6g} µm", d.moat), um(electrode.left) + d.pad_length * 0.3,
              -d.pad_width / 2 - d.moat / 2, true},
-            {fmt::format("folded flexure, {} beams", 4 * d.folds), um(beam.right), um(beam.top) - 0.15 * upper_half,
-             false},
+            {fmt::format("folded flexure, {} beams", 4 * d.folds), um(beam.right), um(mass.top) * 0.85, false},
             {fmt::format("beam, {:.6g} by {:.6g} µm", d.flexure_width, d.flexure_length),
-             um(beams[2 * d.folds + 1].left), um(beam.top) - 0.4 * upper_half, false},
-            {"truss", um(trusses.front().right) - d.flexure_width, um(trusses.front().top) - d.truss_width / 2, false},
-            {"mass (H)", um(mass.right) - d.bar_width / 2,
-             um(stop.top) + 0.4 * (um(trusses.front().bottom) - um(stop.top)), false},
-            {fmt::format("stop, gap {:.6g} µm", d.stop_gap), um(stop.left) + d.stop_gap,
-             um(stop.top) - d.stop_width / 3, false},
+             um(beams[2 * d.folds + 1].left), um(mass.top) * 0.6, false},
+            {"mass (H)", um(mass.right) - d.bar_width / 2, um(mass.top) * 0.35, false},
+            {fmt::format("stop, gap {:.6g} µm", d.stop_gap), um(stop.left), um(stop.top) - d.stop_width / 4, false},
             {fmt::format("channel, {:.6g} µm", d.channel_width), um(chamber.right), 0, false},
-            {"stop", um(stop.left) + d.stop_gap, um(lower_stop.bottom) + d.stop_width / 3, false},
-            {"frame", um(chamber.right) + d.chamber_margin, um(chamber.bottom) * 0.6, false},
+            {"truss", um(truss.right) - d.flexure_width, um(truss.top) - d.truss_width / 2, false,
+             -0.2 * um(mass.bottom)},
+            {"frame", um(chamber.right) + d.chamber_margin, um(mass.bottom) * 0.6, false},
         };
     }
 
@@ -222,16 +219,17 @@ private:
         std::vector<PartLabel> here;
         std::copy_if(labels.begin(), labels.end(), std::back_inserter(here),
                      [&](const PartLabel& one) { return one.to_left == to_left; });
-        std::stable_sort(here.begin(), here.end(), [](const PartLabel& a, const PartLabel& b) { return a.y > b.y; });
+        std::stable_sort(here.begin(), here.end(),
+                         [](const PartLabel& a, const PartLabel& b) { return a.y - a.below > b.y - b.below; });
         const double step = 2.2 * letter * scale_;
         std::vector<double> places;
         for (const PartLabel& one : here)
-            places.push_back(places.empty() ? one.y : std::min(one.y, places.back() - step));
+            places.push_back(places.empty() ? one.y - one.below : std::min(one.y - one.below, places.back() - step));
         const double least = bottom_ + step;
         for (std::size_t i = places.size(); i-- > 0;)
             places[i] = std::max(places[i], i + 1 < places.size() ? places[i + 1] + step : least);
         for (std::size_t i = 0; i < here.size(); ++i) {
-            const double room = 250 * scale_;
+            const double room = 225 * scale_;
             const double x = to_left ? left_ + room : right_ - room;
             commands_ += fmt::format("set label \"{}\" at {:.10g},{:.10g} {} front\n", plain(here[i].text),
                                      to_left ? x - 5 * scale_ : x + 5 * scale_, places[i], to_left ? "right" : "left");

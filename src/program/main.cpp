@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glog/logging.h>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -31,6 +32,9 @@ bool ends_in_order(int count, char** values) {
 } // namespace
 
 int main(int count, char** values) {
+    // Ceres Solver tells the log of steps that fail, which are others' business: the log is the program's, not the
+    // library's.
+    FLAGS_minloglevel = google::GLOG_FATAL;
     std::optional<graze::InterruptGuard> guard; // from the first moment, not only from where computing begins
     if (ends_in_order(count, values))
         guard.emplace();

@@ -90,6 +90,7 @@ const std::vector<Excludes>& exclusions() {
 
 const std::vector<Needs>& needs() {
     static const std::vector<Needs> all{
+        {"layout", "--mask", {"--output"}},
         {"orbit", "--data", {"--plot"}},
         {"trip", "--data", {"--plot"}},
         {"record", "--data", {"--plot"}},

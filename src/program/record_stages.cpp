@@ -1,9 +1,5 @@
 #include "program/record_stages.hpp"
 
-#include "graze/record/calibrated.hpp"
-#include "graze/record/derivative.hpp"
-#include "graze/record/low_pass.hpp"
-#include "graze/record/record_file.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "program/values.hpp"
 
@@ -11,7 +7,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <limits>
 
 namespace graze {
 
@@ -28,13 +23,13 @@ double number_of(const std::string& text, const Place& place) {
 }
 
 /// NAME=FACTOR[+OFFSET][:UNIT]
-Calibration calibration_of(const std::string& text, const RecordHeader& header) {
+RecordProcessing::Scale scale_of(const std::string& text) {
     const Place place{"--scale " + text, 0, 0};
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos)
         throw InputError(place, "it names no channel", "write NAME=FACTOR, such as q=2.011:mm");
-    Calibration result;
-    result.channel = header.channel(text.substr(0, equals), "--scale");
+    RecordProcessing::Scale result;
+    result.channel = text.substr(0, equals);
     std::string rest = text.substr(equals + 1);
     if (const std::size_t colon = rest.find(':'); colon != std::string::npos) {
         result.unit = rest.substr(colon + 1);
@@ -51,36 +46,31 @@ Calibration calibration_of(const std::string& text, const RecordHeader& header) 
     return result;
 }
 
+RecordProcessing processing_of(const RecordArguments& arguments) {
+    RecordProcessing processing;
+    processing.asked_as = "--";
+    processing.layout.columns = arguments.columns;
+    if (!arguments.group.empty())
+        processing.layout.group = arguments.group;
+    for (const std::string& text : arguments.scales)
+        processing.scales.push_back(scale_of(text));
+    processing.begin = arguments.from.value_or(processing.begin);
+    processing.end = arguments.to.value_or(processing.end);
+    processing.pass = arguments.pass.value_or(0);
+    processing.stop = arguments.stop.value_or(0);
+    processing.every = arguments.every;
+    processing.derivative = arguments.derivative;
+    processing.half_width = arguments.half_width;
+    return processing;
+}
+
 } // namespace
 
-RecordStages::RecordStages(const std::string& path, const RecordArguments& arguments) {
-    RecordLayout layout;
-    layout.columns = arguments.columns;
-    if (!arguments.group.empty())
-        layout.group = arguments.group;
-    stages_.push_back(open_record(path, layout));
-    CalibratedSettings calibrated;
-    for (const std::string& text : arguments.scales)
-        calibrated.calibrations.push_back(calibration_of(text, header()));
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    calibrated.begin = arguments.from.value_or(-infinity);
-    calibrated.end = arguments.to.value_or(infinity);
-    if (!calibrated.calibrations.empty() || arguments.from || arguments.to)
-        stages_.push_back(std::make_unique<Calibrated>(source(), calibrated));
-    if (arguments.pass || arguments.every > 1) {
-        LowPassSettings filter;
-        filter.pass = arguments.pass.value_or(0);
-        filter.stop = arguments.stop.value_or(0);
-        filter.every = arguments.every;
-        stages_.push_back(std::make_unique<LowPass>(source(), filter));
-    }
-    if (!arguments.derivative.empty()) {
-        DerivativeSettings derivative;
-        derivative.channel = header().channel(arguments.derivative, "--derivative");
-        derivative.half_width = arguments.half_width;
-        stages_.push_back(std::make_unique<WithDerivative>(source(), derivative));
-    }
-}
+RecordStages::RecordStages(const std::string& path, const RecordArguments& arguments)
+    : RecordStages(path, processing_of(arguments)) {}
+
+RecordStages::RecordStages(const std::string& path, const RecordProcessing& processing)
+    : record_(open_record(path, processing.layout), processing) {}
 
 std::vector<std::size_t> RecordStages::channels(const std::vector<std::string>& asked) const {
     std::vector<std::size_t> result;

@@ -1,9 +1,8 @@
 #pragma once
 
-#include "graze/record/samples.hpp"
+#include "graze/record/processed_record.hpp"
 #include "program/arguments.hpp"
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,13 +13,14 @@ class RecordStages {
 public:
     /// @throws InputError for what is no record, and options without meaning
     RecordStages(const std::string& path, const RecordArguments& arguments);
-    SampleSource& source() { return *stages_.back(); }
-    const RecordHeader& header() const { return stages_.back()->header(); }
+    SampleSource& source() { return record_.source(); }
+    const RecordHeader& header() const { return record_.header(); }
     /// Indices of the channels that are asked for, or of all.
     std::vector<std::size_t> channels(const std::vector<std::string>& asked) const;
 
 private:
-    std::vector<std::unique_ptr<SampleSource>> stages_; ///< each reads from the one before
+    RecordStages(const std::string& path, const RecordProcessing& processing);
+    ProcessedRecord record_;
 };
 
 } // namespace graze

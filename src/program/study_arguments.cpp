@@ -117,8 +117,8 @@ void declare_plot_results(CLI::App& app, PlotArguments& arguments) {
         "Runs to be drawn (all; each by itself, but branches with --output together)");
     add(command, "--kind", arguments.kind, "KIND",
         "bifurcation, branch, basin, map, spectrum, history, portrait, regression or scatter")
-        ->check(one_of(
-            {"bifurcation", "branch", "basin", "map", "spectrum", "history", "portrait", "regression", "scatter"}));
+        ->check(one_of({"bifurcation", "branch", "basin", "map", "spectrum", "history", "portrait", "regression",
+                        "scatter", "residuals"}));
     add(command, "--x", arguments.x, "NAME", "Horizontal axis: what varies, or a value");
     add(command, "--y", arguments.y, "NAME", "Vertical axes, one panel each (all values)");
     add(command, "--sample", arguments.samples, "NAME", "Only these samplings");

@@ -64,7 +64,9 @@ private:
     /// Of what a picture was made, and what it has become.
     std::string made_of(const std::vector<std::string>& files) const {
         std::string text = fmt::format("{} {} {}", drawing, GRAZE_VERSION, settings_of(*picture_));
-        for (const std::string& name : picture_->runs)
+        std::vector<std::string> names = picture_->runs;
+        names.insert(names.end(), picture_->over.begin(), picture_->over.end());
+        for (const std::string& name : names)
             if (const auto run = file_->find_run(name))
                 text += fmt::format("\n{} {} {} {}", name, run->fingerprint, file_->point_count(name),
                                     run->status == RunStatus::complete);
@@ -103,11 +105,14 @@ void leave_out_empty_runs(StudyPicture& picture, const ResultFile& file, const C
     const auto is_empty = [&](const std::string& run) { return file.point_count(run) == 0; };
     if (std::all_of(picture.runs.begin(), picture.runs.end(), is_empty))
         throw InputError(fmt::format("run '{}' has no points", picture.runs.front()), "see why above");
-    for (const std::string& run : picture.runs)
+    std::vector<std::string> names = picture.runs;
+    names.insert(names.end(), picture.over.begin(), picture.over.end());
+    for (const std::string& run : names)
         if (is_empty(run))
             console.err << fmt::format("graze: warning: picture '{}' was drawn without run '{}', which has no points\n",
                                        picture.name, run);
     std::erase_if(picture.runs, is_empty);
+    std::erase_if(picture.over, is_empty);
 }
 
 } // namespace

@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <set>
+#include <utility>
 
 namespace graze {
 
@@ -19,7 +21,9 @@ constexpr std::string_view blanks = " \t\n";
 
 struct Assignment {
     std::string name, text;
-    Place place; ///< of the text behind "="
+    Place place;      ///< of the text behind "="
+    Place name_place; ///< the option, or the line of a file
+    bool in_file = false;
 };
 
 Assignment parse_assignment(const std::string& item, const std::string& option) {
@@ -32,27 +36,61 @@ Assignment parse_assignment(const std::string& item, const std::string& option) 
     result.name = trimmed(std::string_view(item).substr(0, equals), blanks);
     result.text = item.substr(equals + 1);
     result.place = {fmt::format("{} {}", option, item), 1, static_cast<int>(equals) + 2};
+    result.name_place = {option, 0, 0};
     return result;
 }
 
-/// What options ask for, with what is in files that they name: `@FILE`.
-std::vector<std::string> with_files(const std::vector<std::string>& assignments,
-                                    ParameterFile::Values ParameterFile::*part, const char* option) {
-    std::vector<std::string> all;
-    for (std::string& item : split_list(assignments)) {
-        if (!item.starts_with('@')) {
-            all.push_back(std::move(item));
-            continue;
-        }
-        const std::string path = item.substr(1);
-        const ParameterFile file = read_parameter_file(path);
-        if ((file.*part).empty())
-            throw InputError(Place{path, 0, 0}, fmt::format("it has nothing for {}", option),
-                             fmt::format("leave {} {} out", option, item));
-        for (const auto& [name, value] : file.*part)
-            all.push_back(fmt::format("{}={}", name, value));
+/// What a file of parameters has for an option. @param model the one that is used; null: not known yet
+std::vector<Assignment> assignments_in(const std::string& path, const std::string& option, const Model* model) {
+    const ParameterFile file = read_parameter_file(path);
+    if (model != nullptr && !file.model.empty() && file.model != model->name)
+        throw InputError(
+            file.places.at("model"),
+            fmt::format("these values were found for the model '{}', not for '{}'", file.model, model->name),
+            "give those of this model, or leave out the line that names it");
+    const std::string table = option.substr(2); // "--set", "--from"
+    std::vector<Assignment> all;
+    for (const auto& [name, value] : table == "set" ? file.set : file.from) {
+        const Place place = file.places.at(table + "." + name);
+        all.push_back({name, fmt::format("{}", value), place, place, true});
     }
+    if (all.empty())
+        throw InputError(Place{path, 0, 0}, fmt::format("it has nothing for {}", option),
+                         fmt::format("leave {} @{} out", option, path));
     return all;
+}
+
+/// What options ask for, with what is in files that they name, `@FILE`: of the same name what comes later counts. Of
+/// two values on the command line one would be ignored.
+std::vector<Assignment> all_assignments(const std::vector<std::string>& arguments, const std::string& option,
+                                        const Model* model) {
+    std::vector<Assignment> all;
+    for (const std::string& item : split_list(arguments))
+        for (Assignment& one : item.starts_with('@') ? assignments_in(item.substr(1), option, model)
+                                                     : std::vector{parse_assignment(item, option)}) {
+            const auto before =
+                std::find_if(all.begin(), all.end(), [&](const Assignment& other) { return other.name == one.name; });
+            if (before != all.end() && !before->in_file)
+                throw InputError({option, 0, 0}, fmt::format("'{}' is given twice", one.name),
+                                 one.in_file ? "name the file first: what comes later takes the place of what it says"
+                                             : "leave one of them out");
+            if (before != all.end())
+                all.erase(before);
+            all.push_back(std::move(one));
+        }
+    return all;
+}
+
+/// A mistake in a name, where it was made.
+template <class Work>
+void at_name(const Assignment& assignment, const Work& work) {
+    try {
+        work();
+    } catch (const InputError& error) {
+        if (!assignment.in_file || !error.place().file.empty())
+            throw;
+        throw InputError(assignment.name_place, error.problem(), error.remedy());
+    }
 }
 
 } // namespace
@@ -89,52 +127,40 @@ ParameterId asked_parameter(const Model& model, const std::string& name) {
     }
 }
 
-namespace {
-
-/// Of two values one would be ignored.
-void require_new(std::set<std::string>& names, const std::string& name, const char* option) {
-    if (!names.insert(name).second)
-        throw InputError({option, 0, 0}, fmt::format("'{}' is given twice", name), "leave one of them out");
-}
-
-} // namespace
-
 void set_parameters(Model& model, const std::vector<std::string>& assignments) {
-    std::set<std::string> names;
-    for (const std::string& item : with_files(assignments, &ParameterFile::set, "--set")) {
-        const Assignment assignment = parse_assignment(item, "--set");
+    for (const Assignment& assignment : all_assignments(assignments, "--set", &model)) {
         if (!model.find_parameter(assignment.name) && model.find_state(assignment.name))
-            throw InputError({"--set", 0, 0}, fmt::format("'{}' is a state, not a parameter", assignment.name),
-                             fmt::format("choose where it starts by --from {}", item));
-        if (!model.find_parameter(assignment.name))
-            model.set_parameter(assignment.name, 0); // says which names there are
-        require_new(names, assignment.name, "--set");
-        model.set_parameter(assignment.name, value_of_text(model, assignment.text, assignment.place));
+            throw InputError(assignment.name_place, fmt::format("'{}' is a state, not a parameter", assignment.name),
+                             assignment.in_file ? "write it under [from]"
+                                                : fmt::format("choose where it starts by --from {}={}", assignment.name,
+                                                              assignment.text));
+        at_name(assignment, [&] {
+            if (!model.find_parameter(assignment.name))
+                model.set_parameter(assignment.name, 0); // says which names there are
+            model.set_parameter(assignment.name, value_of_text(model, assignment.text, assignment.place));
+        });
     }
 }
 
 std::vector<std::pair<std::string, double>> parameter_values(const std::vector<std::string>& assignments) {
     std::vector<std::pair<std::string, double>> values;
-    std::set<std::string> names;
-    for (const std::string& item : with_files(assignments, &ParameterFile::set, "--set")) {
-        const Assignment assignment = parse_assignment(item, "--set");
-        require_new(names, assignment.name, "--set");
+    for (const Assignment& assignment : all_assignments(assignments, "--set", nullptr))
         values.emplace_back(assignment.name, value_of_text(Model(), assignment.text, assignment.place));
-    }
     return values;
 }
 
 void set_initial_state(Model& model, const std::vector<std::string>& assignments) {
-    std::set<std::string> names;
-    for (const std::string& item : with_files(assignments, &ParameterFile::from, "--from")) {
-        const Assignment assignment = parse_assignment(item, "--from");
+    for (const Assignment& assignment : all_assignments(assignments, "--from", &model)) {
         if (!model.find_state(assignment.name) && model.find_parameter(assignment.name))
-            throw InputError({"--from", 0, 0}, fmt::format("'{}' is a parameter, not a state", assignment.name),
-                             fmt::format("choose its value by --set {}", item));
-        if (!model.find_state(assignment.name))
-            model.set_initial(assignment.name, 0); // says which names there are
-        require_new(names, assignment.name, "--from");
-        model.set_initial(assignment.name, value_of_text(model, assignment.text, assignment.place));
+            throw InputError(assignment.name_place, fmt::format("'{}' is a parameter, not a state", assignment.name),
+                             assignment.in_file
+                                 ? "write it under [set]"
+                                 : fmt::format("choose its value by --set {}={}", assignment.name, assignment.text));
+        at_name(assignment, [&] {
+            if (!model.find_state(assignment.name))
+                model.set_initial(assignment.name, 0); // says which names there are
+            model.set_initial(assignment.name, value_of_text(model, assignment.text, assignment.place));
+        });
     }
 }
 
@@ -152,7 +178,9 @@ std::vector<double> disturbance_of(const Model& model, const std::vector<std::st
             throw InputError({"--disturbance", 0, 0}, fmt::format("'{}' is not a state", assignment.name),
                              fmt::format("choose one of {}", fmt::join(states, ", ")));
         }
-        require_new(names, assignment.name, "--disturbance");
+        if (!names.insert(assignment.name).second)
+            throw InputError({"--disturbance", 0, 0}, fmt::format("'{}' is given twice", assignment.name),
+                             "leave one of them out");
         values[*state] = value_of_text(model, assignment.text, assignment.place);
     }
     return values;

@@ -24,7 +24,7 @@ double positive_value_of(const Model& model, std::string_view text, const std::s
 ParameterId asked_parameter(const Model& model, const std::string& name);
 
 /// Carries out `--set NAME=EXPRESSION ...`, one after the other; `@FILE` stands for all that a file of parameters
-/// sets. @throws InputError
+/// sets, of which what comes later takes the place. @throws InputError, also for a file of another model
 void set_parameters(Model& model, const std::vector<std::string>& assignments);
 /// Names and values of `--set NAME=NUMBER ...` for models that are not known yet: expressions without names.
 /// @throws InputError

@@ -28,7 +28,8 @@ constexpr std::size_t longest_failure = 4000; ///< bytes that are shown
 void require_names(const RunRecord& run, const std::string& path) {
     const Place place{path, 0, 0};
     require_file_name(run.name, "name of a run", place);
-    const std::array<std::string_view, 7> kinds{"simulate", "sweep", "basin", "orbit", "continue", "curve", "ladder"};
+    const std::array<std::string_view, 9> kinds{"simulate", "sweep",  "basin",  "orbit",   "continue",
+                                                "curve",    "ladder", "record", "identify"};
     if (std::find(kinds.begin(), kinds.end(), run.kind) == kinds.end())
         throw InputError(place, fmt::format("run '{}' is of unknown kind '{}'", run.name, run.kind),
                          "use the version of graze that wrote it");
@@ -166,7 +167,7 @@ void ResultFile::remove_run(const std::string& name) {
         // The views name the tables, and are made anew without them.
         database.execute(views({}));
         database.execute(fmt::format("DROP TABLE {}; DROP TABLE {}", tables.points, tables.samples));
-        std::vector<std::string> shared{"columns", "names"};
+        std::vector<std::string> shared{"columns", "names", "estimates", "covariances"};
         for (const DetailTable& table : detail_tables())
             shared.push_back(table.name);
         for (const std::string& table : shared)

@@ -136,7 +136,10 @@ std::string common_tables() {
         text += fmt::format("CREATE TABLE {}(run TEXT, point INTEGER, position INTEGER, {}, "
                             "PRIMARY KEY(run, point, position)) WITHOUT ROWID;",
                             table.name, declared(table.columns));
-    return text;
+    return text + "CREATE TABLE estimates(run TEXT, position INTEGER, name TEXT, unit TEXT, value REAL, error REAL, "
+                  "low REAL, high REAL, freedom REAL, note TEXT, PRIMARY KEY(run, position)) WITHOUT ROWID;"
+                  "CREATE TABLE covariances(run TEXT, position INTEGER, other INTEGER, covariance REAL, "
+                  "PRIMARY KEY(run, position, other)) WITHOUT ROWID;";
 }
 
 std::string views(const std::vector<RunRecord>& runs) {

@@ -1,6 +1,9 @@
 #include "study/picture_kinds.hpp"
 
+#include "graze/symbolic/input_error.hpp"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -10,7 +13,8 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_marks = 8;
-constexpr double least_stretch = 0.01; ///< share of a sweep on both sides of a change that is marked
+constexpr std::size_t most_circles = 200; ///< of what is drawn over; beyond, dots are seen better
+constexpr double least_stretch = 0.01;    ///< share of a sweep on both sides of a change that is marked
 
 /// Where something changes that lasted before and lasts after.
 std::vector<double> changes(const StoredRun& run, const std::string& direction) {
@@ -77,13 +81,80 @@ void share_axes(Figure& figure) {
         }
 }
 
+/// What a panel shows, for others to be drawn over it.
+struct ShownPanel {
+    std::string value, direction;
+};
+
+/// Adds a series for each sampling of a run.
+/// @param over named by the run, too, and seen over what is there
+void add_samples(FigurePanel& panel, const StudyPicture& picture, const StoredRun& run, const std::string& x,
+                 const ShownPanel& shown, bool over) {
+    const std::vector<std::string> samplings = shown_points(picture, run);
+    const std::size_t before = panel.series.size();
+    std::map<std::string, std::size_t> series;
+    for (std::size_t s = 0; s < samplings.size(); ++s) {
+        series[samplings[s]] = before + s;
+        const std::string run_name = shown_name(picture, run.record.name);
+        const std::string title = samplings.size() > 1 ? shown_name(picture, samplings[s]) : "";
+        panel.series.push_back({!over           ? title
+                                : title.empty() ? run_name
+                                                : fmt::format("{}: {}", run_name, title),
+                                over ? FigureSeries::Style::circles : FigureSeries::Style::dots,
+                                before + s,
+                                {}});
+    }
+    const auto& known = run.record.directions;
+    const bool has_direction = std::find(known.begin(), known.end(), shown.direction) != known.end();
+    auto rows =
+        run.rows({.samples = true,
+                  .columns = {"sampling"},
+                  .quantities = {x},
+                  .values = {shown.value},
+                  .directions = has_direction ? std::vector<std::string>{shown.direction} : std::vector<std::string>(),
+                  .samplings = samplings});
+    while (rows.next())
+        if (const auto at = series.find(rows.text(0)); at != series.end() && !rows.is_null(2))
+            panel.series[at->second].points.push_back({rows.number(1), rows.number(2)});
+    for (std::size_t s = before; s < panel.series.size(); ++s)
+        if (panel.series[s].points.size() > most_circles)
+            panel.series[s].style = FigureSeries::Style::dots;
+}
+
+/// Runs that are drawn over panels of the same values.
+void add_over(Figure& figure, const StudyPicture& picture, const std::vector<ShownPanel>& shown,
+              const ResultFile& file) {
+    for (const std::string& name : picture.over) {
+        const StoredRun run(file, name, picture.place);
+        bool drawn = false;
+        for (std::size_t p = 0; p < shown.size(); ++p)
+            if (run.has_value(shown[p].value)) {
+                FigurePanel& panel = figure.panels[p];
+                const std::string x = first_coordinate(picture, run);
+                add_samples(panel, picture, run, x, shown[p], true);
+                if (const auto extent = run.extent(x); extent && panel.x_range && !picture.x_range) {
+                    // What was measured may lie beside what was computed by its noise alone: not on the frame.
+                    constexpr double margin = 0.01;
+                    const double room = margin * (panel.x_range->second - panel.x_range->first);
+                    panel.x_range = std::pair(std::min(panel.x_range->first, extent->first - room),
+                                              std::max(panel.x_range->second, extent->second + room));
+                }
+                drawn = true;
+            }
+        if (!drawn)
+            throw InputError(picture.place, fmt::format("run '{}' has none of the values that are drawn", name),
+                             fmt::format("it has {}", fmt::join(run.value_names(), ", ")));
+    }
+}
+
 } // namespace
 
 Figure bifurcation_picture(const StudyPicture& picture, const ResultFile& file) {
     Figure figure;
+    std::vector<ShownPanel> shown;
     for (const std::string& name : picture.runs) {
         const StoredRun run(file, name, picture.place);
-        const std::vector<std::string> values = chosen_values(picture, run), samplings = shown_samplings(picture, run);
+        const std::vector<std::string> values = chosen_values(picture, run);
         require_values(picture, run, values);
         const std::string x = first_coordinate(picture, run);
         const std::vector<std::string> directions =
@@ -91,36 +162,21 @@ Figure bifurcation_picture(const StudyPicture& picture, const ResultFile& file) 
         figure.columns = values.size() > 1 ? values.size() : directions.size();
         for (const std::string& direction : directions)
             for (std::size_t v = 0; v < values.size(); ++v) {
-                const std::string& value = values[v];
-                FigurePanel panel = panel_of(picture, run, x, value, v);
+                FigurePanel panel = panel_of(picture, run, x, values[v], v);
                 const char letter = static_cast<char>('a' + figure.panels.size());
                 panel.title = fmt::format("({}) {}", letter,
                                           direction.empty() ? shown_name(picture, name)
                                                             : fmt::format("{} {}", shown_name(picture, x), direction));
-                std::map<std::string, std::size_t> series;
-                for (std::size_t s = 0; s < samplings.size(); ++s) {
-                    series[samplings[s]] = s;
-                    panel.series.push_back({samplings.size() > 1 ? shown_name(picture, samplings[s]) : "",
-                                            FigureSeries::Style::dots,
-                                            s,
-                                            {}});
-                }
-                auto rows = run.rows({.samples = true,
-                                      .columns = {"sampling"},
-                                      .quantities = {x},
-                                      .values = {value},
-                                      .directions = {direction},
-                                      .samplings = samplings});
-                while (rows.next())
-                    if (const auto at = series.find(rows.text(0)); at != series.end() && !rows.is_null(2))
-                        panel.series[at->second].points.push_back({rows.number(1), rows.number(2)});
+                add_samples(panel, picture, run, x, {values[v], direction}, false);
                 if (!panel.x_range && picture.x.empty())
                     panel.x_range = run.extent(run.record.coordinates.front().name);
                 if (run.record.kind == "sweep" && picture.x.empty())
                     panel.marks = changes(run, direction);
                 figure.panels.push_back(std::move(panel));
+                shown.push_back({values[v], direction});
             }
     }
+    add_over(figure, picture, shown, file);
     share_axes(figure);
     return figure;
 }

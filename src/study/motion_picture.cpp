@@ -27,7 +27,7 @@ std::string title_of(const StudyPicture& one, const StoredRun& run, const PointR
                                        : shown_value(one, run, one.at.front().first, one.at.front().second);
     if (point.result.label == Label::periodic)
         title += fmt::format(": period {}", point.result.period);
-    else if (run.record.kind != "simulate")
+    else if (run.record.kind != "simulate" && run.record.kind != "record")
         title += fmt::format(": {}", name_of(point.result.label));
     return title;
 }
@@ -63,6 +63,8 @@ public:
         }
         ++colour_;
     }
+    /// From now on what comes is drawn over the panels that there are.
+    void draw_over() { over_ = true; }
     Figure take() {
         figure_.columns = portrait_ && figure_.panels.size() > 1 ? 2 : 1;
         return std::move(figure_);
@@ -72,7 +74,7 @@ private:
     /// A new one in portraits; in histories that of the value.
     FigurePanel& panel_for(const StoredRun& run, const std::string& x, const std::string& y, std::size_t value,
                            const std::string& title) {
-        const std::size_t index = portrait_ ? figure_.panels.size() : value;
+        const std::size_t index = portrait_ && !over_ ? figure_.panels.size() : value;
         if (index >= figure_.panels.size()) {
             figure_.panels.push_back(panel_of(*picture_, run, x, y, value));
             figure_.panels.back().roomy_y = true;
@@ -84,13 +86,23 @@ private:
     }
     void add_samples(FigurePanel& panel, const StoredRun& run, const PointRecord& point, const std::string& x,
                      const std::string& y, FigureSeries::Style style) const {
-        const auto samplings = shown_samplings(*picture_, run);
+        const auto samplings = shown_samplings(*picture_, run), rows = row_samplings(run);
         for (std::size_t s = 0; s < samplings.size(); ++s) {
             std::vector<double> times;
             const auto ys = samples_of(point, run, y, samplings[s], &times);
             const auto xs = portrait_ ? samples_of(point, run, x, samplings[s], nullptr) : times;
-            FigureSeries series{
-                portrait_ ? shown_name(*picture_, samplings[s]) : "", style, portrait_ ? s : colour_, {}};
+            const bool is_line = std::find(rows.begin(), rows.end(), samplings[s]) != rows.end();
+            const bool is_point = run.record.kind == "record" && !is_line;
+            FigureSeries series{is_line                 ? shown_name(*picture_, run.record.name)
+                                : portrait_ || is_point ? shown_name(*picture_, samplings[s])
+                                                        : "",
+                                is_line    ? FigureSeries::Style::line
+                                : is_point ? FigureSeries::Style::circles
+                                           : style,
+                                portrait_ && !over_ ? is_line ? 7 : s
+                                : is_point || over_ ? colour_ + s
+                                                    : colour_,
+                                {}};
             for (std::size_t i = 0; i < std::min(xs.size(), ys.size()); ++i)
                 series.points.push_back({xs[i], ys[i]});
             panel.series.push_back(std::move(series));
@@ -98,7 +110,7 @@ private:
     }
 
     const StudyPicture* picture_;
-    bool portrait_;
+    bool portrait_, over_ = false;
     Figure figure_;
     std::size_t colour_ = 0;
 };
@@ -107,11 +119,16 @@ private:
 
 Figure motion_picture(const StudyPicture& picture, const ResultFile& file, bool portrait) {
     MotionPanels panels(picture, portrait);
-    for (const std::string& name : picture.runs) {
-        const StoredRun run(file, name, picture.place);
-        for (const StudyPicture& one : one_for_each_point(picture))
-            panels.add(run, one);
-    }
+    const auto add = [&](const std::vector<std::string>& names) {
+        for (const std::string& name : names) {
+            const StoredRun run(file, name, picture.place);
+            for (const StudyPicture& one : one_for_each_point(picture))
+                panels.add(run, one);
+        }
+    };
+    add(picture.runs);
+    panels.draw_over();
+    add(picture.over);
     return panels.take();
 }
 

@@ -23,6 +23,10 @@ StudyPicture default_picture(const RunRecord& run) {
         picture.kind = "basin";
     else if (run.kind == "basin")
         picture.kind = "scatter";
+    else if (run.kind == "record" && run.points > 1 && !run.coordinates.empty())
+        picture.kind = "bifurcation";
+    else if (run.kind == "identify")
+        picture.kind = "residuals";
     else
         picture.kind = "history";
     return picture;
@@ -33,6 +37,10 @@ namespace {
 /// Whether a picture is made from orbits of branches. @throws InputError when its kind does not go with them
 bool shows_branches(const StudyPicture& picture, const ResultFile& file) {
     std::size_t branches = 0;
+    for (const std::string& name : picture.over)
+        if (const auto run = file.find_run(name); run && run->is_branch())
+            throw InputError(picture.place, fmt::format("run '{}' is a branch, which is not drawn over others", name),
+                             "name it among the runs");
     for (const std::string& name : picture.runs) {
         const auto run = file.find_run(name);
         branches += run && run->is_branch() ? 1 : 0;
@@ -85,6 +93,8 @@ ResultPicture make_picture(const StudyPicture& given, const ResultFile& file) {
         result = regression_picture(picture, file);
     else if (picture.kind == "history" || picture.kind == "portrait")
         result.figure = motion_picture(picture, file, picture.kind == "portrait");
+    else if (picture.kind == "residuals")
+        result.figure = residual_picture(picture, file);
     else if (picture.kind == "scatter")
         result.figure = scatter_picture(picture, file);
     else

@@ -1,6 +1,7 @@
 #include "study/picture_kinds.hpp"
 
 #include "graze/results/name_advice.hpp"
+#include "graze/study/stored_study.hpp"
 #include "graze/symbolic/input_error.hpp"
 
 #include <fmt/format.h>
@@ -32,6 +33,23 @@ std::string first_coordinate(const StudyPicture& picture, const StoredRun& run) 
 
 std::vector<std::string> shown_samplings(const StudyPicture& picture, const StoredRun& run) {
     return picture.samplings.empty() ? run.record.samplings : picture.samplings;
+}
+
+std::vector<std::string> row_samplings(const StoredRun& run) {
+    std::vector<std::string> names;
+    if (run.record.kind == "record")
+        for (const RecordSampling& sampling : stored_run(run.record).record.samplings)
+            if (sampling.kind == RecordSampling::Kind::record)
+                names.push_back(sampling.name);
+    return names;
+}
+
+std::vector<std::string> shown_points(const StudyPicture& picture, const StoredRun& run) {
+    std::vector<std::string> names = shown_samplings(picture, run);
+    if (picture.samplings.empty())
+        for (const std::string& rows : row_samplings(run))
+            std::erase(names, rows);
+    return names;
 }
 
 FigurePanel panel_of(const StudyPicture& picture, const StoredRun& run, const std::string& x, const std::string& y,

@@ -19,6 +19,10 @@ std::vector<std::string> chosen_values(const StudyPicture& picture, const Stored
 void require_values(const StudyPicture& picture, const StoredRun& run, const std::vector<std::string>& names);
 /// What is drawn along x: as asked for, or what the run varies first.
 std::string first_coordinate(const StudyPicture& picture, const StoredRun& run);
+/// Of runs of kind record, samplings that are all rows of a record rather than points of it.
+std::vector<std::string> row_samplings(const StoredRun& run);
+/// Those asked for, or all but these.
+std::vector<std::string> shown_points(const StudyPicture& picture, const StoredRun& run);
 std::vector<std::string> shown_samplings(const StudyPicture& picture, const StoredRun& run);
 /// A panel without anything in it, and with axes as far as the picture itself says.
 FigurePanel empty_panel(const StudyPicture& picture);
@@ -41,5 +45,7 @@ Figure orbit_picture(const StudyPicture& picture, const ResultFile& file, bool p
 Figure branch_picture(const StudyPicture& picture, const ResultFile& file);
 ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& file);
 Figure scatter_picture(const StudyPicture& picture, const ResultFile& file);
+/// What runs of kind identify have measured and fitted, and what is left.
+Figure residual_picture(const StudyPicture& picture, const ResultFile& file);
 
 } // namespace graze

@@ -39,13 +39,13 @@ std::map<double, std::vector<PlanePoint>> groups_of(const StudyPicture& picture,
 }
 
 /// The line through points, and from where to where they go.
-struct Fit {
+struct RegressionLine {
     Regression line;
     double least = std::numeric_limits<double>::infinity(), greatest = -least;
 };
 
-Fit fit_of(const StudyPicture& picture, const std::vector<PlanePoint>& points) {
-    Fit fit;
+RegressionLine fit_of(const StudyPicture& picture, const std::vector<PlanePoint>& points) {
+    RegressionLine fit;
     std::vector<double> xs, ys;
     for (const PlanePoint& point : points) {
         const bool in_range = !picture.fit || (point.x > picture.fit->first && point.x < picture.fit->second);
@@ -60,7 +60,8 @@ Fit fit_of(const StudyPicture& picture, const std::vector<PlanePoint>& points) {
     return fit;
 }
 
-FigureSeries drawn(const StudyPicture& picture, const Fit& fit, const std::string& title, std::size_t colour) {
+FigureSeries drawn(const StudyPicture& picture, const RegressionLine& fit, const std::string& title,
+                   std::size_t colour) {
     const Regression& line = fit.line;
     FigureSeries series{fmt::format("{}slope {:.4f}, intercept {:.4f}", title, line.slope, line.intercept),
                         FigureSeries::Style::line,
@@ -97,7 +98,7 @@ ResultPicture regression_picture(const StudyPicture& picture, const ResultFile& 
                           {"points", ""}});
     std::size_t colour = 0;
     for (const auto& [value, points] : groups_of(picture, run, x, y)) {
-        const Fit fit = fit_of(picture, points);
+        const RegressionLine fit = fit_of(picture, points);
         const Regression& line = fit.line;
         panel.series.push_back({"", FigureSeries::Style::dots, colour, points});
         if (line.points > 1)

@@ -36,7 +36,9 @@ private:
 
     bool may_begin(std::size_t run) const {
         const auto& after = runs_[run].after;
-        return states_[run] == State::waiting && (!after || states_[*after] == State::ended);
+        return states_[run] == State::waiting && std::all_of(after.begin(), after.end(), [this](std::size_t one) {
+                   return states_[one] == State::ended;
+               });
     }
     std::size_t threads_for(std::size_t run) const { return std::clamp<std::size_t>(runs_[run].threads, 1, jobs_); }
 

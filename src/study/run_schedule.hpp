@@ -1,16 +1,23 @@
 #pragma once
 
+#include "graze/study/study.hpp"
+
 #include <cstddef>
 #include <functional>
-#include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace graze {
 
+/// Names of the runs that are asked for, or of all, with those that they need.
+/// @throws InputError for one that is not there
+std::set<std::string> wanted_runs(const Study& study, const std::vector<std::string>& only);
+
 /// What decides when a run may go.
 struct ScheduledRun {
-    std::optional<std::size_t> after{}; ///< an earlier run that has to end first
-    std::size_t threads = 1;            ///< as many as it can use
+    std::vector<std::size_t> after{}; ///< earlier runs that have to end first
+    std::size_t threads = 1;          ///< as many as it can use
 };
 
 /// Does runs side by side: each begins, in their order, as soon as the one that it waits for has ended and one of

@@ -1,11 +1,11 @@
 #include "graze/study/runner.hpp"
 
-#include "graze/model/model_file.hpp"
 #include "graze/results/name_advice.hpp"
 #include "graze/study/run_times.hpp"
 #include "graze/study/stored_study.hpp"
-#include "graze/symbolic/require.hpp"
 #include "study/branch_run.hpp"
+#include "study/measured_run.hpp"
+#include "study/run_record.hpp"
 #include "study/run_schedule.hpp"
 #include "study/shared_file.hpp"
 #include "study/start_point.hpp"
@@ -19,94 +19,6 @@
 #include <set>
 
 namespace graze {
-
-namespace {
-
-/// Changes when the same settings lead to other numbers than in an earlier version.
-constexpr int numbers = 2;
-
-/// All parameters, the one that is followed first; of a curve both.
-void add_parameters(const StudyRun& run, RunRecord& record) {
-    const std::vector<std::string> parameters = run.model.independent_parameters();
-    const auto add = [&](std::size_t p) {
-        const std::string& name = parameters[p];
-        record.coordinates.push_back({name, run.model.parameters[*run.model.find_parameter(name)].unit});
-    };
-    std::vector<std::size_t> first;
-    if (!parameters.empty())
-        first.push_back(run.branch.settings.parameter.place());
-    if (run.kind == RunKind::curve)
-        first.push_back(run.branch.settings.free.front().place());
-    for (const std::size_t p : first)
-        add(p);
-    for (std::size_t p = 0; p < parameters.size(); ++p)
-        if (std::find(first.begin(), first.end(), p) == first.end())
-            add(p);
-}
-
-/// Of runs that were not read from a file.
-void require_fitting(const StudyRun& run) {
-    require_size(run.value_names.size(), run.values.size(), "names of values");
-    require_size(run.value_units.size(), run.values.size(), "units of values");
-    const std::vector<std::string> parameters = run.model.independent_parameters();
-    for (const Variation& axis : run.axes) {
-        if (axis.state)
-            require_index(*axis.state, run.model.states.size(), "state");
-        else
-            require_index(axis.parameter.place(), parameters.size(), "independent parameter");
-        const std::string& varied =
-            axis.state ? run.model.states[*axis.state].name : parameters[axis.parameter.place()];
-        if (axis.name != varied)
-            throw InputError(fmt::format("the axis '{}' varies '{}'", axis.name, varied),
-                             "give it the name of what varies");
-    }
-}
-
-RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, std::size_t points) {
-    require_fitting(run);
-    RunRecord record;
-    record.name = run.name;
-    record.kind = name_of(run.kind);
-    record.model_name = run.model.name;
-    record.model = write_model(run.model);
-    record.settings = settings_of(run);
-    record.version = GRAZE_VERSION;
-    record.fingerprint =
-        fingerprint_of(fmt::format("{} {} {} {}", numbers, record.model, record.settings, parent_fingerprint));
-    if (run.is_branch())
-        add_parameters(run, record);
-    for (const Variation& axis : run.axes)
-        record.coordinates.push_back({axis.name, axis.unit});
-    for (const State& state : run.model.states)
-        record.states.push_back({state.name, state.unit});
-    if (run.is_branch())
-        for (const Monitor& monitor : run.branch.settings.monitors)
-            record.values.push_back({monitor.name, monitor.unit});
-    for (std::size_t v = 0; v < run.values.size() && !run.is_branch(); ++v)
-        record.values.push_back({run.value_names[v], run.value_units[v]});
-    for (const Sampling& sampling : run.is_branch() ? std::vector<Sampling>() : run.samplings)
-        record.samplings.push_back(sampling.name);
-    record.modes = names_of(run.model.modes);
-    record.directions = direction_names(run);
-    record.points = points;
-    return record;
-}
-
-} // namespace
-
-std::vector<std::string> direction_names(const StudyRun& run) {
-    if ((run.kind != RunKind::sweep && !run.is_followed()) || run.kind == RunKind::ladder)
-        return {""};
-    switch (run.direction) {
-    case SweepDirection::up:
-        return {"up"};
-    case SweepDirection::down:
-        return {"down"};
-    case SweepDirection::both:
-        return {"up", "down"};
-    }
-    return {};
-}
 
 namespace {
 
@@ -129,22 +41,6 @@ std::vector<ChainProgress> progress_of(const ResultFile& file, const StudyRun& r
         done += progress[chain].done;
     }
     return progress;
-}
-
-std::set<std::string> wanted_runs(const Study& study, const std::vector<std::string>& only) {
-    for (const std::string& name : only)
-        run_named(study, name);            // throws when there is none
-    for (const StudyRun& run : study.runs) // of studies that were not read from a file
-        if (run.start)
-            run_named(study, run.start->run);
-    std::set<std::string> wanted(only.begin(), only.end());
-    for (auto run = study.runs.rbegin(); run != study.runs.rend(); ++run)
-        if (only.empty() || wanted.contains(run->name)) {
-            wanted.insert(run->name);
-            if (run->start)
-                wanted.insert(run->start->run);
-        }
-    return wanted;
 }
 
 /// Equal fingerprints promise that, in a file that nobody has changed.
@@ -209,10 +105,11 @@ public:
         std::vector<ScheduledRun> schedule;
         for (const StudyRun* run : runs_) {
             ScheduledRun& one = schedule.emplace_back();
-            one.threads = run->is_branch() ? 1 : chains_of(*run);
-            for (std::size_t r = 0; run->start && r + 1 < schedule.size(); ++r)
-                if (runs_[r]->name == run->start->run)
-                    one.after = r;
+            one.threads = run->is_branch() || run->is_measured() ? 1 : chains_of(*run);
+            for (std::size_t r = 0; r + 1 < schedule.size(); ++r)
+                for (const auto& need : run->needs())
+                    if (runs_[r]->name == need.first)
+                        one.after.push_back(r);
         }
         reports_.resize(runs_.size());
         if (options_.one_by_one)
@@ -240,7 +137,9 @@ private:
         std::optional<RunTimes> times; ///< if it computes something
     };
 
-    static std::size_t planned_points(const StudyRun& run) { return run.is_branch() ? 1 : points_of(run); }
+    static std::size_t planned_points(const StudyRun& run) {
+        return run.is_branch() ? 1 : run.kind == RunKind::record ? run.record.records() : points_of(run);
+    }
 
     void do_one(std::size_t index, int threads) {
         const StudyRun& run = *runs_[index];
@@ -280,16 +179,24 @@ private:
         work.report.name = run.name;
         work.report.kind = name_of(run.kind);
         const bool skipped = file_.with([&](ResultFile& file) {
-            const bool failed = run.start && failed_.contains(run.start->run);
-            if (failed)
-                fail(run, work.report, file, RunOutcome::skipped,
-                     fmt::format("run '{}', from which it starts, failed", run.start->run), "mend that one first");
-            return failed;
+            for (const auto& need : run.needs())
+                if (failed_.contains(need.first)) {
+                    fail(run, work.report, file, RunOutcome::skipped,
+                         run.start && run.start->run == need.first
+                             ? fmt::format("run '{}', from which it starts, failed", need.first)
+                             : fmt::format("run '{}', which it needs, failed", need.first),
+                         "mend that one first");
+                    return true;
+                }
+            return false;
         });
         if (skipped)
             return;
         try {
-            run.is_branch() ? do_branch(run, work) : do_points(run, work);
+            if (run.is_measured())
+                do_measured(run, work);
+            else
+                run.is_branch() ? do_branch(with_found(run), work) : do_points(with_found(run), work);
         } catch (const InputError& error) {
             if (error.place().file == path_) // the file cannot be written: neither can other runs
                 throw;
@@ -325,8 +232,40 @@ private:
     }
 
     std::string parent_fingerprint(const StudyRun& run) const {
-        const auto found = run.start ? fingerprints_.find(run.start->run) : fingerprints_.end();
-        return found == fingerprints_.end() ? "" : found->second;
+        std::string all;
+        for (const auto& need : run.needs())
+            if (const auto found = fingerprints_.find(need.first); found != fingerprints_.end())
+                all += (all.empty() ? "" : " ") + found->second;
+        return all;
+    }
+
+    /// A run with the parameters that others have found.
+    StudyRun with_found(const StudyRun& run) {
+        return file_.with([&](const ResultFile& file) { return with_parameters_found(run, file); });
+    }
+
+    /// Records, and what is found from them.
+    void do_measured(const StudyRun& wanted, Work& work) {
+        const StudyRun run = file_.with([&](const ResultFile& file) { return measured_run(wanted, file); });
+        work.report.points = planned_points(run);
+        const bool done = file_.with([&](ResultFile& file) {
+            const RunRecord record = record_of(run, parent_fingerprint(run), work.report.points);
+            fingerprints_[run.name] = record.fingerprint;
+            const bool is_there = is_done(record, file);
+            if (!is_there)
+                begin_times(run, work, file);
+            return is_there;
+        });
+        if (done)
+            return;
+        const bool complete = run_measured(run, file_, options_.interrupted, [&](bool computed) {
+            work.report.computed += computed ? 1 : 0;
+            tell(run, work);
+            if (!computed)
+                --progress_.computed;
+        });
+        file_.with([&](ResultFile& file) { complete ? file.complete_run(run.name) : file.flush(); });
+        work.report.outcome = complete ? RunOutcome::complete : RunOutcome::interrupted;
     }
 
     void do_branch(const StudyRun& run, Work& work) {

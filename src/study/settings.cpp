@@ -1,8 +1,10 @@
 #include "graze/results/result_file.hpp"
 #include "graze/study/stored_study.hpp"
+#include "graze/symbolic/file_name.hpp"
 #include "graze/symbolic/require.hpp"
 #include "graze/symbolic/text_file.hpp"
 #include "study/asked_run.hpp"
+#include "study/measured_settings.hpp"
 #include "study/point_limits.hpp"
 #include "study/settings_fields.hpp"
 #include "study/study_reader.hpp"
@@ -15,16 +17,6 @@
 namespace graze {
 
 namespace {
-
-const std::vector<std::string>& kinds_of_runs() {
-    static const std::vector<std::string> kinds = [] {
-        std::vector<std::string> names;
-        for (int kind = 0; kind <= static_cast<int>(RunKind::ladder); ++kind)
-            names.emplace_back(name_of(static_cast<RunKind>(kind)));
-        return names;
-    }();
-    return kinds;
-}
 
 std::vector<std::string> short_names() {
     std::vector<std::string> names;
@@ -192,9 +184,25 @@ void describe_start(Fields& fields, Start& start) {
     fields.field("onto", start.onto);
 }
 
+/// Runs that simulate nothing themselves.
+template <class Fields, class Run>
+void describe_measured(Fields& fields, Run& run) {
+    fields.field("value_names", run.value_names);
+    if (run.kind == RunKind::record) {
+        fields.object("record", [&](auto& one) { describe_record(one, run.record); });
+        fields.expressions("values", run.values);
+        return;
+    }
+    fields.object("identify", [&](auto& one) { describe_identify(one, run.identify); });
+    fields.field("parameters", run.parameters);
+    fields.field("tolerance", run.simulation.tolerance);
+}
+
 template <class Fields, class Run>
 void describe(Fields& fields, Run& run) {
     fields.word("kind", run.kind, kinds_of_runs());
+    if (run.is_measured())
+        return describe_measured(fields, run);
     fields.list("vary", run.axes, [](auto& one, auto& axis) { describe_axis(one, axis); });
     fields.named("set", run.branch.set, run.model.independent_parameters());
     if (fields.has("draws", run.draws > 0)) {
@@ -221,6 +229,8 @@ void describe(Fields& fields, Run& run) {
         fields.follows(run.start, std::optional(StartFrom{}));
         fields.object("start", [&](auto& one) { describe_start(one, *run.start); });
     }
+    if (fields.has("parameters", !run.parameters.empty()))
+        fields.field("parameters", run.parameters);
     auto& simulation = run.simulation;
     fields.field("tolerance", simulation.tolerance);
     fields.field("order", simulation.order);
@@ -249,14 +259,46 @@ void complete(Variation& axis, const Model& model, const SettingsReader& fields)
 /// Units of values and monitors, which do not change numbers and so are no settings.
 void take_units(StudyRun& run, const std::vector<std::string>& units) {
     const auto unit = [&](std::size_t value) { return value < units.size() ? units[value] : std::string(); };
-    for (std::size_t v = 0; v < run.values.size(); ++v)
+    for (std::size_t v = 0; v < run.value_names.size(); ++v)
         run.value_units.push_back(run.is_branch() ? "" : unit(v));
     for (std::size_t m = 0; m < run.branch.settings.monitors.size(); ++m)
         run.branch.settings.monitors[m].unit = unit(m);
 }
 
+/// The same of runs that simulate nothing themselves. Texts of theirs become names, titles and units.
+void check_measured(const StudyRun& run, const SettingsReader& fields) {
+    const RecordRequest& request = run.record;
+    std::vector<std::string> texts = run.sampling_names();
+    for (const auto* names : {&run.value_names, &request.directions, &run.parameters, &run.identify.records})
+        texts.insert(texts.end(), names->begin(), names->end());
+    for (const RecordInput& input : request.inputs)
+        texts.push_back(input.name);
+    for (const std::string& text : texts)
+        require_plain_line(text, "text of a run", run.place);
+    if (run.kind == RunKind::record && run.value_names.size() != run.values.size())
+        fields.fail("value_names", "a name for each value");
+    if (!request.coordinate.empty() && !run.model.find_independent_parameter(request.coordinate))
+        fields.fail("coordinate", "a parameter of the record");
+    if (request.directions.empty() || request.directions.size() > 2)
+        fields.fail("directions", "one or two");
+    for (const RecordInput& input : request.inputs)
+        if (input.direction >= request.directions.size())
+            fields.fail("direction", "one of the run's");
+    if (!request.bench)
+        return;
+    const RecordBench& bench = *request.bench;
+    if (bench.levels.size() != bench.directions.size() || !bench.model.find_independent_parameter(bench.parameter) ||
+        bench.repeats > 10'000)
+        fields.fail("bench", "one that a study could ask for");
+    for (const std::size_t direction : bench.directions)
+        if (direction >= request.directions.size())
+            fields.fail("direction", "one of the run's");
+}
+
 /// @throws InputError for what no study has, and what would be out of range
 void check(const StudyRun& run, const SettingsReader& fields) {
+    if (run.is_measured())
+        return check_measured(run, fields);
     double points = static_cast<double>(std::max<std::size_t>(run.draws, 1));
     for (const Variation& axis : run.axes)
         points *= static_cast<double>(std::max<std::size_t>(axis.values.size(), 1));
@@ -313,6 +355,7 @@ StudyRun run_of(const AskedRun& asked, Model model) {
     run.branch.signature_place = run.place;
     if (run.start)
         run.start->place = run.place;
+    run.parameters_place = run.identify.records_place = run.place;
     take_units(run, asked.units);
     check(run, fields);
     if (settings_of(run) != asked.settings) {

@@ -34,7 +34,8 @@ void ShowableNames::add(const StudyRun& run) {
     own_.push_back(run.name);
     own_.insert(own_.end(), run.value_names.begin(), run.value_names.end());
     add_names(own_, run.axes);
-    add_names(own_, run.samplings);
+    const std::vector<std::string> samplings = run.sampling_names();
+    own_.insert(own_.end(), samplings.begin(), samplings.end());
     if (run.is_branch())
         add_names(own_, run.branch.settings.monitors);
     add_model(run.model);

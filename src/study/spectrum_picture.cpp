@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace graze {
@@ -12,7 +13,6 @@ namespace graze {
 ResultPicture spectrum_picture(const StudyPicture& picture, const ResultFile& file) {
     constexpr std::size_t wanted = 60;
     ResultPicture result;
-    result.table = Table({{"run", ""}, {"frequency", ""}, {"amplitude_percent", ""}});
     FigurePanel panel;
     for (std::size_t r = 0; r < picture.runs.size(); ++r) {
         const StoredRun run(file, picture.runs[r], picture.place);
@@ -42,23 +42,31 @@ ResultPicture spectrum_picture(const StudyPicture& picture, const ResultFile& fi
                                  fmt::format("run '{}' has too few samples for a spectrum", run.record.name),
                                  "choose another sampling or point");
             const Spectrum parts = spectrum(values, 1 / spacing);
-            if (parts.mean == 0)
+            // Of all rows of a record amplitudes are shown as they are, which is what its mean does not tell.
+            const auto rows = row_samplings(run);
+            const bool absolute = std::find(rows.begin(), rows.end(), sampling) != rows.end();
+            if (parts.mean == 0 && !absolute)
                 throw InputError(picture.place,
                                  fmt::format("the mean of '{}' is zero, of which a spectrum shows shares", value),
                                  "choose a value that does not vanish, as its square");
-            FigureSeries series{title, FigureSeries::Style::impulses, panel.series.size(), {}};
+            FigureSeries series{
+                title, absolute ? FigureSeries::Style::line : FigureSeries::Style::impulses, panel.series.size(), {}};
+            if (result.table.rows() == 0)
+                result.table =
+                    Table({{"run", ""}, {"frequency", ""}, {absolute ? "amplitude" : "amplitude_percent", ""}});
             for (std::size_t k = 0; k < parts.frequencies.size(); ++k) {
-                const double percent = 100 * parts.amplitudes[k] / std::abs(parts.mean);
-                series.points.push_back({parts.frequencies[k], percent});
+                const double height = absolute ? parts.amplitudes[k] : 100 * parts.amplitudes[k] / std::abs(parts.mean);
+                series.points.push_back({parts.frequencies[k], height});
                 result.table.add(title);
                 result.table.add(parts.frequencies[k]);
-                result.table.add(percent);
+                result.table.add(height);
             }
             panel.series.push_back(std::move(series));
             const std::string words = words_of(run, value);
+            const std::string subject = words.empty() ? shown_name(picture, value) : words;
             panel.y_label =
-                fmt::format("amplitude of the {} / mean", words.empty() ? shown_name(picture, value) : words);
-            panel.y_unit = "%";
+                absolute ? fmt::format("amplitude of {}", subject) : fmt::format("amplitude of the {} / mean", subject);
+            panel.y_unit = absolute ? run.unit(value) : "%";
             panel.x_unit = run.model.time_unit == "s" ? "Hz" : "";
         }
     }

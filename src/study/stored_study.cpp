@@ -23,6 +23,8 @@ void describe_picture(Fields& fields, Picture& picture) {
     fields.field("kind", picture.kind);
     fields.field("title", picture.title);
     fields.field("runs", picture.runs);
+    if (fields.has("over", !picture.over.empty()))
+        fields.field("over", picture.over);
     fields.field("x", picture.x);
     fields.field("y", picture.y);
     fields.field("samples", picture.samplings);
@@ -238,6 +240,8 @@ Study stored_study(const ResultFile& file) {
         return one.runs.empty() || !std::all_of(one.runs.begin(), one.runs.end(), is_there);
     };
     std::erase_if(study.pictures, is_of_others);
+    std::erase_if(study.pictures,
+                  [&](const StudyPicture& one) { return !std::all_of(one.over.begin(), one.over.end(), is_there); });
     std::erase_if(study.tables, is_of_others);
     for (StudyPicture& picture : study.pictures)
         check(picture, place);

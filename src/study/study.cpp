@@ -18,26 +18,6 @@ const StudyRun* Study::find_run(const std::string& run) const {
     return found == runs.end() ? nullptr : &*found;
 }
 
-std::string_view name_of(RunKind kind) {
-    switch (kind) {
-    case RunKind::simulate:
-        return "simulate";
-    case RunKind::sweep:
-        return "sweep";
-    case RunKind::basin:
-        return "basin";
-    case RunKind::orbit:
-        return "orbit";
-    case RunKind::follow:
-        return "continue";
-    case RunKind::curve:
-        return "curve";
-    case RunKind::ladder:
-        return "ladder";
-    }
-    return "simulate";
-}
-
 bool BranchRequest::keeps_point() const {
     return kept_conditions() > 0;
 }
@@ -69,28 +49,6 @@ std::vector<std::string> picture_formats() {
 void require_run(const std::string& name, const std::vector<std::string>& names, const Place& place) {
     if (std::find(names.begin(), names.end(), name) == names.end())
         throw InputError(place, fmt::format("the study has no run '{}'", name), study_name_remedy(name, names));
-}
-
-std::vector<StudyRun> in_order(std::vector<StudyRun> runs) {
-    const std::vector<std::string> names = names_of(runs);
-    for (const StudyRun& run : runs)
-        if (run.start)
-            require_run(run.start->run, names, run.start->place);
-    std::vector<StudyRun> ordered;
-    const auto is_done = [&](const std::string& name) {
-        return std::any_of(ordered.begin(), ordered.end(), [&](const StudyRun& run) { return run.name == name; });
-    };
-    while (!runs.empty()) {
-        const auto next = std::find_if(runs.begin(), runs.end(),
-                                       [&](const StudyRun& run) { return !run.start || is_done(run.start->run); });
-        if (next == runs.end())
-            throw InputError(runs.front().start->place,
-                             fmt::format("run '{}' starts from itself, by way of others", runs.front().name),
-                             "let one of them start by itself");
-        ordered.push_back(std::move(*next));
-        runs.erase(next);
-    }
-    return ordered;
 }
 
 namespace {
@@ -212,6 +170,12 @@ private:
             mistakes_.attempt([&] { require_free_name(run.name, run.is_branch(), names_, run.place); });
         if (all)
             mistakes_.attempt([&] { check_order(); });
+        for (const StudyRun& run : study_.runs)
+            mistakes_.attempt([&] {
+                for (const auto& [name, place] : run.needs())
+                    require_run(name, names_, place);
+                check_needs(run, study_);
+            });
         for (const TomlEntry& entry : run_entries_)
             with_key(mistakes_, keys_[entry.name], "start", [&](const TomlEntry& start) { check_parent(start); });
         for (const StudyRun& run : study_.runs)
@@ -239,7 +203,9 @@ private:
     /// Runs that start from each other have no order; those that start from nothing are told one by one.
     void check_order() {
         const bool known = std::all_of(study_.runs.begin(), study_.runs.end(), [&](const StudyRun& run) {
-            return !run.start || study_.find_run(run.start->run);
+            const auto needs = run.needs();
+            return std::all_of(needs.begin(), needs.end(),
+                               [&](const auto& need) { return study_.find_run(need.first); });
         });
         if (known)
             study_.runs = in_order(std::move(study_.runs));
@@ -258,10 +224,11 @@ private:
         const StudyPicture& picture = study_.pictures.back();
         Mistakes mistakes;
         bool all = true;
-        for (const std::string& name : picture.runs) {
-            mistakes.attempt([&] { require_run(name, names_, picture.place); });
-            all = all && study_.find_run(name);
-        }
+        for (const auto* runs : {&picture.runs, &picture.over})
+            for (const std::string& name : *runs) {
+                mistakes.attempt([&] { require_run(name, names_, picture.place); });
+                all = all && study_.find_run(name);
+            }
         mistakes.throw_noted();
         if (all)
             check_shown_names(reader_, study_, picture, entry);
@@ -297,10 +264,13 @@ bool is_study_text(std::string_view text, const std::string& file) {
 
 std::vector<std::string> input_files(const Study& study) {
     std::vector<std::string> files{study.file};
-    for (const StudyRun& run : study.runs)
+    for (const StudyRun& run : study.runs) {
         for (const std::string& file : {run.model_path, run.branch.table})
             if (!file.empty())
                 files.push_back(file);
+        for (const RecordInput& input : run.record.inputs)
+            files.push_back(input.path);
+    }
     return files;
 }
 

@@ -19,12 +19,16 @@ enum Kinds : unsigned {
     follow = 1u << static_cast<unsigned>(RunKind::follow),
     curve = 1u << static_cast<unsigned>(RunKind::curve),
     ladder = 1u << static_cast<unsigned>(RunKind::ladder),
+    record = 1u << static_cast<unsigned>(RunKind::record),
+    identify = 1u << static_cast<unsigned>(RunKind::identify),
     followed = follow | curve,
     points = simulate | sweep | basin, ///< those whose points are motions
     branches = orbit | follow,         ///< that may begin by themselves
     settling = sweep | basin | branches,
     at_will = points | branches | curve, ///< at other parameters than where they start
-    every = at_will | ladder,
+    simulated = at_will | ladder,
+    measured = record | identify,
+    every = simulated | measured,
 };
 
 struct Key {
@@ -37,29 +41,30 @@ constexpr std::array keys_of_runs{
     Key{"kind", every},
     Key{"text", every},
     Key{"model", every},
-    Key{"set", at_will},
-    Key{"from", points | branches},
-    Key{"mode", points | branches},
-    Key{"start", every},
+    Key{"set", at_will | measured},
+    Key{"from", points | branches | measured},
+    Key{"mode", points | branches | measured},
+    Key{"start", simulated},
+    Key{"parameters", at_will | identify},
     Key{"section", points | branches},
     Key{"bounds", points | branches},
-    Key{"tolerance", every},
+    Key{"tolerance", simulated | identify},
     Key{"order", points | branches},
     Key{"largest_step", points | branches},
-    Key{"vary", points},
+    Key{"vary", points | record},
     Key{"draws", points},
-    Key{"seed", points},
-    Key{"sample", points},
-    Key{"values", points},
+    Key{"seed", points | record},
+    Key{"sample", points | record},
+    Key{"values", points | record},
     Key{"time", simulate},
     Key{"periods", simulate},
     Key{"contacts", simulate},
     Key{"skip", simulate},
     Key{"events", simulate},
     Key{"greatest_speed", simulate},
-    Key{"carry", sweep},
-    Key{"direction", sweep | followed},
-    Key{"keep", sweep | basin},
+    Key{"carry", sweep | record},
+    Key{"direction", sweep | followed | record},
+    Key{"keep", sweep | basin | record},
     Key{"cycles", settling},
     Key{"largest_period", settling},
     Key{"recurrence", settling},
@@ -78,12 +83,49 @@ constexpr std::array keys_of_runs{
     Key{"grazing", followed | ladder},
     Key{"free", followed},
     Key{"unphysical", orbit | followed},
+    Key{"files", record},
+    Key{"bench", record},
+    Key{"channels", record},
+    Key{"columns", record},
+    Key{"group", record},
+    Key{"scale", record},
+    Key{"part", record},
+    Key{"every", record},
+    Key{"filter", record},
+    Key{"derivative", record},
+    Key{"reference", record},
+    Key{"coordinate", record},
+    Key{"what", identify},
+    Key{"records", identify},
+    Key{"gives", identify},
+    Key{"channel", identify},
+    Key{"displacement", identify},
+    Key{"voltage", identify},
+    Key{"current", identify},
+    Key{"peaks", identify},
+    Key{"window", identify},
+    Key{"transition", identify},
+    Key{"least_jump", identify},
+    Key{"gap", identify},
+    Key{"stiffness", identify},
+    Key{"beta1", identify},
+    Key{"beta2", identify},
+    Key{"clamped", identify},
+    Key{"frequency", identify},
+    Key{"noise", identify},
+    Key{"unknowns", identify},
+    Key{"readings", identify},
+    Key{"known", identify},
+    Key{"loss", identify},
+    Key{"piece", identify},
 };
 
 /// Keys of runs of orbits that say how simulation settles on one.
 constexpr std::array of_settling{"section",    "bounds",      "cycles",        "largest_period",
                                  "recurrence", "disturbance", "longest_return"};
 constexpr std::array of_integration{"order", "largest_step"};
+/// Keys of runs of records that say what a virtual bench does.
+constexpr std::array of_bench{"model", "set", "from", "mode", "vary", "direction", "carry", "seed"};
 
 template <class Names>
 void refuse_any(const StudyReader& reader, const RunKeys& keys, const Names& names, const std::string& why,
@@ -137,6 +179,9 @@ void check_beginning(const StudyReader& reader, RunKind kind, const RunKeys& key
     refuse_two("table", "mode");
     if (kind == RunKind::orbit || kind == RunKind::follow || kind == RunKind::curve || kind == RunKind::ladder)
         mistakes.attempt([&] { check_unused(reader, kind, keys); });
+    if (kind == RunKind::record && !keys.contains("bench"))
+        mistakes.attempt(
+            [&] { refuse_any(reader, keys, of_bench, "the records are files", "leave it out, or give `bench`"); });
     mistakes.throw_noted();
 }
 
@@ -157,7 +202,7 @@ void check_keys_of_kind(const StudyReader& reader, RunKind kind, const RunKeys& 
         if (key->kinds & (1u << static_cast<unsigned>(kind)))
             continue;
         std::vector<std::string> kinds;
-        for (unsigned k = 0; k <= static_cast<unsigned>(RunKind::ladder); ++k)
+        for (unsigned k = 0; k < kinds_of_runs().size(); ++k)
             if (key->kinds & (1u << k))
                 kinds.push_back(fmt::format("\"{}\"", name_of(static_cast<RunKind>(k))));
         with_key(mistakes, keys, key->name, [&](const TomlEntry& wrong) {
@@ -176,6 +221,7 @@ void check_keys_of_picture(const StudyReader& reader, const std::string& kind, c
         {"successive", {"regression"}},
         {"at", {"history", "portrait", "spectrum"}},
         {"points", {"history", "portrait", "branch"}},
+        {"over", {"bifurcation", "history", "portrait"}},
     };
     reader.each(keys, [&](const TomlEntry& key) {
         for (const auto& [name, kinds] : of_kinds)

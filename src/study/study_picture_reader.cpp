@@ -13,7 +13,8 @@ namespace graze {
 namespace {
 
 std::vector<std::string> picture_kinds() {
-    return {"bifurcation", "branch", "basin", "map", "history", "portrait", "spectrum", "regression", "scatter"};
+    return {"bifurcation", "branch",   "basin",      "map",     "history",
+            "portrait",    "spectrum", "regression", "scatter", "residuals"};
 }
 
 /// One point, or a list of points, each given by one coordinate.
@@ -48,6 +49,8 @@ void read_key(const StudyReader& reader, const TomlEntry& item, StudyPicture& pi
         picture.title = reader.toml().line(item);
     } else if (key == "run" || key == "runs") {
         picture.runs = reader.strings(item);
+    } else if (key == "over") {
+        picture.over = reader.strings(item);
     } else if (key == "x") {
         picture.x = reader.toml().line(item);
     } else if (key == "y") {
@@ -88,9 +91,9 @@ StudyPicture read_picture(const StudyReader& reader, const TomlEntry& entry) {
     mistakes.attempt([&] { require_file_name(picture.name, "name of a picture", entry.place); });
     mistakes.attempt([&] {
         reader.each_of(entry,
-                       {"kind",    "title",   "run",     "runs",    "x",      "y",           "samples", "directions",
-                        "x_range", "y_range", "fit",     "at",      "points", "logarithmic", "format",  "successive",
-                        "group",   "names",   "x_label", "y_label", "size",   "font"},
+                       {"kind",    "title",   "run",  "runs",    "x",       "y",           "samples", "directions",
+                        "x_range", "y_range", "fit",  "at",      "points",  "logarithmic", "format",  "successive",
+                        "group",   "names",   "over", "x_label", "y_label", "size",        "font"},
                        [&](const TomlEntry& item) { read_key(reader, item, picture); });
     });
     mistakes.attempt([&] {
@@ -108,8 +111,9 @@ void check_shown_names(const StudyReader& reader, const Study& study, const Stud
     if (picture.names.empty())
         return;
     ShowableNames showable(picture);
-    for (const std::string& run : picture.runs)
-        showable.add(*study.find_run(run));
+    for (const auto* runs : {&picture.runs, &picture.over})
+        for (const std::string& run : *runs)
+            showable.add(*study.find_run(run));
     for (const TomlEntry& key : reader.toml().entries(reader.toml().table(entry), entry.path))
         if (key.name == "names")
             reader.each_of(key, {}, [&](const TomlEntry& item) { showable.require(item.name, item.place, item.path); });

@@ -100,6 +100,17 @@ std::vector<StudyRun> in_order(std::vector<StudyRun> runs);
 /// The values of one entry of `vary`.
 Variation read_variation(const StudyReader& reader, const Model& model, const TomlEntry& entry, bool& random);
 
+/// What only runs of kind record say. The run's model is that of a virtual bench, and becomes that of the record.
+void read_record(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys);
+/// What the user left to us, once values have been read.
+void complete_record(const StudyReader& reader, StudyRun& run, const RunKeys& keys);
+/// What only runs of kind identify say.
+void read_identify(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys);
+/// @throws InputError when the runs that another one needs do not give what it needs
+void check_needs(const StudyRun& run, const Study& study);
+/// In the order of RunKind.
+const std::vector<std::string>& kinds_of_runs();
+
 /// What only runs of kind orbit and continue say.
 void read_branch(const StudyReader& reader, StudyRun& run, const RunKeys& keys);
 /// @throws InputError when they do not go together

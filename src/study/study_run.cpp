@@ -1,15 +1,13 @@
 #include "graze/model/catalogue.hpp"
 #include "graze/symbolic/file_name.hpp"
-#include "graze/symbolic/parser.hpp"
 #include "study/point_limits.hpp"
 #include "study/study_reader.hpp"
+#include "study/study_sampling.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
-#include <set>
 
 namespace graze {
 
@@ -50,109 +48,6 @@ void set_values(const StudyReader& reader, Model& model, const TomlEntry& entry,
         } catch (const InputError& error) {
             throw InputError(item.place, error.problem(), error.remedy());
         }
-    });
-}
-
-std::size_t section_index(const StudyReader& reader, const Model& model, const TomlEntry& entry) {
-    const std::string name = reader.toml().string(entry);
-    if (const auto index = model.find_section(name))
-        return *index;
-    reader.fail(entry, fmt::format("model '{}' has no section '{}'", model.name, name),
-                study_name_remedy(name, names_of(model.sections)));
-}
-
-std::vector<std::size_t> events_of(const StudyReader& reader, const Model& model, const TomlEntry& entry) {
-    std::vector<std::size_t> events;
-    if (entry.node->is_boolean()) {
-        for (std::size_t i = 0; i < model.events.size(); ++i)
-            if (model.events[i].kind == EventKind::barrier)
-                events.push_back(i);
-        return events;
-    }
-    for (const std::string& name : reader.strings(entry)) {
-        const auto index = model.find_event(name);
-        if (!index)
-            reader.fail(entry, fmt::format("model '{}' has no event '{}'", model.name, name),
-                        study_name_remedy(name, names_of(model.events)));
-        events.push_back(*index);
-    }
-    return events;
-}
-
-Sampling read_sampling(const StudyReader& reader, const Model& model, const TomlEntry& entry) {
-    Sampling sampling;
-    sampling.name = entry.name;
-    require_plain_line(sampling.name, "name of a sampling", entry.place);
-    bool placed = false;
-    reader.each_of(entry, {"section", "maxima", "minima", "extrema", "contacts", "image"}, [&](const TomlEntry& item) {
-        if (item.name == "image") {
-            const std::string name = reader.toml().string(item);
-            const std::vector<std::string> known = names_of(model.symmetries);
-            const auto found = std::find(known.begin(), known.end(), name);
-            if (found == known.end())
-                reader.fail(item, fmt::format("model '{}' declares no symmetry '{}'", model.name, name),
-                            study_name_remedy(name, known));
-            sampling.symmetry = static_cast<std::size_t>(found - known.begin());
-            return;
-        }
-        if (placed)
-            reader.fail(entry, fmt::format("{} is taken in two places", entry.path), "make two samplings of it");
-        placed = true;
-        if (item.name == "section") {
-            sampling.section = model.sections[section_index(reader, model, item)].name;
-        } else if (item.name == "contacts") {
-            sampling.at = Sampling::At::contact;
-            sampling.events = events_of(reader, model, item);
-        } else {
-            sampling.at = Sampling::At::extremum;
-            sampling.expression = named_value(model, reader.toml().string(item), reader.inside(item)).value;
-            sampling.direction = item.name == "maxima"   ? Direction::falling
-                                 : item.name == "minima" ? Direction::rising
-                                                         : Direction::both;
-        }
-    });
-    if (!placed)
-        reader.fail(entry, fmt::format("{} does not say where", entry.path),
-                    "give one of section, maxima, minima, extrema or contacts");
-    return sampling;
-}
-
-void read_samplings(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    if (entry.node->is_table()) {
-        reader.each_of(entry, {},
-                       [&](const TomlEntry& item) { run.samplings.push_back(read_sampling(reader, run.model, item)); });
-        return;
-    }
-    const auto items = entry.node->is_string() ? std::vector<TomlEntry>{entry} : reader.toml().elements(entry);
-    reader.each(items, [&](const TomlEntry& item) {
-        Sampling sampling;
-        sampling.section = sampling.name = run.model.sections[section_index(reader, run.model, item)].name;
-        run.samplings.push_back(sampling);
-    });
-}
-
-void read_values(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
-    std::set<std::string> taken;
-    const auto items = entry.node->is_string() ? std::vector<TomlEntry>{entry} : reader.toml().elements(entry);
-    reader.each(items, [&](const TomlEntry& item) {
-        std::string text = reader.toml().line(item), name;
-        Place place = reader.inside(item);
-        if (const std::size_t equals = text.find('='); equals != std::string::npos) {
-            name = text.substr(0, equals);
-            name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
-            place.column += static_cast<int>(equals) + 1;
-            text = text.substr(equals + 1);
-            if (!is_valid_name(name))
-                reader.fail(item, fmt::format("'{}' cannot be a name", name),
-                            "use letters, digits and '_', and no word that expressions use");
-        }
-        const NamedValue value = named_value(run.model, text, place);
-        name = name.empty() ? value.name : name;
-        if (!taken.insert(name).second)
-            reader.fail(item, fmt::format("there are two values '{}'", name), "leave one of them out");
-        run.value_names.push_back(name);
-        run.value_units.push_back(value.unit);
-        run.values.push_back(value.value);
     });
 }
 
@@ -373,16 +268,58 @@ void read_keys(const StudyReader& reader, StudyRun& run, const TomlEntry& entry,
             keys.emplace(item.name, item);
         });
         if (!keys.contains("kind"))
-            throw InputError(
-                entry.place, fmt::format("{} has no kind", entry.path),
-                "give kind = \"simulate\", \"sweep\", \"basin\", \"orbit\", \"continue\", \"curve\" or \"ladder\"");
+            throw InputError(entry.place, fmt::format("{} has no kind", entry.path),
+                             "give kind = \"simulate\", \"sweep\", \"basin\", \"orbit\", \"continue\", \"curve\", "
+                             "\"ladder\", \"record\" or \"identify\"");
     });
     with_key(mistakes, keys, "kind", [&](const TomlEntry& kind) {
-        run.kind = static_cast<RunKind>(
-            reader.choice(kind, {"simulate", "sweep", "basin", "orbit", "continue", "curve", "ladder"}));
+        run.kind = static_cast<RunKind>(reader.choice(kind, kinds_of_runs()));
         check_keys_of_kind(reader, run.kind, keys);
     });
     with_key(mistakes, keys, "text", [&](const TomlEntry& text) { run.text = reader.toml().string(text); });
+    mistakes.throw_noted();
+}
+
+/// What comes from other runs.
+void read_parameters(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    run.parameters = reader.strings(entry);
+    run.parameters_place = entry.place;
+    if (run.parameters.empty())
+        reader.fail(entry, fmt::format("{} names no run", entry.path), "name a run of kind \"identify\"");
+}
+
+/// Whether a run's records are those of a virtual bench.
+bool has_bench(const RunKeys& keys) {
+    return keys.contains("bench") && !keys.contains("files");
+}
+
+/// Records, and what is found from them.
+void read_measured(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const StudyDefaults& defaults,
+                   const RunKeys& keys) {
+    Mistakes mistakes;
+    const bool identifies = run.kind == RunKind::identify;
+    if (identifies || has_bench(keys))
+        mistakes.attempt([&] { read_beginning(reader, run, defaults, keys); });
+    if (identifies)
+        mistakes.attempt([&] { read_settings(reader, run, keys); });
+    if (has_bench(keys)) {
+        with_key(mistakes, keys, "direction", [&](const TomlEntry& e) {
+            run.direction = static_cast<SweepDirection>(reader.choice(e, {"up", "down", "both"}));
+        });
+        with_key(mistakes, keys, "carry", [&](const TomlEntry& e) { run.carry = reader.toml().boolean(e); });
+        with_key(mistakes, keys, "seed", [&](const TomlEntry& e) { run.seed = reader.count(e); });
+        mistakes.attempt([&] { read_axes(reader, run, keys); });
+    }
+    mistakes.throw_noted();
+    if (run.kind == RunKind::record) {
+        read_record(reader, run, entry, keys);
+        with_key(mistakes, keys, "values", [&](const TomlEntry& values) { read_values(reader, run, values); });
+        mistakes.throw_noted();
+        complete_record(reader, run, keys);
+        return;
+    }
+    with_key(mistakes, keys, "parameters", [&](const TomlEntry& from) { read_parameters(reader, run, from); });
+    mistakes.attempt([&] { read_identify(reader, run, entry, keys); });
     mistakes.throw_noted();
 }
 
@@ -399,6 +336,7 @@ void read_contents(const StudyReader& reader, StudyRun& run, const TomlEntry& en
     if (mistakes.attempt([&] { random = read_axes(reader, run, keys); }) && settings)
         mistakes.attempt([&] { check_draws(reader, run, random, entry, keys); });
     with_key(mistakes, keys, "start", [&](const TomlEntry& start) { read_start(reader, run, start); });
+    with_key(mistakes, keys, "parameters", [&](const TomlEntry& from) { read_parameters(reader, run, from); });
     with_key(mistakes, keys, "sample", [&](const TomlEntry& sample) { read_samplings(reader, run, sample); });
     if (keys.contains("values"))
         mistakes.attempt([&] { read_values(reader, run, keys.at("values")); });
@@ -420,6 +358,13 @@ std::optional<StudyRun> read_run(const StudyReader& reader, const TomlEntry& ent
     const bool has_keys = mistakes.attempt([&] { read_keys(reader, run, entry, keys); });
     // A key that could not be read may have been the one that names the model.
     const bool says_model = keys.contains("model") || !defaults.model.empty();
+    if (run.is_measured() && has_keys) {
+        if (run.kind == RunKind::identify || has_bench(keys))
+            mistakes.attempt([&] { read_model(reader, run, entry, defaults, keys); });
+        mistakes.throw_noted();
+        read_measured(reader, run, entry, defaults, keys);
+        return run;
+    }
     if (!says_model && !(has_keys && defaults.whole)) {
         mistakes.throw_noted();
         return std::nullopt;

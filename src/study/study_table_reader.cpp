@@ -93,8 +93,8 @@ bool find_runs(const Study& study, const StudyTable& table, const std::vector<st
 void check_samplings(const StudyTable& table, const std::vector<const StudyRun*>& runs) {
     std::vector<std::string> known;
     for (const StudyRun* run : runs)
-        for (const Sampling& sampling : run->samplings)
-            known.push_back(sampling.name);
+        for (const std::string& name : run->sampling_names())
+            known.push_back(name);
     Mistakes mistakes;
     for (const std::string& name : table.samplings)
         mistakes.attempt([&] {

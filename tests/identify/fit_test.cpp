@@ -317,4 +317,64 @@ TEST(Fit, AConstantChannelHasNoExactInterval) {
     EXPECT_GT(fit.numbers[0].estimate.half_width(), 0);
 }
 
+namespace {
+
+/// The square of a displacement alone is read.
+void read_squares(RecordedMotion& motion) {
+    motion.task.outputs[0].value = pow(motion.task.outputs[0].value, 2);
+    for (double& value : motion.task.records[0].readings[0].values)
+        value *= value;
+    motion.task.records[0].start = motion.first;
+}
+
+} // namespace
+
+/// The other side is as good, and is told: by the signs of all states, or by a symmetry of the model, through stops.
+TEST(Fit, TellsOfMirrorImages) {
+    RecordedMotion ball(dropped_ball(), {"v"}, 0, 0.01, 40);
+    ball.forget("g", 1.02);
+    ball.task.records[0].unknown_states = {1};
+    EXPECT_TRUE(fit_model(ball.model, ball.task).twins.empty());
+
+    RecordedMotion swing(parse_model("name = \"swing\"\n[parameters]\nk = 4\n[states]\nx = { initial = 1 }\n"
+                                     "v = { initial = 0.5 }\n[modes.m]\nrates = { x = \"v\", v = \"-k*x\" }\n",
+                                     "swing.toml"),
+                         {"x"}, 0, 0.05, 100);
+    read_squares(swing);
+    swing.forget("k", 1.02);
+    swing.forget_states();
+    const Fit fit = fit_model(swing.model, swing.task);
+    EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
+    ASSERT_EQ(fit.twins.size(), 1U);
+    EXPECT_EQ(fit.twins[0].text, "x(0) = -1, v(0) = -0.5");
+    ASSERT_EQ(fit.twins[0].numbers.size(), 2U);
+    EXPECT_NEAR(fit.twins[0].numbers[0].second, -1, nine_digits);
+
+    RecordedMotion stops(load_model("impact-oscillator-two-stops"), {"x"}, 0, 0.05, 200);
+    ASSERT_GT(stops.contacts, 2U);
+    read_squares(stops);
+    stops.forget("e", 1.02);
+    stops.forget_states();
+    const Fit other = fit_model(stops.model, stops.task);
+    EXPECT_EQ(name_of(other.ending), "converged") << other.detail;
+    ASSERT_GE(other.twins.size(), 1U);
+    for (const char* state : {"x(0) = ", "v(0) = ", "theta(0) = "})
+        EXPECT_THAT(other.twins[0].text, ::testing::HasSubstr(state));
+}
+
+/// A fit that has come to a negative amplitude half a period later goes over to the sign of the guess.
+TEST(Fit, SignsAreThoseOfGuesses) {
+    RecordedMotion motion(load_model("ball-and-shaker"), {"q"}, 0.621, 0.005, 400);
+    for (const char* name : {"zeta", "omega_n", "e", "a", "f"})
+        motion.forget(name, 1.05);
+    motion.forget_states();
+    motion.add_noise(0.005, 17);
+    const Fit fit = fit_model(motion.model, motion.task);
+    EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
+    EXPECT_TRUE(fit.twins.empty());
+    for (std::size_t j = 0; j < motion.task.parameters.size(); ++j)
+        EXPECT_LE(std::abs(fit.numbers[j].estimate.value - motion.truth(j)), 4 * fit.numbers[j].estimate.error)
+            << fit.numbers[j].name;
+}
+
 } // namespace graze::testing

@@ -121,8 +121,10 @@ TEST(DeviceDrawing, RefusesWhatDoesNotGoTogether) {
     EXPECT_THAT(with(&DeviceDimensions::gap, -1), HasSubstr("device.gap is -1 um, not positive"));
     EXPECT_THAT(with(&DeviceDimensions::gap, NAN), HasSubstr("device.gap is not a finite number"));
     EXPECT_THAT(with(&DeviceDimensions::gap, 2e9), HasSubstr("more than a metre"));
-    EXPECT_THAT(with(&DeviceDimensions::gap, 2e5), HasSubstr("does not fit on a die"));
+    EXPECT_THAT(with(&DeviceDimensions::gap, 2e5), HasSubstr("give a smaller gap, or a die_length"));
     EXPECT_THAT(with(&DeviceDimensions::flexure_length, 6000), HasSubstr("flexures of 6000 um make a mass"));
+    EXPECT_THAT(with(&DeviceDimensions::clearance, 900), HasSubstr("give a smaller clearance, or a die_width"));
+    EXPECT_THAT(with(&DeviceDimensions::flexure_spacing, 3000), HasSubstr("give a smaller flexure_spacing"));
     EXPECT_THAT(with(&DeviceDimensions::electrode_length, 4000), HasSubstr("is longer than the mass"));
     EXPECT_THAT(with(&DeviceDimensions::stop_gap, 40), HasSubstr("give a stop_gap less than clearance"));
     EXPECT_THAT(with(&DeviceDimensions::channel_width, 3000), HasSubstr("give a narrower channel"));

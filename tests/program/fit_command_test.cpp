@@ -1,10 +1,11 @@
 #include "run_graze.hpp"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
-
 #include <fmt/format.h>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <tuple>
+#include <utility>
 
 namespace graze::testing {
 
@@ -76,6 +77,51 @@ TEST_F(FitCommand, FindsParametersThatOtherCommandsTake) {
                 displacement * std::exp(-decay * 5) *
                     (std::cos(frequency * 5) + decay / frequency * std::sin(frequency * 5)),
                 1e-8);
+}
+
+TEST_F(FitCommand, WhatComesLaterCountsMoreThanAFile) {
+    const std::string model = folder / "swing.toml", found = folder / "found.toml", more = folder / "more.toml";
+    std::ofstream(found) << "model = \"swing\"\n[set]\nc = 0.25\nk = 5\n[from]\nx = 2\n";
+    std::ofstream(more) << "[set]\nk = 7\n";
+    const auto said = [&](const std::string& options) {
+        return run_graze("simulate " + model + " --time 1 --samples 2 --format csv --quantity c k " + options);
+    };
+    const auto values = [&](const std::string& options) {
+        const Printed printed = said(options);
+        EXPECT_EQ(printed.code, 0) << printed.err;
+        const Csv table(printed.out);
+        return std::pair(table.number(0, "c"), table.number(0, "k"));
+    };
+    EXPECT_EQ(values("--set @" + found), std::pair(0.25, 5.0));
+    EXPECT_EQ(values("--set @" + found + ",k=6"), std::pair(0.25, 6.0));
+    EXPECT_EQ(values("--set @" + found + " --set c=2*k"), std::pair(10.0, 5.0));
+    EXPECT_EQ(values("--set @" + found + ",@" + more), std::pair(0.25, 7.0));
+    for (const auto& [options, message] :
+         {std::pair("--set k=6,@" + found, std::string("--set: 'k' is given twice; name the file first")),
+          std::pair("--set @" + found + ",k=6,k=7", std::string("--set: 'k' is given twice; leave one"))}) {
+        const Printed printed = said(options);
+        EXPECT_EQ(printed.code, 2);
+        EXPECT_THAT(printed.err, HasSubstr(message));
+    }
+}
+
+TEST_F(FitCommand, MistakesInFilesOfParametersHaveAPlace) {
+    const std::string model = folder / "swing.toml", found = folder / "found.toml";
+    for (const auto& [text, option, message] :
+         {std::tuple("[set]\nc = 0.25\nkk = 5\n", "--set", ":3:1: "),
+          std::tuple("[from]\n\nx = 0.25\nq = 5\n", "--from", ":4:1: "),
+          std::tuple("[set]\nx = 1\n", "--set", ":2:1: 'x' is a state, not a parameter; write it under [from]"),
+          std::tuple("[from]\nk = 1\n", "--from", ":2:1: 'k' is a parameter, not a state; write it under [set]"),
+          std::tuple("model = \"sling\"\n[set]\nk = 1\n", "--set",
+                     ":1:1: these values were found for the model 'sling', not for 'swing'; "),
+          std::tuple("[set\nk = 1\n", "--set", "docs/measure-identify-predict.md"),
+          std::tuple("[set]\nk = 1\n", "--from", ": it has nothing for --from")}) {
+        std::ofstream(found) << text;
+        const Printed printed = run_graze("simulate " + model + " --time 1 " + option + " @" + found);
+        EXPECT_EQ(printed.code, 2) << text;
+        EXPECT_THAT(printed.err, HasSubstr(message)) << text;
+        EXPECT_THAT(printed.err, HasSubstr(found)) << text;
+    }
 }
 
 TEST_F(FitCommand, ConvertsReadingsAndFindsGains) {

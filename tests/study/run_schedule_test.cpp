@@ -39,7 +39,7 @@ struct Log {
 
 TEST(RunSchedule, one_job_does_runs_in_their_order) {
     Log log;
-    run_side_by_side({{}, {.after = 0}, {.threads = 9}}, 1, never, [&](std::size_t run, int threads) {
+    run_side_by_side({{}, {.after = {0}}, {.threads = 9}}, 1, never, [&](std::size_t run, int threads) {
         log.begin(run, threads);
         log.end(run);
     });
@@ -65,15 +65,14 @@ TEST(RunSchedule, a_run_begins_after_the_one_that_it_starts_from) {
         std::vector<ScheduledRun> runs(8);
         for (std::size_t r = 1; r < runs.size(); ++r)
             if (random() % 2 == 0)
-                runs[r].after = random() % r;
+                runs[r].after = {random() % r};
         const int jobs = 2 + static_cast<int>(random() % 3);
         Log log;
         run_side_by_side(runs, jobs, never, [&](std::size_t run, int threads) {
             {
                 const std::lock_guard lock(log.mutex);
-                if (runs[run].after) {
-                    EXPECT_THAT(log.ended, testing::Contains(*runs[run].after));
-                }
+                for (const std::size_t before : runs[run].after)
+                    EXPECT_THAT(log.ended, testing::Contains(before));
             }
             log.begin(run, threads);
             std::this_thread::sleep_for(std::chrono::microseconds(50 * (run % 3)));
@@ -82,6 +81,16 @@ TEST(RunSchedule, a_run_begins_after_the_one_that_it_starts_from) {
         EXPECT_EQ(log.ended.size(), runs.size());
         EXPECT_LE(log.most_going, jobs);
     }
+}
+
+TEST(RunSchedule, a_run_waits_for_all_that_it_needs) {
+    Log log;
+    run_side_by_side({{}, {}, {.after = {0, 1}}}, 3, never, [&](std::size_t run, int threads) {
+        log.begin(run, threads);
+        std::this_thread::sleep_for(std::chrono::milliseconds(run == 0 ? 5 : 1));
+        log.end(run);
+    });
+    EXPECT_EQ(log.ended.back(), 2);
 }
 
 TEST(RunSchedule, threads_are_those_that_a_run_can_use) {
@@ -101,7 +110,7 @@ TEST(RunSchedule, nothing_begins_when_it_has_been_stopped) {
         std::atomic<int> done{0};
         std::vector<ScheduledRun> runs(5);
         for (std::size_t r = 1; r < runs.size(); ++r)
-            runs[r].after = r - 1;
+            runs[r].after = {r - 1};
         run_side_by_side(
             runs, jobs, [&] { return stopped.load(); },
             [&](std::size_t run, int) {

@@ -265,8 +265,9 @@ TEST(Study, of_two_keys_that_contradict_none_is_ignored) {
 }
 
 TEST(Study, shipped_ones_can_be_read) {
-    EXPECT_THAT(shipped_studies(), ElementsAre("ball-and-shaker", "electromagnetic-testbed", "mems-switch",
-                                               "microactuator", "microbeam", "microbeam-modes", "microbeam-stops"));
+    EXPECT_THAT(shipped_studies(),
+                ElementsAre("ball-and-shaker", "electromagnetic-testbed", "mems-switch", "microactuator", "microbeam",
+                            "microbeam-modes", "microbeam-stops", "testbed-experiment"));
     for (const std::string& name : shipped_studies())
         EXPECT_FALSE(load_study(name).runs.empty()) << name;
 }
@@ -282,7 +283,7 @@ TEST(Study, mistakes_are_told_with_their_place_and_remedy) {
              {"name = 3", "s.toml:1:8: name must be a string, not a number; give a string"},
              {"nme = 3", "s.toml:1:1: unknown key 'nme'; did you mean 'name'?"},
              {head + "[runs.a]", "s.toml:3:7: runs.a has no kind; give kind = \"simulate\", \"sweep\", \"basin\", "
-                                 "\"orbit\", \"continue\", \"curve\" or \"ladder\""},
+                                 "\"orbit\", \"continue\", \"curve\", \"ladder\", \"record\" or \"identify\""},
              {head + "[runs.a]\nkind = \"swep\"", "s.toml:4:8: runs.a.kind cannot be 'swep'; did you mean 'sweep'?"},
              {head + "[runs.\"a b\"]\nkind = \"sweep\"",
               "s.toml:3:7: 'a b' cannot be the name of a run; use up to 100 letters, digits, '.', '_' and '-'"},

@@ -107,6 +107,12 @@ struct FreeCombination {
     std::string text{};        ///< such as "m (+1 %), k (+1 %)"
 };
 
+/// Other numbers with which the readings are met as well: the mirror image, say.
+struct FitTwin {
+    std::vector<std::pair<std::size_t, double>> numbers{}; ///< those that differ, in Fit::numbers, and their values
+    std::string text{};                                    ///< such as "a = -0.002, theta(0) = 3.1416"
+};
+
 struct FittedOutput {
     std::string name{};
     std::size_t readings = 0;
@@ -133,6 +139,7 @@ struct Fit {
     std::vector<FittedNumber> numbers{}; ///< parameters, gains, offsets, states at the beginnings of records
     std::vector<double> correlations{};  ///< of the numbers, row by row; 0 where nothing is known
     std::vector<FreeCombination> free{}; ///< empty if all is determined
+    std::vector<FitTwin> twins{};        ///< of a fit that has converged, some of those there may be
     double condition = 0;                ///< ratio of singular values of the derivatives, with columns of length 1
     std::vector<FittedOutput> outputs{};
     std::vector<FittedRecord> records{};
@@ -162,7 +169,8 @@ struct FitTask {
 ///
 /// Errors and intervals are those of the linearised problem in which the pieces join, and are taken from the scatter
 /// (noise that is given for outputs tells their ratio, and chi square). Of robust losses they are P. J. Huber's.
-/// All numbers are scaled by what they do; units make no difference.
+/// All numbers are scaled by what they do; units make no difference. Ceres may tell its log (glog, whose level is the
+/// program's) of steps that fail and are made otherwise.
 /// @throws InputError for tasks without meaning: sizes that do not fit, nothing to be found, guesses beyond bounds, too
 ///         few readings
 Fit fit_model(const System& system, const FitTask& task, const FitSettings& settings = {});

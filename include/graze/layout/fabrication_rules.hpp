@@ -24,8 +24,8 @@ struct RuleFinding {
     std::string text() const;
 };
 
-/// Checks one device by its polygons: distances are those between edges that face each other, on the masks as drawn.
-/// Stops and stresses are of the device after the etch.
+/// Checks one device by its polygons and the rules that its file gives: distances are those between edges that face
+/// each other, on the masks as drawn. Stops and stresses are of the device after the etch.
 /// @return the worst place of each rule, in the order of rule_fields, and after it further places that break it, 20 at
 /// most
 std::vector<RuleFinding> rule_findings(const DeviceFile& file, const Layout& layout, const DrawnDevice& device);

@@ -37,11 +37,16 @@ constexpr double vacuum_permittivity = 8.8541878128e-12; ///< F/m
 /// @throws InputError where the etch leaves nothing of a part
 LumpedModel lumped_model_of(const DeviceDrawing& drawing, const ProcessData& process,
                             const ProcessConditions& conditions, double stop_departure = 0);
+/// @throws InputError with the place of the process in the file
+LumpedModel lumped_model_of(const DeviceDrawing& drawing, const DeviceFile& file);
 LumpedModel lumped_model_of(const DeviceFile& file);
 
 /// Mean area of what an etch leaves of a polygon, between the surface and a depth, in um^2: each edge recedes, and
 /// corners stay corners.
 double etched_area(std::span<const GridPoint> corners, const EtchedWall& wall, double depth);
+
+/// The model that a design file names. @throws InputError with the file's place
+Model model_of(const DeviceFile& file);
 
 /// Parameters m, f0, zeta, area, d and stop in a model's own units, in full precision.
 /// @throws InputError when the model lacks one, or has it in a unit of another kind

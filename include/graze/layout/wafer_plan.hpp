@@ -19,8 +19,8 @@ struct WaferPlan {
     std::size_t devices = 8;
     std::string label; ///< empty: the design's name
 
-    /// Lengths of [device] that differ from device to device: name and values, which are gone through from the start
-    /// again where there are more devices.
+    /// Dimensions of [device] that differ from device to device: name and values (of `folds`, too), which are gone
+    /// through from the start again where there are more devices.
     std::vector<std::pair<std::string, std::vector<double>>> vary;
 };
 

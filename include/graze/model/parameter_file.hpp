@@ -1,5 +1,8 @@
 #pragma once
 
+#include "graze/symbolic/input_error.hpp"
+
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,11 +13,12 @@ namespace graze {
 /// its name.
 struct ParameterFile {
     using Values = std::vector<std::pair<std::string, double>>;
-    std::string model{}; ///< what it was found for; empty: anybody's
-    std::string text{};  ///< in words; may have several lines
-    Values set{};        ///< parameters
-    Values from{};       ///< initial states
-    Values errors{};     ///< standard errors of parameters; for people and programs, not used
+    std::string model{};                   ///< what it was found for; empty: anybody's
+    std::string text{};                    ///< in words; may have several lines
+    Values set{};                          ///< parameters
+    Values from{};                         ///< initial states
+    Values errors{};                       ///< standard errors of parameters; for people and programs, not used
+    std::map<std::string, Place> places{}; ///< of "model", and of names such as "set.e" and "from.x", where it was read
 };
 
 /// TOML: `model`, `text`, and tables `set`, `from` and `errors` of numbers.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/results/estimate_record.hpp"
 #include "graze/results/orbit_record.hpp"
 #include "graze/sweep/attractor.hpp"
 #include "graze/symbolic/input_error.hpp"
@@ -35,7 +36,7 @@ std::string_view name_of(RunStatus status);
 /// What is known of a run besides its points.
 struct RunRecord {
     std::string name; ///< letters, digits, '.', '_' and '-'
-    std::string kind; ///< simulate, sweep, basin, orbit, continue
+    std::string kind; ///< simulate, sweep, basin, orbit, continue, curve, ladder, record, identify
     std::string model_name;
     std::string model;       ///< text of the model file, whole, as run
     std::string settings;    ///< JSON object
@@ -101,6 +102,10 @@ public:
     void add_point(const std::string& run, const PointRecord& point);
     /// Adds an orbit to a run of kind orbit or continue.
     void add_orbit(const std::string& run, const OrbitRecord& orbit);
+    /// Keeps what a run of kind identify has found, in the place of what it had found.
+    void set_estimates(const std::string& run, const EstimateRecords& found);
+    /// What it has found; nothing of other runs.
+    EstimateRecords estimates(const std::string& run) const;
     void flush();
     /// Marks a run as complete.
     void complete_run(const std::string& run);

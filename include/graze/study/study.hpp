@@ -3,6 +3,8 @@
 #include "graze/branch/orbit_branch.hpp"
 #include "graze/model/model.hpp"
 #include "graze/study/figure.hpp"
+#include "graze/study/identify_request.hpp"
+#include "graze/study/record_request.hpp"
 #include "graze/sweep/attractor.hpp"
 #include "graze/sweep/sampling.hpp"
 #include "graze/symbolic/input_error.hpp"
@@ -24,8 +26,10 @@ enum class RunKind {
     orbit,
     follow,
     curve,
-    ladder
-}; ///< `follow` is called "continue" in studies
+    ladder,
+    record,  ///< measured records
+    identify ///< parameters from them
+};           ///< `follow` is called "continue" in studies
 std::string_view name_of(RunKind kind);
 
 /// Something that varies from point to point: a parameter or an initial state.
@@ -78,21 +82,32 @@ struct StudyRun {
     std::string name, text, model_path; ///< of the model; empty: it is a shipped one
     RunKind kind = RunKind::simulate;
     Place place;
-    Model model;                 ///< parameters and initial state set as the run asks
+    /// Parameters and initial state set as the run asks. Of a record its channels, as states that rest.
+    Model model;
     std::vector<Variation> axes; ///< the first is swept along, the others make chains. Lists vary as a grid
     std::size_t draws = 0;       ///< points drawn at random (times the grid of the lists); 0: none
     std::uint64_t seed = 1;
     SweepDirection direction = SweepDirection::up; ///< also of branches, at first
     bool carry = true;                             ///< sweeps: states are carried along
     std::optional<StartFrom> start;
+    std::vector<std::string> parameters; ///< runs of kind identify: what they find takes the place of what is set
+    Place parameters_place;
     AttractorOptions attractor; ///< of sweeps and basins
     TransientOptions transient; ///< of simulations
     BranchRequest branch;       ///< of orbits and their branches
+    RecordRequest record;       ///< of records
+    IdentifyRequest identify;   ///< of what is found from them
     SimulationOptions simulation;
     std::vector<Sampling> samplings;
     std::vector<std::string> value_names, value_units;
     std::vector<Expression> values; ///< in states and parameters
 
+    /// Whether its points are records, or what was found from them: nothing is simulated by the study itself.
+    bool is_measured() const { return kind == RunKind::record || kind == RunKind::identify; }
+    /// Names of the runs that have to be there before, with where that is said.
+    std::vector<std::pair<std::string, Place>> needs() const;
+    /// Of what its points are sampled.
+    std::vector<std::string> sampling_names() const;
     /// Whether its points are orbits.
     bool is_branch() const { return kind == RunKind::orbit || is_followed(); }
     /// Whether orbits are followed: along branches, or a curve.
@@ -102,12 +117,13 @@ struct StudyRun {
 /// One picture or table made from runs. What is not said is chosen by `kind` and the run.
 struct StudyPicture {
     std::string name, kind,
-        title; ///< kind: bifurcation, branch, basin, map, spectrum, history, portrait, regression, scatter
+        title; ///< kind: bifurcation, branch, basin, map, spectrum, history, portrait, regression, scatter, residuals
     std::vector<std::string> runs;
-    std::string x;                                                  ///< coordinate or value
-    std::vector<std::string> y;                                     ///< values, one panel each
-    std::vector<std::string> samplings;                             ///< empty: all
-    std::vector<std::string> directions;                            ///< of sweeps; empty: all
+    std::vector<std::string> over;       ///< runs that are drawn over those, into panels of the same values
+    std::string x;                       ///< coordinate or value
+    std::vector<std::string> y;          ///< values, one panel each
+    std::vector<std::string> samplings;  ///< empty: all
+    std::vector<std::string> directions; ///< of sweeps; empty: all
     std::optional<std::pair<double, double>> x_range, y_range, fit; ///< fit: range of x of a regression
     std::vector<std::pair<std::string, double>> at; ///< points nearest to these, of histories, portraits, spectra
     /// Of histories and portraits: labels, or numbers, of orbits. Of branches: labels or types that are marked.

@@ -1,0 +1,295 @@
+#include "graze/identify/identification.hpp"
+
+#include "graze/identify/coupling.hpp"
+#include "graze/identify/decrement.hpp"
+#include "graze/identify/impedance.hpp"
+#include "graze/identify/restitution.hpp"
+#include "graze/record/impacts.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t most_samples = 10'000'000;
+
+std::string name_or(const std::string& given, const char* usual) {
+    return given.empty() ? usual : given;
+}
+
+/// What is known of each value by itself, as a matrix.
+void set_variances(Identification& found) {
+    const std::size_t count = found.values.size();
+    found.covariance.assign(count * count, 0);
+    for (std::size_t i = 0; i < count; ++i)
+        found.covariance[i * count + i] = found.values[i].estimate.error * found.values[i].estimate.error;
+}
+
+double mean_of(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+} // namespace
+
+Identification identify_decrement(const EachRecord& records, const IdentificationSettings& settings) {
+    std::vector<DecayPeaks> releases;
+    RecordHeader header;
+    std::size_t channel = 0;
+    records([&](const std::string&, SampleSource& record) {
+        header = record.header();
+        channel = header.channel(settings.channel, settings.asked_as + "channel");
+        releases.push_back(decay_peaks(record, channel, settings.peaks));
+    });
+    const Decrement decrement = logarithmic_decrement(releases);
+    const Channel &time = header.time, &velocity = header.channels[channel];
+    const std::string per_time = time.unit.empty() ? "" : "rad/" + time.unit;
+    Identification found;
+    found.values = {{"natural_frequency", per_time, decrement.frequency},
+                    {"damping_ratio", "", decrement.damping},
+                    {"natural_frequency_of_pairs", per_time, {decrement.pair_frequency, 0, 0}},
+                    {"damping_ratio_of_pairs", "", {decrement.pair_damping, 0, 0}}};
+    std::vector<Estimate> rests;
+    for (const DecayPeaks& peaks : releases)
+        rests.push_back({peaks.rest, peaks.rest_error, decrement.damping.freedom});
+    found.values.push_back({"rest_position", velocity.unit, combine(rests).mean});
+    set_variances(found);
+    found.x = {time.name + " since the first peak", time.unit};
+    found.y = {"peaks of " + velocity.name, velocity.unit};
+    for (std::size_t r = 0; r < releases.size(); ++r) {
+        const double first = decrement.fitted[r].times.front();
+        Identification::Shown& shown = found.shown.emplace_back();
+        for (std::size_t k = 0; k < releases[r].times.size(); ++k) {
+            const double t = releases[r].times[k] - first, height = decrement.fitted[r].heights[k];
+            shown.measured.x.push_back(t);
+            shown.measured.y.push_back(releases[r].heights[k]);
+            shown.fitted.x.push_back(decrement.fitted[r].times[k] - first);
+            shown.fitted.y.push_back(height);
+            shown.left.x.push_back(t);
+            shown.left.y.push_back(releases[r].heights[k] - height);
+        }
+    }
+    return found;
+}
+
+Identification identify_restitution(const EachRecord& records, const IdentificationSettings& settings) {
+    Identification found;
+    std::vector<Estimate> sets;
+    std::vector<std::string> names;
+    Channel velocity;
+    std::vector<ImpactSpeeds> few;
+    records([&](const std::string& name, SampleSource& record) {
+        ImpactSettings impact_settings;
+        impact_settings.velocity = record.header().channel(settings.channel, settings.asked_as + "channel");
+        velocity = record.header().channels[impact_settings.velocity];
+        if (!settings.displacement.empty())
+            impact_settings.displacement =
+                record.header().channel(settings.displacement, settings.asked_as + "displacement");
+        impact_settings.window = settings.window;
+        impact_settings.transition = settings.transition;
+        impact_settings.least_jump = settings.least_jump;
+        std::vector<ImpactSpeeds> impacts;
+        for (const RecordedImpact& impact : find_impacts(record, impact_settings))
+            impacts.push_back({impact.before, impact.after, impact.before_error, impact.after_error});
+        if (impacts.size() < 3) { // a sweep begins before there are any
+            few = impacts;
+            return;
+        }
+        const Restitution one = restitution(impacts);
+        sets.push_back(one.coefficient);
+        names.push_back(name);
+        Identification::Shown& shown = found.shown.emplace_back();
+        for (std::size_t i = 0; i < impacts.size(); ++i) {
+            shown.measured.x.push_back(impacts[i].before);
+            shown.measured.y.push_back(impacts[i].after);
+            shown.left.x.push_back(impacts[i].before);
+            shown.left.y.push_back(one.residuals[i]);
+        }
+    });
+    if (sets.empty()) { // two are better than none
+        sets.push_back(restitution(few).coefficient);
+        names.emplace_back();
+        Identification::Shown& shown = found.shown.emplace_back();
+        for (const ImpactSpeeds& one : few) {
+            shown.measured.x.push_back(one.before);
+            shown.measured.y.push_back(one.after);
+            shown.left.x.push_back(one.before);
+            shown.left.y.push_back(one.after + sets.front().value * one.before);
+        }
+    }
+    const Combined all = combine(sets);
+    found.values.push_back({"restitution", "", all.mean});
+    for (std::size_t i = 0; i < sets.size() && sets.size() > 1; ++i)
+        found.values.push_back({"restitution of " + names[i], "", sets[i]});
+    if (sets.size() > 1)
+        found.values.push_back({"spread_between_records", "", {all.spread, 0, 0}});
+    set_variances(found);
+    double fastest = 0, slowest = 0;
+    for (const Identification::Shown& shown : found.shown)
+        for (const double speed : shown.measured.x) {
+            fastest = std::max(fastest, speed);
+            slowest = std::min(slowest, speed);
+        }
+    const double e = all.mean.value;
+    found.shown.front().fitted = {{slowest, fastest}, {-e * slowest, -e * fastest}};
+    found.x = {velocity.name + " before", velocity.unit};
+    found.y = {velocity.name + " after impacts", velocity.unit};
+    return found;
+}
+
+Identification identify_coupling(const EachRecord& records, const IdentificationSettings& settings) {
+    if (!settings.gap || !settings.stiffness)
+        throw InputError("gap or stiffness are not known",
+                         fmt::format("give {0}gap and {0}stiffness, in the units of the record", settings.asked_as));
+    std::vector<StaticLoad> loads;
+    Channel displacement, current;
+    records([&](const std::string&, SampleSource& record) {
+        const RecordHeader& header = record.header();
+        const std::size_t q = header.channel(name_or(settings.displacement, "q"), settings.asked_as + "displacement"),
+                          i = header.channel(settings.current, settings.asked_as + "current");
+        displacement = header.channels[q];
+        current = header.channels[i];
+        const Samples all = read_all(record, most_samples);
+        if (settings.one_load_a_record && all.rows() > 0)
+            loads.push_back({mean_of(all.values[q]), mean_of(all.values[i])});
+        for (std::size_t row = 0; row < all.rows() && !settings.one_load_a_record; ++row)
+            loads.push_back({all.values[q][row], all.values[i][row]});
+    });
+    CouplingSettings known;
+    known.gap = *settings.gap;
+    known.gap_error = settings.gap_error;
+    known.stiffness = *settings.stiffness;
+    known.stiffness_error = settings.stiffness_error;
+    known.displacement_noise = settings.displacement_noise;
+    known.current_noise = settings.current_noise;
+    const Coupling constants = coupling(loads, known);
+    const std::string length = displacement.unit, product = length == "m" && current.unit == "A" ? "H m" : "";
+    Identification found;
+    found.values = {{"beta1", product, constants.beta1},
+                    {"beta2", length, constants.beta2},
+                    {"correlation", "", {constants.correlation, 0, 0}},
+                    {"beta1_of_regression", product, {constants.regression_beta1, 0, 0}},
+                    {"beta2_of_regression", length, {constants.regression_beta2, 0, 0}}};
+    set_variances(found);
+    const std::size_t count = found.values.size();
+    found.covariance[1] = found.covariance[count] =
+        constants.correlation * constants.beta1.error * constants.beta2.error;
+    found.x = current;
+    found.y = displacement;
+    Identification::Shown& shown = found.shown.emplace_back();
+    double furthest = 0;
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+        shown.measured.x.push_back(loads[i].current);
+        shown.measured.y.push_back(loads[i].displacement);
+        shown.left.x.push_back(loads[i].current);
+        shown.left.y.push_back(constants.residuals[i]);
+        furthest = std::max(furthest, loads[i].displacement);
+    }
+    constexpr int points = 200;
+    for (int i = 0; i <= points && constants.beta1.value > 0; ++i) {
+        const double q = furthest * i / points;
+        shown.fitted.x.push_back((known.gap + constants.beta2.value - q) *
+                                 std::sqrt(2 * known.stiffness * q / constants.beta1.value));
+        shown.fitted.y.push_back(q);
+    }
+    return found;
+}
+
+namespace {
+
+/// What the current is in the first periods of a record, and what it should be.
+Identification::Shown shown_current(const Samples& all, std::size_t current, const Impedance& one) {
+    constexpr double periods = 3;
+    const double middle = 0.5 * (all.times.front() + all.times.back());
+    Identification::Shown shown;
+    for (std::size_t i = 0; i < all.rows(); ++i) {
+        const double t = all.times[i];
+        if (t > all.times.front() + periods * 2 * std::numbers::pi / one.frequency)
+            break;
+        const double angle = one.frequency * (t - middle);
+        const double value =
+            one.current.offset + one.current.sine * std::sin(angle) + one.current.cosine * std::cos(angle);
+        for (auto [curve, y] : {std::pair{&shown.measured, all.values[current][i]}, std::pair{&shown.fitted, value},
+                                std::pair{&shown.left, all.values[current][i] - value}}) {
+            curve->x.push_back(t);
+            curve->y.push_back(y);
+        }
+    }
+    return shown;
+}
+
+/// Of coils that nobody has: a channel may be another one, or turned around.
+void warn_of_signs(Identification& found, const std::string& name, const Impedance& one) {
+    const auto warn = [&](const char* what, const Estimate& estimate, const char* remedy) {
+        if (estimate.value < 0)
+            found.warnings.push_back(
+                fmt::format("{}: the {} comes out below zero, as none of a coil does; {}", name, what, remedy));
+    };
+    warn("resistance", one.resistance, "look at the sign of the current or the voltage (--scale NAME=-1)");
+    warn("inductance", one.inductance,
+         "the current leads the voltage: look at which channel is which, at the frequency, and at filters that "
+         "delay one of them");
+}
+
+} // namespace
+
+Identification identify_impedance(const EachRecord& records, const IdentificationSettings& settings) {
+    const std::string& asked = settings.asked_as;
+    if (settings.beta1.has_value() != settings.beta2.has_value() || (settings.beta1 && !settings.gap))
+        throw InputError("a leakage inductance needs beta1, beta2 and the gap",
+                         fmt::format("give {0}beta1, {0}beta2 and {0}gap, or none", asked));
+    std::vector<Estimate> frequencies, resistances, inductances, leakages;
+    std::vector<std::string> names;
+    Identification found;
+    std::string ohm, henry, hertz;
+    records([&](const std::string& name, SampleSource& record) {
+        const RecordHeader header = record.header();
+        const std::size_t v = header.channel(settings.voltage, asked + "voltage"),
+                          c = header.channel(settings.current, asked + "current");
+        const Samples all = read_all(record, most_samples);
+        const Impedance one = impedance(all.times, all.values[v], all.values[c],
+                                        settings.frequency ? 2 * std::numbers::pi * *settings.frequency : 0);
+        names.push_back(name);
+        frequencies.push_back({one.frequency / (2 * std::numbers::pi), 0, 0});
+        resistances.push_back(one.resistance);
+        inductances.push_back(one.inductance);
+        warn_of_signs(found, name, one);
+        if (settings.beta1)
+            leakages.push_back(
+                leakage_inductance(one.inductance, *settings.beta1, *settings.beta2, *settings.gap, settings.clamped));
+        const std::string& time = header.time.unit;
+        hertz = time == "s" ? "Hz" : time.empty() ? "" : "1/" + time;
+        if (header.channels[v].unit == "V" && header.channels[c].unit == "A") {
+            ohm = "ohm";
+            henry = time == "s" ? "H" : "";
+        }
+        if (names.size() == 1) {
+            found.x = header.time;
+            found.y = header.channels[c];
+            found.shown.push_back(shown_current(all, c, one));
+        }
+    });
+    const auto put = [&](const char* name, const std::string& unit, const std::vector<Estimate>& sets) {
+        if (!sets.empty())
+            found.values.push_back({name, unit, combine(sets).mean});
+        if (sets.size() > 1)
+            found.values.push_back(
+                {fmt::format("{}_spread_between_records", name), unit, {combine(sets).spread, 0, 0}});
+    };
+    put("resistance", ohm, resistances);
+    put("inductance", henry, inductances);
+    put("leakage_inductance", henry, leakages);
+    for (std::size_t i = 0; i < frequencies.size(); ++i)
+        found.values.push_back(
+            {frequencies.size() == 1 ? "frequency" : "frequency of " + names[i], hertz, frequencies[i]});
+    set_variances(found);
+    return found;
+}
+
+} // namespace graze

@@ -1,0 +1,243 @@
+#include "study/identify_run.hpp"
+
+#include "graze/identify/identification.hpp"
+#include "graze/model/named_value.hpp"
+#include "graze/study/stored_study.hpp"
+#include "study/identify_fit.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+using What = IdentifyRequest::What;
+
+/// Numbers in parameters of the model, some of which others have found.
+class KnownNumbers {
+public:
+    KnownNumbers(const StudyRun& run, const std::vector<EstimateRecords>& found)
+        : model_(run.model), found_(&found), place_(run.place) {}
+
+    /// With the error that those of the parameters make, to first order.
+    Estimate value(const std::string& text) {
+        Estimate result;
+        result.value = value_of_text(model_, text, place_);
+        double variance = 0;
+        for (const EstimateRecords& records : *found_) {
+            std::vector<double> slopes;
+            for (const EstimateRecord& number : records.numbers)
+                slopes.push_back(slope(text, number));
+            const std::size_t count = slopes.size();
+            for (std::size_t i = 0; i < count; ++i)
+                for (std::size_t j = 0; j < count; ++j) {
+                    const double covariance =
+                        !records.covariance.empty() ? records.covariance[i * count + j]
+                        : i == j ? records.numbers[i].estimate.error * records.numbers[i].estimate.error
+                                 : 0;
+                    variance += slopes[i] * slopes[j] * covariance;
+                }
+        }
+        result.error = std::sqrt(std::max(variance, 0.0));
+        return result;
+    }
+
+private:
+    /// By differences of one standard error, over which nothing bends that errors are told of.
+    double slope(const std::string& text, const EstimateRecord& number) {
+        const double error = number.estimate.freedom > 0 ? number.estimate.error : 0;
+        const auto parameter = model_.find_independent_parameter(number.name);
+        if (!(error > 0) || !parameter)
+            return 0;
+        const double before = model_.parameter_values()[parameter->place()];
+        const auto at = [&](double value) {
+            model_.set_parameter(number.name, value);
+            return value_of_text(model_, text, place_);
+        };
+        const double above = at(before + error), below = at(before - error);
+        model_.set_parameter(number.name, before);
+        return (above - below) / (2 * error);
+    }
+
+    Model model_;
+    const std::vector<EstimateRecords>* found_;
+    Place place_;
+};
+
+IdentificationSettings settings_of(const StudyRun& run, const std::vector<EstimateRecords>& found,
+                                   const std::vector<KeptRecord>& records) {
+    const IdentifyRequest& request = run.identify;
+    KnownNumbers known(run, found);
+    IdentificationSettings settings;
+    settings.channel = request.channel;
+    settings.displacement = request.displacement;
+    settings.voltage = request.voltage;
+    settings.current = request.current;
+    settings.peaks = request.peaks;
+    settings.window = request.window;
+    settings.transition = request.transition;
+    settings.least_jump = request.least_jump;
+    settings.displacement_noise = request.displacement_noise;
+    settings.current_noise = request.current_noise;
+    settings.one_load_a_record = records.size() > 1;
+    const auto take = [&](const std::string& text, std::optional<double>& value, double& error) {
+        if (text.empty())
+            return;
+        const Estimate estimate = known.value(text);
+        value = estimate.value;
+        error = estimate.error;
+    };
+    take(request.gap, settings.gap, settings.gap_error);
+    take(request.stiffness, settings.stiffness, settings.stiffness_error);
+    if (!request.beta1.empty())
+        settings.beta1 = known.value(request.beta1);
+    if (!request.beta2.empty())
+        settings.beta2 = known.value(request.beta2);
+    if (!request.clamped.empty())
+        settings.clamped = known.value(request.clamped).value;
+    if (!request.frequency.empty())
+        settings.frequency = known.value(request.frequency).value;
+    return settings;
+}
+
+/// Under the names of the parameters that they are.
+EstimateRecords estimates_of(const Identification& found, const IdentifyRequest& request, const Place& place) {
+    EstimateRecords records;
+    records.covariance = found.covariance;
+    std::vector<std::string> names;
+    for (const Identification::Value& value : found.values) {
+        names.push_back(value.name);
+        records.numbers.push_back({value.name, value.unit, value.estimate, ""});
+    }
+    for (const auto& [name, parameter] : request.gives) {
+        const auto at = std::find(names.begin(), names.end(), name);
+        if (at == names.end())
+            throw InputError(place, fmt::format("nothing of the name '{}' is found", name),
+                             fmt::format("it finds {}", fmt::join(names, ", ")));
+        records.numbers[static_cast<std::size_t>(at - names.begin())].name = parameter;
+    }
+    return records;
+}
+
+void add_curve(SampleSet& samples, std::size_t sampling, std::size_t record, const Identification::Curve& curve) {
+    for (std::size_t i = 0; i < curve.x.size(); ++i) {
+        samples.samplings.push_back(sampling);
+        samples.times.push_back(static_cast<double>(samples.times.size()));
+        for (const double value : {static_cast<double>(record), curve.x[i], curve.y[i]})
+            samples.values.push_back(value);
+    }
+}
+
+FoundByRun found_from(const Identification& found, const StudyRun& run) {
+    FoundByRun result;
+    result.estimates = estimates_of(found, run.identify, run.place);
+    SampleSet& samples = result.point.result.samples;
+    samples.width = 3;
+    for (std::size_t r = 0; r < found.shown.size(); ++r) {
+        add_curve(samples, 0, r, found.shown[r].measured);
+        add_curve(samples, 1, r, found.shown[r].fitted);
+        add_curve(samples, 2, r, found.shown[r].left);
+    }
+    for (const std::string& warning : found.warnings)
+        result.problem += (result.problem.empty() ? "" : "; ") + warning;
+    return result;
+}
+
+} // namespace
+
+std::vector<std::string> residual_names(const IdentifyRequest& request) {
+    switch (request.what) {
+    case What::decrement:
+        return {"record", "t", "peak"};
+    case What::restitution:
+        return {"record", "before", "after"};
+    case What::coupling:
+        return {"record", request.current, request.displacement.empty() ? "q" : request.displacement};
+    case What::impedance:
+        return {"record", "t", request.current};
+    case What::fit:
+        break;
+    }
+    std::vector<std::string> names{"record", "t"};
+    for (const IdentifyRequest::Reading& reading : request.readings)
+        names.push_back(reading.channel);
+    return names;
+}
+
+std::vector<KeptRecord> kept_records(const StudyRun& run, const ResultFile& file) {
+    std::vector<KeptRecord> records;
+    for (const std::string& name : run.identify.records) {
+        const auto from = file.find_run(name);
+        if (!from)
+            throw InputError(run.place, fmt::format("there are no results of a run '{}'", name), "run it first");
+        const StudyRun asked = stored_run(*from);
+        std::size_t sampling = 0;
+        while (sampling < asked.record.samplings.size() &&
+               asked.record.samplings[sampling].kind != RecordSampling::Kind::record)
+            ++sampling;
+        const std::vector<std::string> names = from->samplings;
+        const std::string kept =
+            sampling < asked.record.samplings.size() ? asked.record.samplings[sampling].name : std::string();
+        for (std::size_t number = 0; number < from->points; ++number) {
+            const auto point = file.point(name, number);
+            if (!point)
+                throw InputError(run.place, fmt::format("run '{}' lacks record {}", name, number), "run it first");
+            KeptRecord& record = records.emplace_back();
+            record.name = fmt::format("{} {}", name, point->result.outcome.detail);
+            record.name = record.name.substr(0, record.name.rfind(':'));
+            record.header.time = {"t", asked.model.time_unit};
+            for (std::size_t v = 0; v < from->values.size(); ++v)
+                record.header.channels.push_back({from->values[v].name, from->values[v].unit});
+            record.samples.clear(from->values.size());
+            const SampleSet& samples = point->result.samples;
+            for (std::size_t s = 0; s < samples.size(); ++s) {
+                if (names[samples.samplings[s]] != kept)
+                    continue;
+                record.samples.times.push_back(samples.times[s]);
+                for (std::size_t v = 0; v < samples.width; ++v)
+                    record.samples.values[v].push_back(samples.values[s * samples.width + v]);
+            }
+            if (record.samples.rows() == 0)
+                throw InputError(run.place, fmt::format("run '{}' keeps no rows of its records", name),
+                                 "give it a sampling { record = true }, and a larger `keep`");
+            for (std::size_t c = 0; c < from->coordinates.size(); ++c)
+                record.known.emplace_back(from->coordinates[c].name, point->coordinates[c]);
+        }
+    }
+    return records;
+}
+
+std::optional<FoundByRun> identify(const StudyRun& run, const std::vector<KeptRecord>& records,
+                                   const std::vector<EstimateRecords>& found,
+                                   const std::function<bool()>& interrupted) {
+    if (run.identify.what == What::fit)
+        return identify_fit_of(run, records, interrupted);
+    const EachRecord each = [&](const auto& work) {
+        for (const KeptRecord& record : records)
+            try {
+                StoredSamples samples(record.header, record.samples);
+                work(record.name, samples);
+            } catch (const InputError& error) {
+                if (!error.place().file.empty())
+                    throw;
+                throw InputError(run.place, fmt::format("{}: {}", record.name, error.problem()), error.remedy());
+            }
+    };
+    const IdentificationSettings settings = settings_of(run, found, records);
+    switch (run.identify.what) {
+    case What::decrement:
+        return found_from(identify_decrement(each, settings), run);
+    case What::restitution:
+        return found_from(identify_restitution(each, settings), run);
+    case What::coupling:
+        return found_from(identify_coupling(each, settings), run);
+    default:
+        return found_from(identify_impedance(each, settings), run);
+    }
+}
+
+} // namespace graze

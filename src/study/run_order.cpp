@@ -1,0 +1,93 @@
+#include "graze/study/study.hpp"
+#include "study/run_schedule.hpp"
+#include "study/start_point.hpp"
+#include "study/study_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace graze {
+
+const std::vector<std::string>& kinds_of_runs() {
+    static const std::vector<std::string> kinds{"simulate", "sweep",  "basin",  "orbit",   "continue",
+                                                "curve",    "ladder", "record", "identify"};
+    return kinds;
+}
+
+std::string_view name_of(RunKind kind) {
+    return kinds_of_runs()[static_cast<std::size_t>(kind)];
+}
+
+std::vector<std::pair<std::string, Place>> StudyRun::needs() const {
+    std::vector<std::pair<std::string, Place>> needed;
+    if (start)
+        needed.emplace_back(start->run, start->place);
+    for (const std::string& run : parameters)
+        needed.emplace_back(run, parameters_place);
+    for (const std::string& run : identify.records)
+        needed.emplace_back(run, identify.records_place);
+    return needed;
+}
+
+std::vector<std::string> StudyRun::sampling_names() const {
+    if (kind == RunKind::record)
+        return record.sampling_names();
+    if (kind == RunKind::identify)
+        return {"measured", "fitted", "residual"};
+    return names_of(samplings);
+}
+
+void check_needs(const StudyRun& run, const Study& study) {
+    const auto require_kind = [&](const std::vector<std::string>& names, const Place& place, RunKind kind) {
+        for (const std::string& name : names)
+            if (const StudyRun* one = study.find_run(name); one && one->kind != kind)
+                throw InputError(place, fmt::format("run '{}' is of kind \"{}\"", name, name_of(one->kind)),
+                                 fmt::format("name a run of kind \"{}\"", name_of(kind)));
+    };
+    require_kind(run.parameters, run.parameters_place, RunKind::identify);
+    require_kind(run.identify.records, run.identify.records_place, RunKind::record);
+}
+
+std::set<std::string> wanted_runs(const Study& study, const std::vector<std::string>& only) {
+    for (const std::string& name : only)
+        run_named(study, name);            // throws when there is none
+    for (const StudyRun& run : study.runs) // of studies that were not read from a file
+        for (const auto& need : run.needs())
+            run_named(study, need.first);
+    std::set<std::string> wanted(only.begin(), only.end());
+    for (auto run = study.runs.rbegin(); run != study.runs.rend(); ++run)
+        if (only.empty() || wanted.contains(run->name)) {
+            wanted.insert(run->name);
+            for (const auto& need : run->needs())
+                wanted.insert(need.first);
+        }
+    return wanted;
+}
+
+std::vector<StudyRun> in_order(std::vector<StudyRun> runs) {
+    const std::vector<std::string> names = names_of(runs);
+    for (const StudyRun& run : runs)
+        for (const auto& [need, place] : run.needs())
+            require_run(need, names, place);
+    std::vector<StudyRun> ordered;
+    const auto is_done = [&](const auto& need) {
+        return std::any_of(ordered.begin(), ordered.end(), [&](const StudyRun& run) { return run.name == need.first; });
+    };
+    while (!runs.empty()) {
+        const auto next = std::find_if(runs.begin(), runs.end(), [&](const StudyRun& run) {
+            const auto needs = run.needs();
+            return std::all_of(needs.begin(), needs.end(), is_done);
+        });
+        if (next == runs.end())
+            throw InputError(runs.front().needs().front().second,
+                             fmt::format("run '{}' starts from itself, by way of others", runs.front().name),
+                             "let one of them start by itself");
+        ordered.push_back(std::move(*next));
+        runs.erase(next);
+    }
+    return ordered;
+}
+
+} // namespace graze

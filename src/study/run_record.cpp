@@ -1,0 +1,109 @@
+#include "study/run_record.hpp"
+
+#include "graze/model/model_file.hpp"
+#include "graze/results/name_advice.hpp"
+#include "graze/study/stored_study.hpp"
+#include "graze/symbolic/require.hpp"
+#include "study/branch_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace graze {
+
+namespace {
+
+/// Changes when the same settings lead to other numbers than in an earlier version.
+constexpr int numbers = 2;
+
+/// All parameters, the one that is followed first; of a curve both.
+void add_parameters(const StudyRun& run, RunRecord& record) {
+    const std::vector<std::string> parameters = run.model.independent_parameters();
+    const auto add = [&](std::size_t p) {
+        const std::string& name = parameters[p];
+        record.coordinates.push_back({name, run.model.parameters[*run.model.find_parameter(name)].unit});
+    };
+    std::vector<std::size_t> first;
+    if (!parameters.empty())
+        first.push_back(run.branch.settings.parameter.place());
+    if (run.kind == RunKind::curve)
+        first.push_back(run.branch.settings.free.front().place());
+    for (const std::size_t p : first)
+        add(p);
+    for (std::size_t p = 0; p < parameters.size(); ++p)
+        if (std::find(first.begin(), first.end(), p) == first.end())
+            add(p);
+}
+
+/// Of runs that were not read from a file.
+void require_fitting(const StudyRun& run) {
+    const std::size_t values = run.kind == RunKind::identify ? run.value_names.size() : run.values.size();
+    require_size(run.value_names.size(), values, "names of values");
+    require_size(run.value_units.size(), values, "units of values");
+    const std::vector<std::string> parameters = run.model.independent_parameters();
+    for (const Variation& axis : run.axes) {
+        if (axis.state)
+            require_index(*axis.state, run.model.states.size(), "state");
+        else
+            require_index(axis.parameter.place(), parameters.size(), "independent parameter");
+        const std::string& varied =
+            axis.state ? run.model.states[*axis.state].name : parameters[axis.parameter.place()];
+        if (axis.name != varied)
+            throw InputError(fmt::format("the axis '{}' varies '{}'", axis.name, varied),
+                             "give it the name of what varies");
+    }
+}
+
+} // namespace
+
+RunRecord record_of(const StudyRun& run, const std::string& parent_fingerprint, std::size_t points) {
+    require_fitting(run);
+    RunRecord record;
+    record.name = run.name;
+    record.kind = name_of(run.kind);
+    record.model_name = run.model.name;
+    record.model = write_model(run.model);
+    record.settings = settings_of(run);
+    record.version = GRAZE_VERSION;
+    record.fingerprint =
+        fingerprint_of(fmt::format("{} {} {} {}", numbers, record.model, record.settings, parent_fingerprint));
+    if (run.is_branch())
+        add_parameters(run, record);
+    if (!run.record.coordinate.empty())
+        record.coordinates.push_back(
+            {run.record.coordinate, run.model.parameters[*run.model.find_parameter(run.record.coordinate)].unit});
+    for (const Variation& axis : run.axes)
+        record.coordinates.push_back({axis.name, axis.unit});
+    for (const State& state : run.model.states)
+        record.states.push_back({state.name, state.unit});
+    if (run.is_branch())
+        for (const Monitor& monitor : run.branch.settings.monitors)
+            record.values.push_back({monitor.name, monitor.unit});
+    for (std::size_t v = 0; v < run.value_names.size() && !run.is_branch(); ++v)
+        record.values.push_back({run.value_names[v], run.value_units[v]});
+    if (!run.is_branch())
+        record.samplings = run.sampling_names();
+    record.modes = names_of(run.model.modes);
+    record.directions = direction_names(run);
+    record.points = points;
+    return record;
+}
+
+std::vector<std::string> direction_names(const StudyRun& run) {
+    if (run.kind == RunKind::record)
+        return run.record.directions;
+    if ((run.kind != RunKind::sweep && !run.is_followed()) || run.kind == RunKind::ladder)
+        return {""};
+    switch (run.direction) {
+    case SweepDirection::up:
+        return {"up"};
+    case SweepDirection::down:
+        return {"down"};
+    case SweepDirection::both:
+        return {"up", "down"};
+    }
+    return {};
+}
+
+} // namespace graze

@@ -1,0 +1,103 @@
+#include "study/study_bench.hpp"
+
+#include <fmt/format.h>
+
+namespace graze {
+
+namespace {
+
+void read_bench_channels(const StudyReader& reader, const TomlEntry& entry, RecordBench& bench) {
+    reader.each_of(entry, {}, [&](const TomlEntry& item) {
+        BenchChannel channel;
+        std::string unit;
+        bool has_unit = false;
+        const auto value = [&](const TomlEntry& text) {
+            channel.value = named_value(bench.model, reader.toml().string(text), reader.inside(text));
+        };
+        if (item.node->is_string())
+            value(item);
+        else
+            reader.each_of(item, {"value", "unit", "noise", "offset", "drift", "range"}, [&](const TomlEntry& part) {
+                if (part.name == "value")
+                    value(part);
+                else if (part.name == "unit")
+                    unit = reader.toml().line(part), has_unit = true;
+                else
+                    (part.name == "noise"    ? channel.noise
+                     : part.name == "offset" ? channel.offset
+                     : part.name == "drift"  ? channel.drift
+                                             : channel.range) = reader.number(bench.model, part);
+            });
+        if (channel.value.name.empty())
+            value(item); // says that it is no expression
+        channel.value.name = item.name;
+        if (has_unit)
+            channel.value.unit = unit;
+        bench.channels.push_back(std::move(channel));
+    });
+}
+
+} // namespace
+
+void read_bench(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    RecordBench& bench = *run.record.bench;
+    reader.each_of(entry, {"channels", "rate", "settle", "time", "repeats", "bits", "anti_alias", "time_unit"},
+                   [&](const TomlEntry& item) {
+                       if (item.name == "channels")
+                           read_bench_channels(reader, item, bench);
+                       else if (item.name == "repeats")
+                           bench.repeats = reader.count(item, 1, 10'000);
+                       else if (item.name == "bits")
+                           bench.bits = static_cast<int>(reader.count(item, 1, 32));
+                       else if (item.name == "settle")
+                           bench.settle = reader.number(bench.model, item);
+                       else
+                           (item.name == "rate"         ? bench.rate
+                            : item.name == "time"       ? bench.time
+                            : item.name == "anti_alias" ? bench.anti_alias
+                                                        : bench.time_unit) = reader.positive(bench.model, item);
+                   });
+    if (bench.channels.empty())
+        reader.fail(entry, fmt::format("{} measures nothing", entry.path), "give channels = { q = \"q\" }");
+    constexpr double most_samples = 1e7;
+    if (!(bench.rate > 0) || !(bench.time > 0) || !(bench.rate * bench.time >= 2) || !(bench.settle >= 0) ||
+        !(bench.rate * bench.time <= most_samples))
+        reader.fail(entry, fmt::format("{} does not say how many samples there are, from 2 to 10 million", entry.path),
+                    "give rate = SAMPLES_IN_A_SECOND, time = SECONDS, and settle, if any, of 0 or more");
+}
+
+void set_levels(const StudyReader& reader, StudyRun& run, const TomlEntry& place) {
+    RecordBench& bench = *run.record.bench;
+    const std::vector<std::string> names = bench.model.independent_parameters();
+    if (run.axes.size() > 1 || (!run.axes.empty() && (run.axes.front().state || run.axes.front().values.empty())))
+        reader.fail(place, "a bench goes through the values of one parameter",
+                    "give vary = { V0 = { from = 1, to = 2, step = 0.1 } }, or leave it out");
+    if (names.size() < 2)
+        reader.fail(place,
+                    fmt::format("model '{}' has fewer than two parameters, which a bench drives", bench.model.name),
+                    "take another model");
+    bench.parameter = run.axes.empty() ? names.front() : run.axes.front().name;
+    std::vector<double> values =
+        run.axes.empty() ? std::vector<double>{bench.model.parameter_values().front()} : run.axes.front().values;
+    if (!run.axes.empty() && run.direction == SweepDirection::both)
+        run.record.directions = {"up", "down"};
+    else if (!run.axes.empty())
+        run.record.directions = {run.direction == SweepDirection::up ? "up" : "down"};
+    const auto add = [&](bool rising, std::size_t direction) {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            bench.levels.push_back(values[rising ? i : values.size() - 1 - i]);
+            bench.directions.push_back(direction);
+        }
+    };
+    add(run.direction != SweepDirection::down, 0);
+    if (run.direction == SweepDirection::both)
+        add(false, 1);
+    bench.carry = run.carry && !run.axes.empty();
+    bench.seed = run.seed;
+    if (bench.carry && bench.repeats > 1)
+        reader.fail(place, "levels that are gone through one after the other are recorded once",
+                    "give carry = false, for each record to begin at the initial state");
+    run.axes.clear();
+}
+
+} // namespace graze

@@ -1,0 +1,223 @@
+#include "graze/symbolic/parser.hpp"
+#include "study/identify_run.hpp"
+#include "study/study_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace graze {
+
+namespace {
+
+using What = IdentifyRequest::What;
+
+std::vector<std::string> kinds_of_estimates() {
+    return {"decrement", "restitution", "coupling", "impedance", "fit"};
+}
+
+/// A number, or an expression in the model's parameters as they will be when others have been found.
+std::string number_text(const StudyReader& reader, const Model& model, const TomlEntry& entry) {
+    const double value = reader.number(model, entry); // says what is wrong with it
+    return entry.node->is_string() ? reader.toml().string(entry) : fmt::format("{:.17g}", value);
+}
+
+void read_gives(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    reader.each_of(entry, {}, [&](const TomlEntry& item) {
+        const std::string parameter = reader.toml().string(item);
+        if (!run.model.find_independent_parameter(parameter))
+            reader.fail(item, fmt::format("model '{}' has no parameter '{}'", run.model.name, parameter),
+                        study_name_remedy(parameter, run.model.independent_parameters()));
+        run.identify.gives.emplace_back(item.name, parameter);
+    });
+}
+
+void read_noise(const StudyReader& reader, IdentifyRequest& request, const TomlEntry& entry) {
+    const Model none;
+    reader.each_of(entry, {"displacement", "current"}, [&](const TomlEntry& item) {
+        (item.name == "displacement" ? request.displacement_noise : request.current_noise) =
+            reader.positive(none, item);
+    });
+}
+
+/// Names, or { NAME = GUESS } with { guess, bounds } where they are wanted.
+void read_unknowns(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    const auto add = [&](const TomlEntry& item, const std::string& name) -> IdentifyRequest::Unknown& {
+        if (!run.model.find_independent_parameter(name))
+            reader.fail(item, fmt::format("model '{}' has no parameter '{}'", run.model.name, name),
+                        study_name_remedy(name, run.model.independent_parameters()));
+        run.identify.unknowns.push_back({name, "", "", ""});
+        return run.identify.unknowns.back();
+    };
+    if (!entry.node->is_table())
+        return reader.each(reader.items(entry), [&](const TomlEntry& item) { add(item, reader.toml().string(item)); });
+    reader.each_of(entry, {}, [&](const TomlEntry& item) {
+        IdentifyRequest::Unknown& unknown = add(item, item.name);
+        if (!item.node->is_table()) {
+            unknown.guess = number_text(reader, run.model, item);
+            return;
+        }
+        reader.each_of(item, {"guess", "bounds"}, [&](const TomlEntry& part) {
+            if (part.name == "guess") {
+                unknown.guess = number_text(reader, run.model, part);
+                return;
+            }
+            const auto [least, greatest] = reader.range(run.model, part);
+            unknown.least = fmt::format("{:.17g}", least);
+            unknown.greatest = fmt::format("{:.17g}", greatest);
+        });
+    });
+}
+
+/// Channels, or { CHANNEL = "EXPRESSION" } with { value, gain, offset, noise } where they are wanted.
+void read_readings(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    const Model none;
+    const auto add = [&](const TomlEntry& item, const std::string& channel,
+                         const std::string& value) -> IdentifyRequest::Reading& {
+        named_value(run.model, value, reader.inside(item));
+        IdentifyRequest::Reading& reading = run.identify.readings.emplace_back();
+        reading.channel = channel;
+        reading.value = value;
+        return reading;
+    };
+    if (!entry.node->is_table())
+        return reader.each(reader.items(entry), [&](const TomlEntry& item) {
+            add(item, reader.toml().line(item), reader.toml().line(item));
+        });
+    reader.each_of(entry, {}, [&](const TomlEntry& item) {
+        if (item.node->is_string()) {
+            add(item, item.name, reader.toml().line(item));
+            return;
+        }
+        IdentifyRequest::Reading reading;
+        reading.channel = reading.value = item.name;
+        reader.each_of(item, {"value", "gain", "offset", "noise"}, [&](const TomlEntry& part) {
+            const bool is_gain = part.name == "gain";
+            if (part.name == "value")
+                reading.value = reader.toml().line(part);
+            else if (part.name == "noise")
+                reading.noise = reader.positive(none, part);
+            else if (part.node->is_boolean())
+                (is_gain ? reading.gain_unknown : reading.offset_unknown) = reader.toml().boolean(part);
+            else
+                (is_gain ? reading.gain : reading.offset) = reader.number(none, part);
+        });
+        named_value(run.model, reading.value, item.place);
+        run.identify.readings.push_back(reading);
+    });
+}
+
+void read_known(const StudyReader& reader, StudyRun& run, const TomlEntry& entry) {
+    if (entry.node->is_boolean()) {
+        run.identify.all_known = reader.toml().boolean(entry);
+        return;
+    }
+    run.identify.known = reader.strings(entry);
+    for (const std::string& name : run.identify.known)
+        if (!run.model.find_state(name))
+            reader.fail(entry, fmt::format("model '{}' has no state '{}'", run.model.name, name),
+                        study_name_remedy(name, names_of(run.model.states)));
+}
+
+struct KeyOfEstimate {
+    const char* name;
+    std::vector<What> of;
+};
+
+/// A key that this estimate does not use would be ignored.
+void check_keys(const StudyReader& reader, What what, const RunKeys& keys) {
+    const std::vector<KeyOfEstimate> known{
+        {"channel", {What::decrement, What::restitution}},
+        {"displacement", {What::restitution, What::coupling}},
+        {"voltage", {What::impedance}},
+        {"current", {What::coupling, What::impedance}},
+        {"peaks", {What::decrement}},
+        {"window", {What::restitution}},
+        {"transition", {What::restitution}},
+        {"least_jump", {What::restitution}},
+        {"gap", {What::coupling, What::impedance}},
+        {"stiffness", {What::coupling}},
+        {"noise", {What::coupling}},
+        {"beta1", {What::impedance}},
+        {"beta2", {What::impedance}},
+        {"clamped", {What::impedance}},
+        {"frequency", {What::impedance}},
+        {"unknowns", {What::fit}},
+        {"readings", {What::fit}},
+        {"known", {What::fit}},
+        {"loss", {What::fit}},
+        {"piece", {What::fit}},
+        {"from", {What::fit}},
+        {"mode", {What::fit}},
+        {"tolerance", {What::fit}},
+    };
+    Mistakes mistakes;
+    for (const KeyOfEstimate& key : known)
+        if (std::find(key.of.begin(), key.of.end(), what) == key.of.end())
+            with_key(mistakes, keys, key.name, [&](const TomlEntry& entry) {
+                reader.fail(entry,
+                            fmt::format("`{}` has no effect on a {}", key.name,
+                                        kinds_of_estimates()[static_cast<std::size_t>(what)]),
+                            "leave it out");
+            });
+    mistakes.throw_noted();
+}
+
+void require_what_is_needed(const StudyReader& reader, const StudyRun& run, const TomlEntry& entry) {
+    const IdentifyRequest& request = run.identify;
+    if (request.records.empty())
+        reader.fail(entry, fmt::format("{} has no records", entry.path),
+                    "name runs of kind \"record\": records = \"NAME\"");
+    if (request.what == What::coupling && (request.gap.empty() || request.stiffness.empty()))
+        reader.fail(entry, fmt::format("{}: gap or stiffness are not known", entry.path),
+                    "give gap and stiffness, such as gap = \"d\" and stiffness = \"m*w0^2\"");
+    if (request.beta1.empty() != request.beta2.empty() || (!request.beta1.empty() && request.gap.empty()))
+        reader.fail(entry, fmt::format("{}: a leakage inductance needs beta1, beta2 and the gap", entry.path),
+                    "give all of them, or none");
+    if (request.what == What::fit && (request.unknowns.empty() || request.readings.empty()))
+        reader.fail(entry, fmt::format("{} does not say what is to be found, or what was read", entry.path),
+                    "give unknowns = [\"PARAMETER\"] and readings = [\"CHANNEL\"]");
+}
+
+} // namespace
+
+void read_identify(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {
+    IdentifyRequest& request = run.identify;
+    if (!keys.contains("what"))
+        reader.fail(entry, fmt::format("{} does not say what is to be found", entry.path),
+                    "give what = \"decrement\", \"restitution\", \"coupling\", \"impedance\" or \"fit\"");
+    request.what = static_cast<What>(reader.choice(keys.at("what"), kinds_of_estimates()));
+    check_keys(reader, request.what, keys);
+    Mistakes mistakes;
+    const auto with = [&](const char* key, auto use) { with_key(mistakes, keys, key, use); };
+    with("records", [&](const TomlEntry& e) {
+        request.records = reader.strings(e);
+        request.records_place = e.place;
+    });
+    with("gives", [&](const TomlEntry& e) { read_gives(reader, run, e); });
+    for (auto [key, text] : {std::pair{"channel", &request.channel}, std::pair{"displacement", &request.displacement},
+                             std::pair{"voltage", &request.voltage}, std::pair{"current", &request.current}})
+        with(key, [&, text = text](const TomlEntry& e) { *text = reader.toml().line(e); });
+    for (auto [key, text] : {std::pair{"gap", &request.gap}, std::pair{"stiffness", &request.stiffness},
+                             std::pair{"beta1", &request.beta1}, std::pair{"beta2", &request.beta2},
+                             std::pair{"clamped", &request.clamped}, std::pair{"frequency", &request.frequency}})
+        with(key, [&, text = text](const TomlEntry& e) { *text = number_text(reader, run.model, e); });
+    with("peaks", [&](const TomlEntry& e) { request.peaks = reader.count(e, 2, 100'000); });
+    with("window", [&](const TomlEntry& e) { request.window = reader.count(e, 5, 100'000); });
+    with("transition", [&](const TomlEntry& e) { request.transition = reader.count(e, 0, 100'000); });
+    with("least_jump", [&](const TomlEntry& e) { request.least_jump = reader.positive(run.model, e); });
+    with("noise", [&](const TomlEntry& e) { read_noise(reader, request, e); });
+    with("unknowns", [&](const TomlEntry& e) { read_unknowns(reader, run, e); });
+    with("readings", [&](const TomlEntry& e) { read_readings(reader, run, e); });
+    with("known", [&](const TomlEntry& e) { read_known(reader, run, e); });
+    with("loss", [&](const TomlEntry& e) {
+        request.loss = static_cast<FitLoss>(reader.choice(e, {"squares", "huber", "cauchy"}));
+    });
+    with("piece", [&](const TomlEntry& e) { request.piece = reader.positive(run.model, e); });
+    mistakes.throw_noted();
+    require_what_is_needed(reader, run, entry);
+    run.value_names = residual_names(request);
+    run.value_units.assign(run.value_names.size(), "");
+}
+
+} // namespace graze

@@ -1,0 +1,338 @@
+#include "graze/model/model_file.hpp"
+#include "graze/symbolic/file_name.hpp"
+#include "graze/symbolic/parser.hpp"
+#include "study/record_inputs.hpp"
+#include "study/study_bench.hpp"
+#include "study/study_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace graze {
+
+namespace {
+
+const Model& no_model() {
+    static const Model none;
+    return none;
+}
+
+/// A table's keys, each told once. @param table its entry
+template <class Work>
+void with_keys(const StudyReader& reader, const TomlEntry& table, std::initializer_list<std::string_view> known,
+               const Work& work) {
+    reader.each_of(table, known, work);
+}
+
+void read_files(const StudyReader& reader, const TomlEntry& entry, std::size_t direction, RecordRequest& request) {
+    reader.each(reader.items(entry), [&](const TomlEntry& item) {
+        for (RecordInput input : record_inputs(reader.file(), reader.toml().string(item), reader.inside(item))) {
+            input.direction = direction;
+            fingerprint_record(input);
+            request.inputs.push_back(std::move(input));
+        }
+    });
+    if (request.inputs.empty())
+        reader.fail(entry, fmt::format("{} names no record", entry.path), "name one");
+}
+
+/// A name, a list, or { up = ..., down = ... }.
+void read_all_files(const StudyReader& reader, const TomlEntry& entry, RecordRequest& request) {
+    if (!entry.node->is_table())
+        return read_files(reader, entry, 0, request);
+    request.directions.clear();
+    with_keys(reader, entry, {"up", "down"}, [&](const TomlEntry& item) {
+        request.directions.push_back(item.name);
+        read_files(reader, item, request.directions.size() - 1, request);
+    });
+    if (request.directions.empty())
+        reader.fail(entry, fmt::format("{} names no record", entry.path), "give up = [...] or down = [...]");
+}
+
+void read_scales(const StudyReader& reader, const TomlEntry& entry, RecordProcessing& processing) {
+    reader.each_of(entry, {}, [&](const TomlEntry& channel) {
+        RecordProcessing::Scale scale;
+        scale.channel = channel.name;
+        if (channel.node->is_table())
+            reader.each_of(channel, {"factor", "offset", "unit"}, [&](const TomlEntry& item) {
+                if (item.name == "unit")
+                    scale.unit = reader.toml().line(item);
+                else
+                    (item.name == "factor" ? scale.factor : scale.offset) = reader.number(no_model(), item);
+            });
+        else
+            scale.factor = reader.number(no_model(), channel);
+        processing.scales.push_back(scale);
+    });
+}
+
+void read_processing(const StudyReader& reader, RecordProcessing& processing, const RunKeys& keys) {
+    Mistakes mistakes;
+    const auto with = [&](const char* key, auto use) { with_key(mistakes, keys, key, use); };
+    with("columns", [&](const TomlEntry& e) { processing.layout.columns = reader.toml().line(e); });
+    with("group", [&](const TomlEntry& e) { processing.layout.group = reader.toml().line(e); });
+    with("scale", [&](const TomlEntry& e) { read_scales(reader, e, processing); });
+    with("part", [&](const TomlEntry& e) { std::tie(processing.begin, processing.end) = reader.range(no_model(), e); });
+    with("every", [&](const TomlEntry& e) { processing.every = reader.count(e, 1, 1'000'000); });
+    with("filter", [&](const TomlEntry& e) {
+        reader.each_of(e, {"pass", "stop"}, [&](const TomlEntry& item) {
+            (item.name == "pass" ? processing.pass : processing.stop) = reader.positive(no_model(), item);
+        });
+        if (processing.pass == 0)
+            reader.fail(e, fmt::format("{} does not say what passes", e.path), "give pass = FREQUENCY");
+    });
+    with("derivative", [&](const TomlEntry& e) {
+        if (e.node->is_string()) {
+            processing.derivative = reader.toml().line(e);
+            return;
+        }
+        reader.each_of(e, {"channel", "half_width"}, [&](const TomlEntry& item) {
+            if (item.name == "channel")
+                processing.derivative = reader.toml().line(item);
+            else
+                processing.half_width = reader.count(item, 4, 100'000);
+        });
+    });
+    mistakes.throw_noted();
+}
+
+RecordSampling read_record_sampling(const StudyReader& reader, const TomlEntry& entry) {
+    using Kind = RecordSampling::Kind;
+    RecordSampling sampling;
+    sampling.name = entry.name;
+    require_plain_line(sampling.name, "name of a sampling", entry.place);
+    bool placed = false;
+    const auto place = [&](Kind kind) {
+        if (placed)
+            reader.fail(entry, fmt::format("{} is taken in two places", entry.path), "make two samplings of it");
+        placed = true;
+        sampling.kind = kind;
+    };
+    with_keys(
+        reader, entry,
+        {"section", "maxima", "minima", "record", "peak_to_peak", "amplitude", "impacts", "image", "displacement",
+         "window", "transition", "least_jump"},
+        [&](const TomlEntry& item) {
+            if (item.name == "section") {
+                place(Kind::section);
+                sampling.phase = reader.number(no_model(), item);
+                if (!(sampling.phase >= 0 && sampling.phase < 1))
+                    reader.fail(item, fmt::format("{} is no part of a period", item.path),
+                                "give a number from 0 to less than 1");
+            } else if (item.name == "maxima" || item.name == "minima" || item.name == "impacts") {
+                place(item.name == "maxima" ? Kind::maxima : item.name == "minima" ? Kind::minima : Kind::impacts);
+                sampling.channel = reader.toml().line(item);
+            } else if (item.name == "image") {
+                sampling.negated = reader.strings(item);
+            } else if (item.name == "displacement") {
+                sampling.displacement = reader.toml().line(item);
+            } else if (item.name == "window") {
+                sampling.window = reader.count(item, 5, 100'000);
+            } else if (item.name == "transition") {
+                sampling.transition = reader.count(item, 0, 100'000);
+            } else if (item.name == "least_jump") {
+                sampling.least_jump = reader.number(no_model(), item);
+            } else if (reader.toml().boolean(item)) {
+                place(item.name == "record"         ? Kind::record
+                      : item.name == "peak_to_peak" ? Kind::peak_to_peak
+                                                    : Kind::amplitude);
+            }
+        });
+    if (!placed)
+        reader.fail(entry, fmt::format("{} does not say where", entry.path),
+                    "give one of section, maxima, minima, peak_to_peak, amplitude, impacts or record");
+    if (!sampling.negated.empty() && sampling.kind != Kind::section)
+        reader.fail(entry, fmt::format("{} has an image, which sections have", entry.path), "leave `image` out");
+    return sampling;
+}
+
+/// Which channels are there for values, as channels = ["V", "I"] or { v = "dq/dt" } says, or all.
+void read_channels(const StudyReader& reader, const RecordHeader& header, RecordRequest& request, const RunKeys& keys) {
+    if (const auto found = keys.find("channels"); found != keys.end()) {
+        const TomlEntry& entry = found->second;
+        const auto add = [&](const TomlEntry& item, const std::string& name, const std::string& channel) {
+            try {
+                header.channel(channel, "channels");
+            } catch (const InputError& error) {
+                reader.fail(item, error.problem(), error.remedy());
+            }
+            request.channels.push_back({name, channel});
+        };
+        if (entry.node->is_table())
+            reader.each_of(entry, {}, [&](const TomlEntry& item) { add(item, item.name, reader.toml().line(item)); });
+        else
+            reader.each(reader.items(entry),
+                        [&](const TomlEntry& item) { add(item, reader.toml().line(item), reader.toml().line(item)); });
+    } else {
+        for (const Channel& channel : header.channels)
+            request.channels.push_back({channel.name, channel.name});
+    }
+    for (const RecordRequest::Kept& one : request.channels)
+        if (!is_valid_name(one.name))
+            throw InputError(keys.contains("channels") ? keys.at("channels").place : keys.at("kind").place,
+                             fmt::format("the channel '{}' has no name that expressions can use", one.name),
+                             fmt::format("give it one: channels = {{ name = \"{}\" }}", one.channel));
+}
+
+void read_reference(const StudyReader& reader, RecordRequest& request, const TomlEntry& entry) {
+    if (entry.node->is_string())
+        request.reference = reader.toml().line(entry);
+    else
+        reader.each_of(entry, {"channel", "level", "hysteresis"}, [&](const TomlEntry& item) {
+            if (item.name == "channel")
+                request.reference = reader.toml().line(item);
+            else if (item.name == "level")
+                request.level = reader.number(no_model(), item);
+            else
+                request.hysteresis = reader.positive(no_model(), item);
+        });
+    const bool known = std::any_of(request.channels.begin(), request.channels.end(),
+                                   [&](const auto& one) { return one.name == request.reference; });
+    if (!known)
+        reader.fail(entry, fmt::format("there is no channel '{}'", request.reference),
+                    "name one of those that the run keeps");
+}
+
+/// Its header, once all is done to it.
+RecordHeader header_of(const StudyReader& reader, const StudyRun& run, const RunKeys& keys) {
+    const RecordRequest& request = run.record;
+    try {
+        std::unique_ptr<SampleSource> source;
+        if (request.bench) {
+            RecordHeader header{{"t", "s"}, {}};
+            Samples two{{0, 1}, {}};
+            for (const BenchChannel& channel : request.bench->channels) {
+                header.channels.push_back({channel.value.name, channel.value.unit});
+                two.values.push_back({0, 0});
+            }
+            source = std::make_unique<StoredSamples>(header, two);
+        } else {
+            source = open_record(request.inputs.front().path, request.processing.layout);
+        }
+        return ProcessedRecord(std::move(source), request.processing).header();
+    } catch (const InputError& error) {
+        if (!error.place().file.empty() && error.place().line > 0)
+            throw;
+        reader.fail(keys.at(request.bench ? "bench" : "files"),
+                    (request.bench ? "" : fmt::format("'{}': ", request.inputs.front().name)) + error.problem(),
+                    error.remedy());
+    }
+}
+
+void check_samplings(const StudyReader& reader, const StudyRun& run, const TomlEntry& entry) {
+    const RecordRequest& request = run.record;
+    std::vector<std::string> known = run.value_names;
+    for (const RecordRequest::Kept& one : request.channels)
+        known.push_back(one.name);
+    const auto require = [&](const std::string& name) {
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            reader.fail(entry, fmt::format("there is no channel or value '{}'", name), study_name_remedy(name, known));
+    };
+    for (const RecordSampling& sampling : request.samplings) {
+        if (sampling.is_periodic() && request.reference.empty())
+            reader.fail(entry, fmt::format("nothing says what begins the periods of '{}'", sampling.name),
+                        "name the channel of the input: reference = \"V\"");
+        for (const std::string* name : {&sampling.channel, &sampling.displacement})
+            if (!name->empty())
+                require(*name);
+        for (const std::string& name : sampling.negated)
+            if (std::find(run.value_names.begin(), run.value_names.end(), name) == run.value_names.end())
+                reader.fail(entry, fmt::format("there is no value '{}' to change its sign", name),
+                            study_name_remedy(name, run.value_names));
+    }
+    std::vector<std::string> names = request.sampling_names();
+    std::sort(names.begin(), names.end());
+    if (const auto twice = std::adjacent_find(names.begin(), names.end()); twice != names.end())
+        reader.fail(entry, fmt::format("there are two samplings '{}'", *twice), "give one another name");
+}
+
+} // namespace
+
+std::vector<std::string> RecordRequest::sampling_names() const {
+    std::vector<std::string> names;
+    for (const RecordSampling& sampling : samplings) {
+        names.push_back(sampling.name);
+        if (sampling.kind == RecordSampling::Kind::impacts)
+            names.push_back(sampling.name + "_after");
+    }
+    return names;
+}
+
+void read_record(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const RunKeys& keys) {
+    RecordRequest& request = run.record;
+    if (keys.contains("files") == keys.contains("bench"))
+        reader.fail(entry, fmt::format("{} has {} records", entry.path, keys.contains("files") ? "two kinds of" : "no"),
+                    "give files = \"NAME.csv\", or a virtual bench: bench = { ... }");
+    Mistakes mistakes;
+    with_key(mistakes, keys, "files", [&](const TomlEntry& files) { read_all_files(reader, files, request); });
+    if (keys.contains("bench"))
+        mistakes.attempt([&] {
+            request.bench.emplace();
+            request.bench->model = run.model;
+            read_bench(reader, run, keys.at("bench"));
+            set_levels(reader, run, keys.at("bench"));
+        });
+    mistakes.attempt([&] { read_processing(reader, request.processing, keys); });
+    with_key(mistakes, keys, "keep", [&](const TomlEntry& keep) { request.keep = reader.count(keep, 0, 10'000'000); });
+    mistakes.throw_noted();
+    const RecordHeader header = header_of(reader, run, keys);
+    read_channels(reader, header, request, keys);
+    std::vector<Channel> states, coordinates;
+    for (const RecordRequest::Kept& one : request.channels)
+        states.push_back({one.name, header.channels[header.channel(one.channel, "channels")].unit});
+    with_key(mistakes, keys, "reference", [&](const TomlEntry& at) { read_reference(reader, request, at); });
+    with_key(mistakes, keys, "coordinate", [&](const TomlEntry& name) {
+        request.coordinate = reader.toml().line(name);
+        if (!is_valid_name(request.coordinate) || request.reference.empty())
+            reader.fail(name,
+                        fmt::format("'{}' cannot be what the amplitude of the reference is called", request.coordinate),
+                        request.reference.empty() ? "name the channel of the input: reference = \"V\""
+                                                  : "use letters, digits and '_'");
+    });
+    mistakes.throw_noted();
+    if (!request.reference.empty()) {
+        if (request.coordinate.empty())
+            request.coordinate = "amplitude";
+        const auto of = std::find_if(states.begin(), states.end(),
+                                     [&](const Channel& one) { return one.name == request.reference; });
+        if (std::any_of(states.begin(), states.end(),
+                        [&](const Channel& one) { return one.name == request.coordinate; }))
+            reader.fail(
+                keys.at("reference"),
+                fmt::format("'{}' is a channel, and so cannot be the amplitude of the reference", request.coordinate),
+                "give it another name: coordinate = \"NAME\"");
+        coordinates.push_back({request.coordinate, of->unit});
+    }
+    run.model = model_of_record(states, coordinates, header.time.unit);
+    if (keys.contains("sample"))
+        mistakes.attempt([&] {
+            reader.each_of(keys.at("sample"), {}, [&](const TomlEntry& item) {
+                request.samplings.push_back(read_record_sampling(reader, item));
+            });
+        });
+    mistakes.throw_noted();
+    if (request.samplings.empty()) {
+        const auto add = [&](const char* name, RecordSampling::Kind kind) {
+            RecordSampling& sampling = request.samplings.emplace_back();
+            sampling.name = name;
+            sampling.kind = kind;
+        };
+        add("record", RecordSampling::Kind::record);
+        if (!request.reference.empty())
+            add("section", RecordSampling::Kind::section);
+    }
+}
+
+void complete_record(const StudyReader& reader, StudyRun& run, const RunKeys& keys) {
+    if (run.values.empty())
+        for (const RecordRequest::Kept& one : run.record.channels) {
+            run.value_names.push_back(one.name);
+            run.value_units.push_back(run.model.states[*run.model.find_state(one.name)].unit);
+            run.values.push_back(run.model.symbol(one.name));
+        }
+    check_samplings(reader, run, keys.contains("sample") ? keys.at("sample") : keys.at("kind"));
+}
+
+} // namespace graze

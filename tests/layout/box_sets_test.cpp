@@ -1,0 +1,53 @@
+#include "layout/box_sets.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace graze::testing {
+namespace {
+
+TEST(BoxSets, LeaveOutWhatIsTakenAway) {
+    const std::vector<GridBox> boxes{{0, 0, 10, 10}, {5, 0, 20, 10}}, without{{0, 0, 3, 3}};
+    const auto found = outlines(boxes, without, {0, 0, 20, 10});
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].size(), 6U) << "without corners on straight sides";
+    EXPECT_NEAR(total_area(found), 191e-6, 1e-18);
+    EXPECT_THROW(outlines(boxes, std::vector<GridBox>{{5, 5, 6, 6}}, {0, 0, 20, 10}), std::logic_error) << "a hole";
+    EXPECT_TRUE(outlines(boxes, boxes, {0, 0, 20, 10}).empty());
+}
+
+/// Against counting squares.
+TEST(BoxSets, HaveTheAreaOfTheirSquares) {
+    std::mt19937_64 random(7);
+    constexpr std::int64_t side = 24;
+    const auto box = [&] {
+        const auto x = static_cast<std::int64_t>(random() % side), y = static_cast<std::int64_t>(random() % side);
+        return GridBox{x, y, x + 1 + static_cast<std::int64_t>(random() % 8),
+                       y + 1 + static_cast<std::int64_t>(random() % 8)};
+    };
+    int tried = 0;
+    for (int seed = 0; seed < 300; ++seed) {
+        const std::vector<GridBox> boxes{box(), box(), box(), box()}, without{box(), box()};
+        const GridBox clip{3, 3, side, side};
+        const auto has = [](const std::vector<GridBox>& all, std::int64_t x, std::int64_t y) {
+            return std::any_of(all.begin(), all.end(), [&](const GridBox& one) {
+                return one.left <= x && x < one.right && one.bottom <= y && y < one.top;
+            });
+        };
+        double squares = 0;
+        for (std::int64_t x = clip.left; x < clip.right; ++x)
+            for (std::int64_t y = clip.bottom; y < clip.top; ++y)
+                squares += has(boxes, x, y) && !has(without, x, y) ? 1e-6 : 0;
+        try {
+            const auto found = outlines(boxes, without, clip);
+            EXPECT_NEAR(total_area(found), squares, 1e-15) << seed;
+            ++tried;
+        } catch (const std::logic_error&) { // a hole
+        }
+    }
+    EXPECT_GT(tried, 200);
+}
+
+} // namespace
+} // namespace graze::testing

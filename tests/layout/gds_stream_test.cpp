@@ -1,0 +1,103 @@
+#include "graze/layout/gds_stream.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <random>
+
+namespace graze::testing {
+namespace {
+
+/// The value of a number in the format of GDSII, by its definition.
+double value_of(std::uint64_t bits) {
+    const double fraction = std::ldexp(static_cast<double>(bits & 0x00ffffffffffffffULL), -56);
+    const int exponent = static_cast<int>((bits >> 56U) & 0x7fU) - 64;
+    return (bits >> 63U ? -1 : 1) * fraction * std::pow(16.0, exponent);
+}
+
+TEST(GdsStream, WritesNumbersAsTheFormatHasThem) {
+    EXPECT_EQ(gds_real(0), 0U);
+    EXPECT_EQ(gds_real(1), 0x4110000000000000ULL) << "as in the format's description";
+    EXPECT_EQ(gds_real(2), 0x4120000000000000ULL);
+    EXPECT_EQ(gds_real(-1), 0xc110000000000000ULL);
+    EXPECT_EQ(gds_real(90), 0x425a000000000000ULL);
+    EXPECT_EQ(gds_real(1e-3) >> 8U, 0x3e4189374bc6a7ULL);
+    EXPECT_EQ(gds_real(1e-9) >> 8U, 0x3944b82fa09b5aULL);
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> exponent(-60, 60);
+    for (int i = 0; i < 1000; ++i) {
+        const double value = std::pow(10, exponent(random)) * (i % 2 == 0 ? 1 : -1);
+        EXPECT_EQ(value_of(gds_real(value)), value) << "56 bits hold all 53";
+        EXPECT_GE(gds_real(value) & 0x00f0000000000000ULL, 0x0010000000000000ULL) << "and the first digit is not 0";
+    }
+}
+
+struct Record {
+    int type;
+    std::string data;
+};
+
+std::vector<Record> records(const std::string& bytes) {
+    const auto byte = [&](std::size_t at) { return static_cast<int>(static_cast<unsigned char>(bytes.at(at))); };
+    std::vector<Record> result;
+    for (std::size_t at = 0; at < bytes.size();) {
+        const int length = 256 * byte(at) + byte(at + 1);
+        if (length < 4 || length % 2 != 0)
+            throw std::runtime_error("a record has no length");
+        result.push_back(
+            {256 * byte(at + 2) + byte(at + 3), bytes.substr(at + 4, static_cast<std::size_t>(length) - 4)});
+        at += static_cast<std::size_t>(length);
+    }
+    return result;
+}
+
+LayoutLibrary small_library() {
+    LayoutLibrary library;
+    library.name = "odd";
+    LayoutCell square;
+    square.name = "SQUARE";
+    square.add({7, 3}, GridBox{-1, -2, 300, 70'000});
+    square.texts.push_back({{8, 1}, {5, -6}, "word", 2});
+    LayoutCell top;
+    top.name = "TOP";
+    top.references.push_back({"SQUARE", {1000, -1000}, true, 90});
+    top.references.push_back({"SQUARE", {}, false, 0});
+    library.cells = {square, top};
+    return library;
+}
+
+TEST(GdsStream, IsTheSequenceOfRecordsOfTheFormat) {
+    const std::vector<Record> all = records(gds_stream(small_library()));
+    std::vector<int> types;
+    for (const Record& one : all)
+        types.push_back(one.type);
+    EXPECT_EQ(types, (std::vector<int>{0x0002, 0x0102, 0x0206, 0x0305,         //
+                                       0x0502, 0x0606,                         //
+                                       0x0800, 0x0d02, 0x0e02, 0x1003, 0x1100, // boundary
+                                       0x0c00, 0x0d02, 0x1602, 0x1a01, 0x1b05, 0x1003, 0x1906, 0x1100, 0x0700, // text
+                                       0x0502, 0x0606,                                                         //
+                                       0x0a00, 0x1206, 0x1a01, 0x1c05, 0x1003, 0x1100,                         // turned
+                                       0x0a00, 0x1206, 0x1003, 0x1100, 0x0700, 0x0400}));
+    EXPECT_EQ(all[0].data, std::string("\x02\x58", 2)) << "version 600";
+    EXPECT_EQ(all[2].data, std::string("odd\0", 4)) << "of even length";
+    EXPECT_EQ(all[9].data.size(), 40U) << "five corners: the first one again closes it";
+    EXPECT_EQ(all[9].data.substr(0, 8), all[9].data.substr(32));
+    EXPECT_EQ(all[9].data.substr(0, 8), std::string("\xff\xff\xff\xff\xff\xff\xff\xfe", 8));
+    EXPECT_EQ(all[24].data, std::string("\x80\0", 2)) << "mirrored";
+    EXPECT_EQ(gds_stream(small_library()), gds_stream(small_library()));
+}
+
+TEST(GdsStream, RefusesWhatTheFormatCannotHave) {
+    LayoutLibrary library = small_library();
+    library.cells[0].shapes[0].polygon[0].x = std::int64_t{1} << 31;
+    EXPECT_THROW(gds_stream(library), std::out_of_range);
+    library = small_library();
+    library.cells[0].shapes[0].polygon.assign(8191, {});
+    EXPECT_THROW(gds_stream(library), std::length_error);
+    library = small_library();
+    library.cells[0].name = std::string(33, 'A');
+    EXPECT_THROW(gds_stream(library), std::length_error);
+}
+
+} // namespace
+} // namespace graze::testing

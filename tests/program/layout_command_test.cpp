@@ -1,0 +1,111 @@
+#include "run_graze.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace graze::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class LayoutCommand : public ::testing::Test {
+protected:
+    std::string design(const std::string& sections) {
+        std::ofstream(folder / "mine.toml") << "name = \"mine\"\n" << sections;
+        return folder / "mine.toml";
+    }
+
+    Folder folder;
+};
+
+TEST_F(LayoutCommand, WritesTheSameBytesAndPrintsATable) {
+    const Printed first =
+        run_graze({"layout", "mems-switch-device", "--output", folder / "one.gds", "--format", "csv"});
+    ASSERT_EQ(first.code, 0) << first.err;
+    EXPECT_EQ(header(first.out), "cell,what,value,unit");
+    EXPECT_THAT(first.out, HasSubstr("\nDEVICE,beams,8,\n"));
+    const Printed other =
+        run_graze({"layout", "mems-switch-device", "--output", folder / "two.gds", "--format", "csv"});
+    EXPECT_EQ(first.out, other.out);
+    EXPECT_EQ(contents(folder / "one.gds"), contents(folder / "two.gds"));
+    EXPECT_THAT(contents(folder / "one.gds"), StartsWith(std::string("\0\x06\0\x02\x02\x58", 6)));
+    const Printed json = run_graze({"layout", "mems-switch-device", "--wafer", "--format", "json"});
+    EXPECT_TRUE(JsonCheck(json.out).valid());
+    EXPECT_THAT(json.out, HasSubstr("\"top\":\"WAFER\""));
+    EXPECT_EQ(folder.files(), 2U) << "without --output there is only the table";
+}
+
+TEST_F(LayoutCommand, TakesOtherDimensions) {
+    const std::string file = design("[device]\ngap = 12\nstop_gap = 7\n");
+    const Printed printed =
+        run_graze({"layout", file, "--set", "stop_gap=8.5", "--set", "folds=2", "--format", "csv", "--digits", "10"});
+    ASSERT_EQ(printed.code, 0) << printed.err;
+    EXPECT_THAT(printed.out, HasSubstr("\nDEVICE,gap,12,um\n"));
+    EXPECT_THAT(printed.out, HasSubstr("\nDEVICE,stop gap,8.5,um\n"));
+    EXPECT_THAT(printed.out, HasSubstr("\nDEVICE,beams,16,\n"));
+}
+
+TEST_F(LayoutCommand, WritesOneMaskAlone) {
+    for (const std::string mask : {"1", "2"}) {
+        const std::string path = folder / ("mask" + mask + ".gds");
+        ASSERT_EQ(run_graze({"layout", design("[device]\n"), "--mask", mask, "--output", path}).code, 0);
+        EXPECT_THAT(contents(path), HasSubstr("MASK_" + mask));
+        EXPECT_EQ(contents(path).find("MASK_" + std::string(mask == "1" ? "2" : "1")), std::string::npos);
+    }
+}
+
+TEST_F(LayoutCommand, DrawsPictures) {
+    if (std::system("command -v gnuplot > /dev/null") != 0)
+        GTEST_SKIP() << "no gnuplot";
+    const std::string file = design("[device]\n");
+    const Printed device = run_graze({"layout", file, "--picture", folder / "device.svg"});
+    ASSERT_EQ(device.code, 0) << device.err;
+    const std::string picture = contents(folder / "device.svg");
+    for (const char* part :
+         {"fixed electrode", "folded flexure", "truss", "stop, gap 9", "channel", "mask 1", "mask 2"})
+        EXPECT_THAT(picture, HasSubstr(part));
+    ASSERT_EQ(run_graze({"layout", file, "--wafer", "--output", folder / "wafer.png"}).code, 0);
+    EXPECT_THAT(contents(folder / "wafer.png"), StartsWith("\x89PNG"));
+    EXPECT_EQ(folder.files(), 3U) << "and nothing besides";
+}
+
+TEST_F(LayoutCommand, WritesNothingOfWhatIsWrong) {
+    const std::vector<std::pair<std::string, std::string>> mistakes{
+        {"[device]\ngap = -1\n", "mine.toml:3:7: device.gap is -1 um, not positive; give a positive length"},
+        {"[device]\nflexure_length = 6000\n", "mine.toml:3:18: flexures of 6000 um make a mass"},
+        {"[device]\nchannel_width = 3000\n", "mine.toml:3:17: channel and stops take"},
+        {"[device]\ngap = nan\n", "mine.toml:3:7: device.gap is not a finite number"},
+        {"[device]\ngap = 1e300\n", "mine.toml:3:7: device.gap is 1e+300 um, more than a metre"},
+        {"[device]\n[wafer]\ndevices = 60\n", "mine.toml:4:11: device 1 and device 2 overlap"},
+        {"", "the design has no device to be drawn"},
+    };
+    for (const auto& [sections, said] : mistakes) {
+        const std::string file = design(sections);
+        const Printed printed =
+            run_graze({"layout", file, "--wafer", "--output", folder / "a.gds", "--picture", folder / "a.svg"});
+        EXPECT_EQ(printed.code, 2) << sections;
+        EXPECT_EQ(printed.out, "");
+        EXPECT_THAT(printed.err, HasSubstr(said));
+        EXPECT_THAT(printed.err, HasSubstr(";"));
+        EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
+        EXPECT_EQ(folder.files(), 1U);
+    }
+    const std::string file = design("[device]\n");
+    EXPECT_THAT(run_graze({"layout", file, "--output", folder / "a.dxf"}).err, HasSubstr("let the name end in .gds"));
+    EXPECT_THAT(run_graze({"layout", file, "--mask", "1"}).err, HasSubstr("--mask has no effect without --output"));
+    EXPECT_THAT(run_graze({"layout", file, "--mask", "1", "--output", folder / "a.svg"}).err, HasSubstr("both masks"));
+    EXPECT_THAT(run_graze({"layout", file, "--output", folder / "a.gds", "--picture", folder / "none/a.svg"}).err,
+                HasSubstr("cannot be written"));
+    EXPECT_THAT(run_graze({"layout", file, "--output", folder / "none/a.gds"}).err, HasSubstr("cannot be written"));
+    EXPECT_THAT(run_graze({"layout", file, "--set", "gab=1"}).err, HasSubstr("did you mean 'gap'?"));
+    EXPECT_THAT(run_graze({"layout", file, "--mask", "3"}).err, HasSubstr("--mask"));
+    EXPECT_THAT(run_graze("layout mems-swich").err, HasSubstr("did you mean"));
+    EXPECT_EQ(run_graze("layout").code, 2);
+    EXPECT_EQ(folder.files(), 1U);
+}
+
+} // namespace
+} // namespace graze::testing
