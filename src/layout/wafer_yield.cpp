@@ -197,6 +197,9 @@ private:
 
 Design design_of_device(const Design& design, const DeviceFile& file) {
     Design result = design;
+    result.dimensions.clear(); // from which the designer may choose: this device is what it is
+    result.planes.clear();
+    result.adjustable.reset();
     const auto set = [&](const std::string& name, double value) {
         result.model.set_parameter(name, value);
         std::erase_if(result.set, [&](const auto& one) { return one.first == name; });
