@@ -65,7 +65,10 @@ private:
             return;
         choose_channels();
         device_.set_rate(experiment_.rate);
-        begun_ = true; // from the first line that is sent
+        generator_.identify();
+        begun_ = true;
+        if (options_.begun)
+            options_.begun();
         generator_.begin(missing->frequency, experiment_.safe, experiment_.offset);
         const auto first = static_cast<std::size_t>(missing - experiment_.levels.begin());
         const bool back = device_.return_to(mark_of(missing->number));

@@ -43,9 +43,11 @@ DeviceAddress device_address(const std::string& text, const Place& place) {
         address.name = text.substr(first + 1);
         return address;
     }
-    if (kind == "tcp" && last != first && last > first + 1) {
+    const bool bracketed = text.find('[') == first + 1 && text.find(']') + 1 == last; // an IPv6 address
+    const bool one_name = bracketed || text.find(':', first + 1) == last;
+    if (kind == "tcp" && last != first && last > first + 1 && one_name) {
         address.is_tcp = true;
-        address.name = text.substr(first + 1, last - first - 1);
+        address.name = bracketed ? text.substr(first + 2, last - first - 3) : text.substr(first + 1, last - first - 1);
         const char* const end = text.data() + text.size();
         if (std::from_chars(text.data() + last + 1, end, address.port).ptr == end && address.port > 0)
             return address;

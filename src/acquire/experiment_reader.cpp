@@ -1,6 +1,7 @@
 #include "acquire/experiment_reader.hpp"
 
 #include "graze/symbolic/file_name.hpp"
+#include "graze/symbolic/trimmed.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -59,6 +60,9 @@ double ExperimentReader::number(const TomlEntry& entry, double least, double mos
 
 std::size_t ExperimentReader::count(const TomlEntry& entry, std::size_t least, std::size_t most) const {
     const std::optional<std::int64_t> value = entry.node->value_exact<std::int64_t>();
+    if (const auto broken = entry.node->value_exact<double>())
+        fail(entry, fmt::format("{} is {}", entry.path, *broken),
+             fmt::format("give a whole number from {} to {}", least, most));
     if (!value)
         toml_.fail_type(entry, "a whole number");
     if (*value < static_cast<std::int64_t>(least) || *value > static_cast<std::int64_t>(most))
@@ -78,6 +82,9 @@ std::vector<std::string> ExperimentReader::names(const TomlEntry& entry) const {
     std::vector<std::string> result;
     for (const TomlEntry& one : toml_.elements(entry)) {
         result.push_back(toml_.line(one));
+        if (result.back().find_first_of(",;\t") != std::string::npos || trimmed(result.back()).empty())
+            fail(one, fmt::format("'{}' is no name of a channel", result.back()),
+                 "give names one by one, as [\"V\", \"I\"]");
         if (std::count(result.begin(), result.end(), result.back()) > 1)
             fail(one, fmt::format("'{}' is there twice", result.back()), "name it once");
     }
@@ -189,7 +196,12 @@ void ExperimentReader::read_generator(const TomlEntry& entry) {
     with(keys, "timeout", [&](const TomlEntry& e) { generator.timeout = number(e, 0.01, 600); });
     with(keys, "attempts", [&](const TomlEntry& e) { generator.attempts = static_cast<int>(count(e, 1, 100)); });
     with(keys, "tolerance", [&](const TomlEntry& e) { generator.tolerance = number(e, 0, 0.1); });
-    with(keys, "identity", [&](const TomlEntry& e) { generator.identity = toml_.line(e); });
+    with(keys, "identity", [&](const TomlEntry& e) {
+        generator.identity = toml_.line(e);
+        if (trimmed(generator.identity).empty())
+            fail(e, fmt::format("{} is empty", e.path),
+                 "give some text that its answer to *IDN? has in it, or leave the key out");
+    });
 }
 
 void ExperimentReader::read_limits(const TomlEntry& entry) {
@@ -207,14 +219,17 @@ void ExperimentReader::read_limits(const TomlEntry& entry) {
         const auto both = toml_.elements(e);
         if (both.size() != 2)
             fail(e, fmt::format("{} has {} numbers", e.path, both.size()), "give [LEAST, GREATEST]");
-        limits.least_frequency = number(both[0], 0, most_hertz);
-        limits.greatest_frequency = number(both[1], limits.least_frequency, most_hertz);
+        const double least = number(both[0], 0, most_hertz), greatest = number(both[1], 0, most_hertz);
+        if (!(least <= greatest))
+            fail(e, fmt::format("{} goes from {} to {}", e.path, least, greatest), "give the smaller one first");
+        limits.least_frequency = least;
+        limits.greatest_frequency = greatest;
     });
     has_limits_ = true;
 }
 
 void ExperimentReader::read_samples(const TomlEntry& entry) {
-    const Keys keys = keys_of(entry, {"device", "baud", "rate", "timeout", "channels"});
+    const Keys keys = keys_of(entry, {"device", "baud", "rate", "timeout", "patience", "channels"});
     with(keys, "device", [&](const TomlEntry& e) {
         experiment_.device = toml_.line(e);
         device_address(experiment_.device, toml_.place(*e.node));
@@ -225,6 +240,7 @@ void ExperimentReader::read_samples(const TomlEntry& entry) {
         throw InputError(entry.place, fmt::format("{} has no rate", entry.path), "give rate = 1000, in a second");
     experiment_.rate = number(keys.at("rate"), 1e-3, most_rate);
     with(keys, "timeout", [&](const TomlEntry& e) { experiment_.sample_timeout = number(e, 0.01, 3600); });
+    with(keys, "patience", [&](const TomlEntry& e) { experiment_.sample_patience = number(e, 1, 1e6); });
     with(keys, "channels", [&](const TomlEntry& e) { experiment_.channels = names(e); });
 }
 

@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/printable.hpp"
+#include "graze/symbolic/trimmed.hpp"
 
 #include <fmt/format.h>
 
@@ -105,26 +106,32 @@ double GeneratorClient::set(const Setting& setting, double value) {
     }
 }
 
+void GeneratorClient::identify() {
+    for (int attempt = 1; !identified_; ++attempt) {
+        try {
+            identity_ = asked("*IDN?");
+            if (trimmed(identity_).empty() || !is_plain_line(identity_) ||
+                identity_.find(options_.identity) == std::string::npos)
+                throw InstrumentError(AcquisitionEnding::foreign,
+                                      fmt::format("at the end of the line there is '{}', not '{}'",
+                                                  shortened(printable_line(identity_), 100), options_.identity));
+            identified_ = true;
+        } catch (const InstrumentError& error) {
+            if (attempt >= options_.attempts || error.ending() == AcquisitionEnding::interrupted ||
+                error.ending() == AcquisitionEnding::line_lost)
+                throw;
+            line_->send("SYST:REM"); // without which some do not answer; it sets nothing
+        }
+    }
+}
+
 void GeneratorClient::begin(double frequency, double amplitude, double offset) {
     const GeneratorLimits& limits = options_.limits;
     require_within(frequency, limits.least_frequency, limits.greatest_frequency, "a frequency");
     require_within(amplitude, 0, limits.amplitude, "an amplitude");
     require_within(offset, -limits.offset, limits.offset, "an offset");
-    for (int attempt = 1;; ++attempt) {
-        take_control();
-        try {
-            identity_ = asked("*IDN?");
-            if (!is_plain_line(identity_) || identity_.find(options_.identity) == std::string::npos)
-                throw InstrumentError(AcquisitionEnding::garbled,
-                                      fmt::format("at the end of the line there is '{}', not '{}'",
-                                                  shortened(printable_line(identity_), 100), options_.identity));
-            break;
-        } catch (const InstrumentError& error) {
-            if (attempt >= options_.attempts || error.ending() == AcquisitionEnding::interrupted ||
-                error.ending() == AcquisitionEnding::line_lost)
-                throw;
-        }
-    }
+    identify();
+    take_control();
     // The amplitude comes first: with the offset it may not go beyond what the generator has.
     line_->send(fmt::format("APPL:SIN {}, {}, {}", frequency, amplitude, offset));
     set({"an amplitude", "VOLT", "V"}, amplitude);
@@ -159,6 +166,7 @@ double GeneratorClient::frequency() {
 }
 
 void GeneratorClient::try_safe(double amplitude) {
+    identify();
     take_control();
     set({"an amplitude", "VOLT", "V"}, amplitude);
     set({"an offset", "VOLT:OFFS", "V"}, 0);
@@ -173,8 +181,10 @@ bool GeneratorClient::make_safe(double amplitude, std::string& problem) noexcept
     bool safe = false, lost = false;
     do {
         try {
-            if (lost)
+            if (lost) {
+                identified_ = false; // something else may be plugged in by now
                 line_->reopen();
+            }
             try_safe(amplitude);
             safe = true;
         } catch (const InstrumentError& error) {

@@ -19,6 +19,8 @@ std::string_view name_of(AcquisitionEnding ending) {
         return "no-answer";
     case AcquisitionEnding::garbled:
         return "garbled";
+    case AcquisitionEnding::foreign:
+        return "foreign";
     case AcquisitionEnding::refused:
         return "refused";
     case AcquisitionEnding::clipped:

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -24,8 +25,9 @@ constexpr double part_of_timeout = 0.25; ///< for what is passed over
 
 } // namespace
 
-TextSampleDevice::TextSampleDevice(InstrumentLine& line, double timeout, std::function<bool()> interrupted)
-    : line_(&line), timeout_(timeout), interrupted_(std::move(interrupted)) {
+TextSampleDevice::TextSampleDevice(InstrumentLine& line, double timeout, std::function<bool()> interrupted,
+                                   double patience)
+    : line_(&line), timeout_(timeout), patience_(patience), interrupted_(std::move(interrupted)) {
     line_->send("STOP");
     drain();
     const std::string channels = asked("CHANNELS");
@@ -64,12 +66,23 @@ void TextSampleDevice::set_rate(double rate) {
 }
 
 void TextSampleDevice::begin(std::size_t count, std::size_t block) {
+    constexpr double longest = 1e9; // s, as without a rate
+    const double allowed = rate_ > 0 ? timeout_ + patience_ * static_cast<double>(count) / rate_ : longest;
+    latest_ = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                                     std::chrono::duration<double>(std::min(allowed, longest)));
     line_->send(block > 0 ? fmt::format("READ {} {}", count, block) : fmt::format("READ {}", count));
     block_ = block;
     wanted_ = count;
     given_ = 0;
     last_time_ = -std::numeric_limits<double>::infinity();
     running_ = true;
+}
+
+/// Each row may come in time, and all of them take for ever.
+void TextSampleDevice::require_time() const {
+    if (std::chrono::steady_clock::now() > latest_)
+        fail(fmt::format("has given {} of {} samples, which last {:.6g} s, in {} times that time", given_, wanted_,
+                         static_cast<double>(wanted_) / rate_, patience_));
 }
 
 void TextSampleDevice::parse(const std::string& row, Samples& samples) {
@@ -112,6 +125,7 @@ bool TextSampleDevice::read(Samples& samples) {
                 refuse(row, "the end of its samples");
             parse(row, samples);
             ++given_;
+            require_time();
             continue;
         }
         running_ = false;

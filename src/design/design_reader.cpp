@@ -196,6 +196,7 @@ void DesignReader::read_trip(const TomlEntry& entry) {
         if (item.name == "cycles") {
             trip.cycles = static_cast<double>(reader_.count(item, 1, 1'000'000));
         } else if (item.name == "overshoots") {
+            trip.place = reader_.toml().place(*item.node);
             reader_.each(reader_.toml().elements(item), [&](const TomlEntry& one) {
                 if (trip.overshoots.size() == most_overshoots)
                     reader_.fail(item, fmt::format("there are more than {} overshoots", most_overshoots),
@@ -365,6 +366,7 @@ void DesignReader::read_wanted_item(const TomlEntry& item) {
         wanted.outcome = outcomes[reader_.choice(item, {"trips", "persists", "folds"})];
     } else if (item.name == "reset") {
         std::tie(wanted.least_reset, wanted.greatest_reset) = reader_.range(design_.model, item);
+        wanted.reset_place = reader_.toml().place(*item.node);
     } else if (item.name == "clear") {
         wanted.clear = reader_.positive(design_.model, item);
     } else if (item.name == "trip_time") {

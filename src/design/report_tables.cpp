@@ -124,14 +124,19 @@ void add_wishes(FactRows& facts, const MetWishes& wishes) {
     }
 }
 
+/// Without a bound the cell is empty.
+double bound_of(double value) {
+    return std::isfinite(value) ? value : nothing;
+}
+
 Table wishes_table(const MetWishes& wishes) {
     Table table(
         {{"what", ""}, {"least", ""}, {"greatest", ""}, {"value", ""}, {"met", ""}, {"binds", ""}, {"weight", ""}});
     for (std::size_t i = 0; i < wishes.found.wants.size(); ++i) {
         const FoundWant& one = wishes.found.wants[i];
         table.add(wishes.list.wants[i].name);
-        table.add_extended(wishes.list.wants[i].least);
-        table.add_extended(wishes.list.wants[i].most);
+        table.add(bound_of(wishes.list.wants[i].least));
+        table.add(bound_of(wishes.list.wants[i].most));
         table.add(one.value.value_or(nothing));
         table.add(one.met ? "yes" : "no");
         table.add(one.binds ? "yes" : "no");
@@ -140,8 +145,8 @@ Table wishes_table(const MetWishes& wishes) {
     for (std::size_t i = 0; i < wishes.found.dimensions.size(); ++i) {
         const FoundDimension& one = wishes.found.dimensions[i];
         table.add(wishes.list.dimensions[i].name);
-        table.add_extended(wishes.list.dimensions[i].lowest);
-        table.add_extended(wishes.list.dimensions[i].highest);
+        table.add(bound_of(wishes.list.dimensions[i].lowest));
+        table.add(bound_of(wishes.list.dimensions[i].highest));
         table.add(one.value);
         table.add("");
         table.add(one.binds ? "yes" : "no");

@@ -48,8 +48,15 @@ const TripTime* TripTimeRow::best() const {
 std::vector<double> overshoots_of(const TripRequest& request, double value, int side) {
     const double sign = side < 0 ? -1 : 1;
     std::vector<double> result;
-    for (const double one : request.overshoots)
+    constexpr double most = 1e3; // of the trip value: beyond, it is a slip of the pen
+    for (const double one : request.overshoots) {
+        if (value != 0 && !(one <= most * std::abs(value)))
+            throw InputError(request.place,
+                             fmt::format("the overshoot {} is {:.3g} times the trip value, {:.6g}", one,
+                                         one / std::abs(value), value),
+                             "give how far beyond the trip value the control parameter goes, in its unit");
         result.push_back(sign * one);
+    }
     return result.empty() ? usual_overshoots(value, side) : result;
 }
 

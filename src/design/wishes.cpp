@@ -216,7 +216,7 @@ private:
         way.interrupted = options_.interrupted;
         const Reset reset = reset_of(trip_, trip_.point.solution.orbit, way);
         if (!reset.point)
-            throw InputError(design_.approach.place,
+            throw InputError(wanted().reset_place,
                              fmt::format("a reset value is wanted, and there is none to follow: {}",
                                          !reset.reason.empty() ? reset.reason
                                          : reset.lost_at ? "it is known by simulation alone, and cannot be designed for"

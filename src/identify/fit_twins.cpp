@@ -38,6 +38,9 @@ public:
         for (const FitPiece& piece : layout.pieces)
             if (piece.opening)
                 here_.modes[piece.record] = piece.mode;
+        for (const MeasuredOutput& output : rows.task().outputs)
+            outputs_.push_back(rows.system().with_gradient(output.value));
+        signs_ = first_signs(here_, point.shared);
         find_changes();
         find_symmetries();
     }
@@ -150,6 +153,43 @@ private:
         return true;
     }
 
+    /// What all outputs and their rates are at the first time of each record: twins have the same, and most others need
+    /// not be followed, through whatever strange motions they make.
+    std::vector<double> first_signs(const Beginning& at, const Eigen::VectorXd& shared) const {
+        const System& system = rows_->system();
+        const std::size_t states = rows_->layout.states;
+        std::vector<double> signs, gradient(1 + states + system.parameters()), rates(states), work(system.workspace());
+        for (const Function& output : outputs_)
+            work.resize(std::max(work.size(), output.workspace()));
+        for (std::size_t r = 0; r < at.starts.size(); ++r) {
+            std::vector<double> inputs = at.starts[r];
+            const std::vector<double> values = rows_->parameters(r, shared);
+            inputs.insert(inputs.end(), values.begin(), values.end());
+            system.mode(at.modes[r]).rates.evaluate(inputs, rates, work);
+            for (const FitRecord::Readings& readings : rows_->task().records[r].readings) {
+                const std::size_t o = readings.output;
+                outputs_[o].evaluate(inputs, gradient, work);
+                const double gain = rows_->gain(o, shared);
+                double rate = 0, size = 0;
+                for (std::size_t i = 0; i < states; ++i) {
+                    rate += gain * gradient[1 + i] * rates[i];
+                    size += std::abs(gain * gradient[1 + i] * rates[i]);
+                }
+                signs.push_back((gain * gradient[0] + rows_->offset(o, shared)) / rows_->range(o));
+                signs.push_back(size > 0 ? rate / size : 0);
+            }
+        }
+        return signs;
+    }
+    bool begins_alike(const Beginning& there, const Eigen::VectorXd& shared) const {
+        constexpr double alike = 1e-6;
+        const std::vector<double> signs = first_signs(there, shared);
+        for (std::size_t i = 0; i < signs.size(); ++i)
+            if (!(std::abs(signs[i] - signs_[i]) <= alike))
+                return false;
+        return true;
+    }
+
     /// Whether the motions from there meet the readings as well, piece by piece, which then is the twin's point.
     bool meets(const Beginning& there, FoundTwin& twin) const {
         constexpr double as_well = 1.001, round_off = 1e-6; // of ranges
@@ -159,6 +199,8 @@ private:
         Eigen::VectorXd shared = point_->shared, states;
         for (Eigen::Index j = 0; j < shared.size(); ++j)
             shared[j] = there.shared[static_cast<std::size_t>(j)] / layout.shared_scale[j];
+        if (!begins_alike(there, shared))
+            return false;
         std::size_t mode = 0;
         for (std::size_t k = 0; k < layout.pieces.size(); ++k) {
             FitPiece piece = layout.pieces[k];
@@ -223,6 +265,8 @@ private:
     const std::vector<PieceRows>* known_;
     const Fit* fit_;
     Beginning here_;
+    std::vector<Function> outputs_; ///< with gradients
+    std::vector<double> signs_;
     std::vector<Change> changes_, symmetries_;
     std::vector<std::size_t> gains_; ///< among what is shared
 };

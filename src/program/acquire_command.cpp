@@ -131,13 +131,13 @@ AcquisitionReport carried_out(const Experiment& experiment, RecordFolder& folder
     AcquisitionOptions options;
     options.interrupted = [] { return InterruptGuard::requested(); };
     options.progress = [&](const AcquisitionProgress& progress) { watcher.progress(progress); };
+    options.begun = [&] { guardian.arm(); };
     options.recorded = [&](const RecordEntry& entry) { watcher.record(entry); };
     AcquisitionReport report;
     try {
         const auto generator = open_serial_line(experiment.serial);
         const auto samples = open_device(experiment);
-        TextSampleDevice device(*samples, experiment.sample_timeout, options.interrupted);
-        guardian.arm();
+        TextSampleDevice device(*samples, experiment.sample_timeout, options.interrupted, experiment.sample_patience);
         report = acquire(experiment, *generator, device, folder, options);
     } catch (const InstrumentError& error) { // nothing has been sent to the generator yet
         report.ending = error.ending();
@@ -151,6 +151,34 @@ AcquisitionReport carried_out(const Experiment& experiment, RecordFolder& folder
     return report;
 }
 
+/// What helps: to call the command again does not always.
+const char* remedy_of(AcquisitionEnding ending) {
+    switch (ending) {
+    case AcquisitionEnding::complete:
+    case AcquisitionEnding::interrupted:
+        break;
+    case AcquisitionEnding::line_lost:
+        return "look at its cable and whether it is switched on, then call it again to go on";
+    case AcquisitionEnding::no_answer:
+        return "see whether it is switched on, and at this port with these settings of the line, then call it again to "
+               "go "
+               "on";
+    case AcquisitionEnding::garbled:
+        return "give the settings of the line that the instrument has (baud, parity, stop_bits, flow), or a better "
+               "cable, then call it again to go on";
+    case AcquisitionEnding::foreign:
+        return "nothing was set; give the generator's port, or what it answers as identity";
+    case AcquisitionEnding::refused:
+        return "give levels that it can take, in an experiment and a folder of their own";
+    case AcquisitionEnding::clipped:
+        return "see what limits it, its load or somebody at its knobs, then call it again to go on; or give a larger "
+               "tolerance under [generator]";
+    case AcquisitionEnding::samples:
+        return "see what it is doing, and whether rate, timeout and patience suit it, then call it again to go on";
+    }
+    return "call it again to go on";
+}
+
 int tell(const AcquisitionReport& report, const Experiment& experiment, const std::string& folder,
          const Console& console) {
     console.out << fmt::format("{}: {} of {} records\n", folder, report.before + report.recorded,
@@ -160,11 +188,11 @@ int tell(const AcquisitionReport& report, const Experiment& experiment, const st
             "graze: warning: at {} levels sections did not repeat within {} s; see manifest.txt\n", report.unsettled,
             experiment.settling.most);
     if (report.ending != AcquisitionEnding::complete)
-        console.err << fmt::format("graze: {}{}; call it again to go on\n",
+        console.err << fmt::format("graze: {}{}; {}\n",
                                    report.ending == AcquisitionEnding::interrupted
                                        ? std::string()
                                        : fmt::format("{}: ", name_of(report.ending)),
-                                   report.detail);
+                                   report.detail, remedy_of(report.ending));
     if (!report.safe) {
         console.err << fmt::format("graze: the generator could not be brought to its safe amplitude, {} V ({}): "
                                    "switch it off by hand\n",

@@ -110,6 +110,7 @@ private:
         const Hdf5Handle space = handle(H5Screate_simple(1, &none, &unlimited), H5Sclose);
         const Hdf5Handle how = handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
         H5Pset_chunk(how.id(), 1, &chunk);
+        H5Pset_obj_track_times(how.id(), false); // the same record is the same file, whenever it is written
         H5Pset_shuffle(how.id());
         H5Pset_deflate(how.id(), quick);
         Hdf5Handle set = handle(H5Dcreate2(file_.id(), channel.name.c_str(), H5T_NATIVE_DOUBLE, space.id(), H5P_DEFAULT,

@@ -4,8 +4,10 @@
 #include "graze/acquire/bench_lines.hpp"
 #include "graze/record/record_file.hpp"
 
+#include <chrono>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <thread>
 
 namespace graze {
 namespace {
@@ -83,6 +85,41 @@ TEST(Acquisition, GoesOnWithTheSameRecords) {
     const AcquisitionReport again = run_on(bench, experiment_text(), folder / "parts");
     EXPECT_EQ(again.recorded, 0U);
     EXPECT_EQ(again.before, 6U);
+}
+
+/// Of HDF5 files, too: nothing in them tells when they were written.
+TEST(Acquisition, GoesOnWithTheSameRecordsInHdf5) {
+    const TemporaryFolder folder;
+    const std::string text = experiment_text("format = \"h5\"\n");
+    VirtualBench whole(testbed_bench());
+    EXPECT_EQ(run_on(whole, text, folder / "whole").ending, AcquisitionEnding::complete);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // HDF5 knows times to the second
+    VirtualBench bench(testbed_bench());
+    for (int runs = 0; runs < 3; ++runs) {
+        std::size_t recorded = 0;
+        AcquisitionOptions options;
+        options.recorded = [&](const RecordEntry&) { ++recorded; };
+        options.interrupted = [&] { return recorded == 2 && runs < 2; };
+        run_on(bench, text, folder / "parts", options);
+    }
+    EXPECT_EQ(files_of(folder / "parts").size(), 8U);
+    EXPECT_EQ(different_files(folder / "whole", folder / "parts"), std::vector<std::string>());
+}
+
+TEST(Acquisition, SetsNothingOfAForeignInstrument) {
+    const TemporaryFolder folder;
+    VirtualBench bench(testbed_bench());
+    const GeneratorOutput before = bench.generator().output();
+    std::string text = experiment_text();
+    text.replace(text.find("33120A"), 6, "DS345");
+    bool begun = false;
+    AcquisitionOptions options;
+    options.begun = [&] { begun = true; };
+    const AcquisitionReport report = run_on(bench, text, folder / "records", options);
+    EXPECT_EQ(report.ending, AcquisitionEnding::foreign);
+    EXPECT_TRUE(report.safe);
+    EXPECT_FALSE(begun);
+    EXPECT_EQ(bench.generator().output(), before);
 }
 
 TEST(Acquisition, WalksThroughAllAgainWhereTheBenchIsANewOne) {

@@ -81,7 +81,19 @@ TEST(Experiment, SaysWhereAndWhatIsWrong) {
     EXPECT_THAT(message("timeout = 0.2", "parity = \"maybe\""), HasSubstr("give one of none, odd, even"));
     EXPECT_THAT(message("rate = 500", "rate = 500\nchannels = [\"V\", \"V\"]"), HasSubstr("'V' is there twice"));
     EXPECT_THAT(message("step = 0.1", "step = 1e-9"), HasSubstr("give one that makes from 1 to 9999"));
-    EXPECT_THAT(message("[sweep]", "[sweep"), HasSubstr("this is not TOML"));
+    EXPECT_THAT(message("[sweep]", "[sweep"), HasSubstr("docs/experiment.md shows how an experiment is written"));
+    EXPECT_THAT(message("\"33120A\"", "\" \""), HasSubstr("generator.identity is empty; give some text"));
+    EXPECT_THAT(message("timeout = 0.2", "attempts = 1.5"),
+                HasSubstr("generator.attempts is 1.5; give a whole number from 1 to 100"));
+    EXPECT_THAT(message("timeout = 0.2", "attempts = \"a\""), HasSubstr("must be a whole number, not a string"));
+    EXPECT_THAT(message("rate = 500", "rate = 500\nchannels = [\"V,I\"]"), HasSubstr("'V,I' is no name of a channel"));
+    EXPECT_THAT(message("rate = 500", "rate = 500\npatience = 0.5"), HasSubstr("samples.patience is 0.5"));
+    const std::string falling = message("frequency = [1, 20]", "frequency = [20, 1]");
+    EXPECT_THAT(falling, HasSubstr("limits.frequency goes from 20 to 1; give the smaller one first"));
+    EXPECT_EQ(std::count(falling.begin(), falling.end(), ';'), 1) << falling;
+    for (const char* address : {"tcp:host:4711:5", "tcp::1", "tcp:host:0", "tcp:host:70000", "serial:", "tcp:[::1:1"})
+        EXPECT_THAT(message("tcp:127.0.0.1:1", address), HasSubstr("is no device of samples")) << address;
+    EXPECT_EQ(device_address("tcp:[::1]:4711", {}).name, "::1");
 }
 
 TEST(Experiment, TellsAllMistakesAtOnce) {

@@ -127,9 +127,37 @@ TEST(GeneratorClient, LooksWhoIsThereBeforeItSetsAnything) {
     other.identity = "AGILENT";
     GeneratorClient client(bent.line, other);
     std::string what;
-    EXPECT_EQ(ending_of([&] { client.begin(6, 1, 0); }, what), AcquisitionEnding::garbled);
+    EXPECT_EQ(ending_of([&] { client.begin(6, 1, 0); }, what), AcquisitionEnding::foreign);
     EXPECT_THAT(what, HasSubstr("there is 'HEWLETT-PACKARD,33120A"));
     EXPECT_EQ(bent.generator.output(), GeneratorOutput());
+    EXPECT_FALSE(client.make_safe(0.1, what)); // which another process is asked for, too, that has not looked yet
+    EXPECT_THAT(what, HasSubstr("there is 'HEWLETT-PACKARD,33120A"));
+    for (const std::string& said : bent.line.said)
+        EXPECT_TRUE(said == "*IDN?" || said == "SYST:REM") << said;
+    EXPECT_EQ(bent.line.said.front(), "*IDN?");
+}
+
+TEST(GeneratorClient, LooksAgainWhoIsThereAfterALineWasOpenedAgain) {
+    Bent bent;
+    GeneratorOptions hasty = options();
+    hasty.identity = "33120A";
+    GeneratorClient client(bent.line, hasty);
+    client.begin(6, 1, 0);
+    bent.bend = [](const std::string& said, std::string answer) { return said == "*IDN?" ? "SUPPLY" : answer; };
+    bent.line.said.clear();
+    bent.line.lost = true;
+    std::string problem;
+    EXPECT_FALSE(client.make_safe(0.1, problem));
+    for (const std::string& said : bent.line.said)
+        EXPECT_TRUE(said == "*IDN?" || said == "SYST:REM") << said;
+}
+
+TEST(GeneratorClient, WantsAnAnswerWhoeverItIs) {
+    Bent bent;
+    bent.bend = [](const std::string& said, std::string answer) { return said == "*IDN?" ? " \n" : answer; };
+    GeneratorClient client(bent.line, options());
+    std::string what;
+    EXPECT_EQ(ending_of([&] { client.begin(6, 1, 0); }, what), AcquisitionEnding::foreign);
 }
 
 TEST(GeneratorClient, IsInterruptedButForWhatMakesItSafe) {

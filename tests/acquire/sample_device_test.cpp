@@ -2,8 +2,10 @@
 
 #include "acquire/scripted_line.hpp"
 
+#include <chrono>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <thread>
 
 namespace graze {
 namespace {
@@ -74,6 +76,25 @@ TEST(SampleDevice, RefusesWhatIsNoneOfIt) {
         } catch (const InstrumentError& error) {
             EXPECT_THAT(error.what(), HasSubstr(one[2]));
         }
+    }
+}
+
+/// Each row is there in time, and they take for ever.
+TEST(SampleDevice, HasNoPatienceWithoutEnd) {
+    ScriptedLine line([&](const std::string& said) {
+        if (said == "READ 3")
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        return said == "READ 3" ? "0,1\n0.1,2\n0.2,3\nEND 3" : said == "CHANNELS" ? "t [s], x [V]" : "OK 10";
+    });
+    TextSampleDevice device(line, 0.02, {}, 1e-12); // 20 ms for all of them
+    device.set_rate(10);
+    device.begin(3);
+    try {
+        Samples part;
+        device.read(part);
+        FAIL() << "it was waited for";
+    } catch (const InstrumentError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("has given 1 of 3 samples, which last 0.3 s, in 1e-12 times that time"));
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "acquire/bench_experiment.hpp"
 #include "graze/acquire/acquisition.hpp"
+#include "graze/acquire/bench_lines.hpp"
 #include "graze/bench/bench_service.hpp"
 #include "graze/record/record_file.hpp"
 
@@ -12,7 +13,9 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mutex>
 #include <numbers>
+#include <poll.h>
 #include <termios.h>
 #include <thread>
 #include <unistd.h>
@@ -55,10 +58,73 @@ public:
             close(master_);
         master_ = -1;
     }
+    int descriptor() const { return master_; }
     SerialSettings settings;
 
 private:
     int master_;
+};
+
+/// The generator of a bench that another thread takes samples of.
+class SharedGenerator : public BenchGeneratorLine {
+public:
+    SharedGenerator(VirtualBench& bench, std::mutex& one) : BenchGeneratorLine(bench), one_(&one) {}
+    void send(std::string_view line) override {
+        const std::lock_guard lock(*one_);
+        BenchGeneratorLine::send(line);
+    }
+
+private:
+    std::mutex* one_;
+};
+
+/// A device of samples at the end of a serial line: that of a bench, in a thread of its own.
+class SerialDevice {
+public:
+    SerialDevice(VirtualBench& bench, std::mutex& one) : one_(&one), protocol_(bench) {
+        settings = end_.settings;
+        settings.baud = 115200;
+        settings.stop_bits = StopBits::one;
+        settings.flow = FlowControl::none;
+        fcntl(end_.descriptor(), F_SETFL, O_NONBLOCK);
+        thread_ = std::thread([this] {
+            while (!stop_)
+                serve();
+        });
+    }
+    ~SerialDevice() {
+        stop_ = true;
+        thread_.join();
+    }
+    SerialDevice(const SerialDevice&) = delete;
+    SerialDevice& operator=(const SerialDevice&) = delete;
+    SerialSettings settings;
+
+private:
+    void serve() {
+        pollfd ready{end_.descriptor(), POLLIN, 0};
+        if (poll(&ready, 1, text_.empty() ? 5 : 0) > 0) {
+            char buffer[256];
+            const ssize_t count = read(end_.descriptor(), buffer, sizeof buffer);
+            heard_.append(buffer, static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+        }
+        const std::lock_guard lock(*one_);
+        for (std::size_t cut = heard_.find('\n'); cut != std::string::npos; cut = heard_.find('\n')) {
+            protocol_.receive(heard_.substr(0, cut));
+            heard_.erase(0, cut + 1);
+        }
+        if (text_.empty())
+            text_ = protocol_.next(SampleProtocol::rows_at_once);
+        const ssize_t sent = write(end_.descriptor(), text_.data(), text_.size()); // as much as there is room for
+        text_.erase(0, static_cast<std::size_t>(std::max<ssize_t>(sent, 0)));
+    }
+
+    FarEnd end_;
+    std::mutex* one_;
+    SampleProtocol protocol_;
+    std::string heard_, text_;
+    std::atomic<bool> stop_{false};
+    std::thread thread_;
 };
 
 /// A bench that serves in a thread of its own.
@@ -200,6 +266,28 @@ TEST(Acquisition, OverAPseudoTerminalIsTheSameAsInTheProcess) {
     EXPECT_EQ(report.before, 2U);
     EXPECT_EQ(different_files(folder / "one", folder / "other"), std::vector<std::string>());
     EXPECT_EQ(one.output(), (GeneratorOutput{6.1, 0.1, 0}));
+}
+
+/// Samples come over a serial line, too, some sixty thousand letters a record; and the records are the same.
+TEST(Acquisition, TakesSamplesOverASerialLine) {
+    const TemporaryFolder folder;
+    const Experiment experiment = parse_experiment(experiment_text(), "sweep.toml");
+    std::mutex one_at_a_time;
+    const auto recorded = [&](VirtualBench& bench, InstrumentLine& samples, const std::string& name) {
+        SharedGenerator generator(bench, one_at_a_time);
+        TextSampleDevice device(samples, 5, {});
+        RecordFolder records(folder / name, experiment, 0);
+        const AcquisitionReport report = acquire(experiment, generator, device, records, {});
+        EXPECT_EQ(report.ending, AcquisitionEnding::complete) << report.detail;
+        EXPECT_EQ(report.recorded, 6U);
+    };
+    VirtualBench one(testbed_bench()), other(testbed_bench());
+    BenchSampleLine direct(one);
+    recorded(one, direct, "direct");
+    SerialDevice serial(other, one_at_a_time);
+    const auto line = open_serial_line(serial.settings);
+    recorded(other, *line, "serial");
+    EXPECT_EQ(different_files(folder / "direct", folder / "serial"), std::vector<std::string>());
 }
 
 TEST(Acquisition, GoesWithTheClockToo) {

@@ -58,4 +58,18 @@ TEST(TripTimes, HaveDecadesOfTheTripValueOfAnySize) {
     EXPECT_EQ(overshoots_of({}, 4e6, 1).size(), 10U);
 }
 
+TEST(TripTimes, RefuseOvershootsFarBeyondTheTripValue) {
+    TripRequest request;
+    request.overshoots = {2e-6, 2e-300};
+    EXPECT_EQ(overshoots_of(request, -4e-9, -1), (std::vector<double>{-2e-6, -2e-300}));
+    request.overshoots.push_back(5e-6);
+    request.place = {"d.toml", 7, 14};
+    try {
+        overshoots_of(request, -4e-9, -1);
+        FAIL() << "it was accepted";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), ::testing::StartsWith("d.toml:7:14: the overshoot 5e-06 is 1.25e+03 times the trip"));
+    }
+}
+
 } // namespace graze::testing

@@ -74,6 +74,9 @@ TEST_F(DesignCommand, MeetsWishesOrSaysThatItCannot) {
     ASSERT_EQ(printed.code, 0) << printed.err;
     EXPECT_THAT(printed.out, HasSubstr("wishes,met"));
     EXPECT_TRUE(std::filesystem::exists(results + "/designed.sqlite"));
+    printed = run_graze({"design", design(small_design("[wanted]\nclear = 0.001\n")), "--output", results,
+                         "--no-pictures", "--format", "csv"});
+    EXPECT_EQ(contents(results + "/report.json").find("inf\""), std::string::npos) << "without a bound it is null";
     printed = run_graze({"design", design(small_design("[wanted]\nvalue = 0.9\n")), "--output", results,
                          "--no-pictures", "--format", "csv"});
     EXPECT_EQ(printed.code, 3);

@@ -23,6 +23,8 @@ struct AcquisitionProgress {
 struct AcquisitionOptions {
     std::function<bool()> interrupted{};
     std::function<void(const AcquisitionProgress&)> progress{};
+    /// Called before the first setting is sent: from then on the generator may be in any state.
+    std::function<void()> begun{};
     /// Told of each record as soon as it counts.
     std::function<void(const RecordEntry&)> recorded{};
 };

@@ -46,6 +46,7 @@ struct Experiment {
     std::string device;            ///< "tcp:HOST:PORT" or "serial:PATH"
     unsigned sample_baud = 115200; ///< of a serial line; it has one stop bit, no parity and no flow control
     double sample_timeout = 5;
+    double sample_patience = 10;         ///< how many times as long as samples last they may take to come
     double rate = 0;                     ///< samples in a second
     std::size_t samples = 0;             ///< of a record
     std::vector<std::string> channels{}; ///< that are kept; none: all

@@ -32,6 +32,8 @@ public:
     /// @param line must outlive this
     GeneratorClient(InstrumentLine& line, GeneratorOptions options) : line_(&line), options_(std::move(options)) {}
 
+    /// Asks what it is. Nothing is set before, neither here nor in order to become safe. @throws InstrumentError
+    void identify();
     /// Takes it under remote control and has it give a sine. @throws InstrumentError, here and below, when it does not
     ///         answer, refuses, or gives something else; InputError for what is beyond the limits, of which nothing is
     ///         sent
@@ -61,6 +63,7 @@ private:
     InstrumentLine* line_;
     GeneratorOptions options_;
     std::string identity_;
+    bool identified_ = false;
     bool making_safe_ = false;
 };
 

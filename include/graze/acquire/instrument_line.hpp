@@ -16,6 +16,7 @@ enum class AcquisitionEnding {
     line_lost,   ///< a connection is closed
     no_answer,   ///< an instrument does not answer in time
     garbled,     ///< it answers what cannot be understood
+    foreign,     ///< at the end of the generator's line is another instrument
     refused,     ///< the generator refuses a setting
     clipped,     ///< the generator gives something else than it was told
     samples,     ///< the device of samples does not do what it should

@@ -3,6 +3,7 @@
 #include "graze/acquire/instrument_line.hpp"
 #include "graze/record/samples.hpp"
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -43,8 +44,9 @@ public:
     /// Ends what somebody else may have begun, and asks for the channels.
     /// @param line must outlive this; @param timeout s, for each answer, and for each row besides its time
     /// @param interrupted asked while anything is waited for
+    /// @param patience how many times as long as samples last they may take to come; and `timeout`
     /// @throws InstrumentError when it does not answer as the protocol has it
-    TextSampleDevice(InstrumentLine& line, double timeout, std::function<bool()> interrupted);
+    TextSampleDevice(InstrumentLine& line, double timeout, std::function<bool()> interrupted, double patience = 10);
 
     const RecordHeader& header() const override { return header_; }
     void set_rate(double rate) override;
@@ -60,15 +62,17 @@ private:
     void parse(const std::string& row, Samples& samples);
     [[noreturn]] void refuse(const std::string& line, const char* wanted) const;
     void drain();
+    void require_time() const;
 
     InstrumentLine* line_;
-    double timeout_;
+    double timeout_, patience_;
     std::function<bool()> interrupted_;
     RecordHeader header_;
     double rate_ = 0;
     std::size_t wanted_ = 0, given_ = 0, block_ = 0;
     double last_time_ = -std::numeric_limits<double>::infinity();
     bool running_ = false;
+    std::chrono::steady_clock::time_point latest_; ///< when all of what was begun has to be there
 };
 
 } // namespace graze

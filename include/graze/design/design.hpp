@@ -58,6 +58,7 @@ struct TripRequest {
     TripEnd end;
     std::vector<double> overshoots; ///< of the control parameter; empty: decades from 1e-2 to 1e-20 of its size
     double cycles = 2000;           ///< that are simulated at most
+    Place place{};                  ///< of the overshoots, if there are any
 };
 
 /// What the finished device is to have. What is not said is not asked for.
@@ -67,6 +68,7 @@ struct Wanted {
     std::optional<GrazingOutcome> outcome; ///< class
     std::optional<double> overshoot, longest_time;
     std::optional<double> least_reset, greatest_reset;
+    Place reset_place{};
     std::optional<double> clear; ///< least distance of the trip value from every other point before it
     /// Greatest percents of the trip value for one percent of each parameter.
     std::vector<std::pair<ParameterId, double>> sensitivities;
