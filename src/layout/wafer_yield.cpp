@@ -62,7 +62,6 @@ public:
         yield.jobs = settings_->jobs;
         yield.interrupted = settings_->interrupted;
         yield.progress = settings_->progress;
-        yield.solver.map = true;
         yield.solved = [this](std::size_t i, const LocatedSolution& solution) {
             classify(result_.devices[i], solution);
         };
