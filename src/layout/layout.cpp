@@ -4,7 +4,8 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
+#include <set>
+#include <string>
 
 namespace graze {
 
@@ -19,6 +20,7 @@ void append_mask(LayoutLibrary& to, const Layout& layout, int mask) {
         throw InputError(fmt::format("there is no mask {}", mask), "choose mask 1 or 2");
     const std::string ending = fmt::format("_M{}", mask);
     std::string top;
+    std::set<std::string, std::less<>> kept;
     for (const LayoutCell& cell : layout.library.cells) {
         LayoutCell one;
         one.name = cell.name + ending;
@@ -27,13 +29,15 @@ void append_mask(LayoutLibrary& to, const Layout& layout, int mask) {
                 one.shapes.push_back(shape);
         for (CellReference reference : cell.references) {
             reference.cell += ending;
-            if (to.has(reference.cell))
+            if (kept.contains(reference.cell))
                 one.references.push_back(std::move(reference));
         }
         if (cell.name == layout.top)
             top = one.name;
-        if (!one.shapes.empty() || !one.references.empty())
+        if (!one.shapes.empty() || !one.references.empty()) {
+            kept.insert(one.name);
             to.cells.push_back(std::move(one));
+        }
     }
     LayoutCell plate;
     plate.name = fmt::format("MASK_{}", mask);

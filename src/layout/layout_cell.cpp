@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <unordered_map>
 #include <utility>
 
 namespace graze {
@@ -60,7 +61,16 @@ Transform within(const Transform& outer, const CellReference& reference) {
     return result;
 }
 
-void flatten(const LayoutLibrary& library, const LayoutCell& cell, const Transform& placed,
+using CellIndex = std::unordered_map<std::string_view, const LayoutCell*>;
+
+CellIndex index_of(const LayoutLibrary& library) {
+    CellIndex index;
+    for (const LayoutCell& cell : library.cells)
+        index.emplace(cell.name, &cell);
+    return index;
+}
+
+void flatten(const CellIndex& index, const LayoutCell& cell, const Transform& placed,
              std::vector<PlacedShape>& shapes) {
     for (const CellShape& shape : cell.shapes) {
         PlacedShape& one = shapes.emplace_back(PlacedShape{shape.layer, {}});
@@ -70,7 +80,17 @@ void flatten(const LayoutLibrary& library, const LayoutCell& cell, const Transfo
         }
     }
     for (const CellReference& reference : cell.references)
-        flatten(library, *library.find(reference.cell), within(placed, reference), shapes);
+        flatten(index, *index.at(reference.cell), within(placed, reference), shapes);
+}
+
+std::map<MaskLayer, double> areas_within(const CellIndex& index, const LayoutCell& top) {
+    std::map<MaskLayer, double> areas;
+    for (const CellShape& shape : top.shapes)
+        areas[shape.layer] += area_of(shape.polygon);
+    for (const CellReference& reference : top.references)
+        for (const auto& [layer, area] : areas_within(index, *index.at(reference.cell)))
+            areas[layer] += area;
+    return areas;
 }
 
 const LayoutCell& cell_named(const LayoutLibrary& library, std::string_view name) {
@@ -104,19 +124,12 @@ const LayoutCell* LayoutLibrary::find(std::string_view cell) const {
 
 std::vector<PlacedShape> flattened(const LayoutLibrary& library, std::string_view cell) {
     std::vector<PlacedShape> shapes;
-    flatten(library, cell_named(library, cell), {}, shapes);
+    flatten(index_of(library), cell_named(library, cell), {}, shapes);
     return shapes;
 }
 
 std::map<MaskLayer, double> areas_of(const LayoutLibrary& library, std::string_view cell) {
-    const LayoutCell& top = cell_named(library, cell);
-    std::map<MaskLayer, double> areas;
-    for (const CellShape& shape : top.shapes)
-        areas[shape.layer] += area_of(shape.polygon);
-    for (const CellReference& reference : top.references)
-        for (const auto& [layer, area] : areas_of(library, reference.cell))
-            areas[layer] += area;
-    return areas;
+    return areas_within(index_of(library), cell_named(library, cell));
 }
 
 std::string cell_name(std::string_view text) {

@@ -16,6 +16,7 @@ public:
     TurnedBox(const GridBox& box, GridPoint at, double angle);
 
     const std::array<BoxCorner, 4>& corners() const { return corners_; }
+    double reach() const { return reach_; } ///< of a corner from the middle
     /// Whether both have more than edges in common: no side of either separates them.
     bool meets(const TurnedBox& other) const;
 

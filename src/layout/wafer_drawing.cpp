@@ -121,7 +121,15 @@ private:
                 require(std::hypot(corner.x, corner.y) <= usable && corner.y >= lowest, "radius",
                         fmt::format("{} reaches into the exclusion at the wafer's edge", number(i)),
                         "give a smaller radius, die or exclusion, or a larger wafer");
-        for (std::size_t distance = 1; distance <= dies_.size() / 2; ++distance) // neighbours first
+        double widest = 0;
+        for (const TurnedBox& die : dies_)
+            widest = std::max(widest, die.reach());
+        for (std::size_t distance = 1; distance <= dies_.size() / 2; ++distance) { // neighbours first
+            // Farther than this from the other one's radius, along which its channel goes, there is nothing to meet.
+            const double angle =
+                2 * std::numbers::pi * static_cast<double>(distance) / static_cast<double>(dies_.size());
+            if (grid_per_micrometre * plan_.radius * std::sin(std::min(angle, std::numbers::pi / 2)) > 2 * widest)
+                break;
             for (std::size_t i = 0; i < dies_.size(); ++i) {
                 const std::size_t j = (i + distance) % dies_.size();
                 require(i == j ||
@@ -129,6 +137,7 @@ private:
                         "devices", fmt::format("{} and {} overlap", number(i), number(j)),
                         "give fewer devices, smaller dies, or a larger radius");
             }
+        }
         require(plan_.mark_size == 0 || nanometres(plan_.mark_size) >= least_mark, "mark_size",
                 fmt::format("a mark of {} um is too small to be drawn", plan_.mark_size),
                 "give a greater mark_size, or 0 for none");

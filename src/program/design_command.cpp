@@ -1,14 +1,15 @@
 #include "graze/design/design_report.hpp"
 #include "graze/model/model_file.hpp"
-#include "graze/study/runner.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/design_page.hpp"
 #include "program/figure.hpp"
 #include "program/interrupt.hpp"
+#include "program/json_rows.hpp"
 #include "program/output_file.hpp"
 #include "program/process.hpp"
 #include "program/status_line.hpp"
+#include "program/trip_location.hpp"
 
 #include <fmt/format.h>
 
@@ -24,19 +25,6 @@ namespace graze {
 
 namespace {
 
-std::vector<JsonObject> rows_of(const Table& table) {
-    std::vector<JsonObject> rows;
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-        JsonObject& object = rows.emplace_back();
-        for (std::size_t column = 0; column < table.columns().size(); ++column)
-            if (table.is_text(row, column))
-                object.add(table.columns()[column].name, table.text(row, column));
-            else if (!table.is_missing(row, column))
-                object.add(table.columns()[column].name, table.number(row, column));
-    }
-    return rows;
-}
-
 /// Everything but the long tables, which have files of their own.
 std::string json_of(const Design& design, const std::vector<NamedTable>& tables) {
     JsonObject report;
@@ -46,7 +34,7 @@ std::string json_of(const Design& design, const std::vector<NamedTable>& tables)
     report.add("control", design.control);
     for (const NamedTable& table : tables)
         if (!table.name.starts_with("plane-") && table.name != "devices")
-            report.add(table.name, rows_of(table.table));
+            report.add(table.name, json_rows(table.table));
     return "{" + report.members() + "}\n";
 }
 
@@ -60,19 +48,6 @@ int list_designs(const DesignArguments& arguments, const Console& console) {
     }
     deliver(table, arguments.output, {}, console);
     return exit_success;
-}
-
-/// Follows the way to the trip point, or finds it in the file. @return whether it is whole
-bool follow(const Study& study, ResultFile& file, const DesignReportOptions& options) {
-    RunnerOptions running;
-    running.jobs = options.jobs;
-    running.interrupted = options.interrupted;
-    running.orbit = [&](const std::string& run, const OrbitRecord& record) {
-        options.progress(fmt::format("run '{}': orbit {}", run, record.number));
-    };
-    const std::vector<RunReport> reports = run_study(study, file, running);
-    return std::none_of(reports.begin(), reports.end(),
-                        [](const RunReport& report) { return report.outcome == RunOutcome::interrupted; });
 }
 
 constexpr const char* designed_results = "designed.sqlite"; ///< of the way of the finished device
@@ -178,27 +153,6 @@ void write_all(Workplace& place, const Design& design, const TripPoint& trip, co
     place.remove_others();
 }
 
-/// What is wrong with the device that a design file asks for, and has no place of its own, is said of that file.
-template <class Work>
-auto said_of(const Design& design, const Work& work) {
-    try {
-        return work();
-    } catch (const InputError& error) {
-        if (!error.place().file.empty())
-            throw;
-        throw InputError(design.approach.place, error.problem(), error.remedy());
-    }
-}
-
-/// Where a device trips; its way there is kept in the file. @return none when interrupted
-std::optional<TripPoint> locate(const Design& design, const std::string& path, const DesignReportOptions& options) {
-    const Study study = approach_study(design);
-    ResultFile file(path, ResultFile::Access::write);
-    if (!follow(study, file, options))
-        return std::nullopt;
-    return said_of(design, [&] { return find_trip_point(design, study, file); });
-}
-
 MetWishes wished(const Design& design, const TripPoint& trip, const DesignReportOptions& options) {
     WishesOptions wishes;
     wishes.interrupted = options.interrupted;
@@ -252,7 +206,7 @@ int design_command(const DesignArguments& arguments, const Console& console) {
         if (line.is_due())
             line.show(what);
     };
-    std::optional<TripPoint> trip = locate(first, place.path("results.sqlite"), options);
+    std::optional<TripPoint> trip = locate_trip(first, place.path("results.sqlite"), options);
     if (!trip)
         return interrupted(console);
     std::optional<MetWishes> wishes;
@@ -264,7 +218,7 @@ int design_command(const DesignArguments& arguments, const Console& console) {
         if (wishes->found.outcome != WishOutcome::nowhere) {
             // The way there is gone by the finished device too: what comes before its trip point is known then.
             design = with_values(first, wishes->values());
-            trip = locate(design, place.designed(), options);
+            trip = locate_trip(design, place.designed(), options);
             if (!trip)
                 return interrupted(console);
         }

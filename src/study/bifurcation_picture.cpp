@@ -13,7 +13,8 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_marks = 8;
-constexpr double least_stretch = 0.01; ///< share of a sweep on both sides of a change that is marked
+constexpr std::size_t most_circles = 200; ///< of what is drawn over; beyond, crosses are seen better
+constexpr double least_stretch = 0.01;    ///< share of a sweep on both sides of a change that is marked
 
 /// Where something changes that lasted before and lasts after.
 std::vector<double> changes(const StoredRun& run, const std::string& direction) {
@@ -115,6 +116,9 @@ void add_samples(FigurePanel& panel, const StudyPicture& picture, const StoredRu
     while (rows.next())
         if (const auto at = series.find(rows.text(0)); at != series.end() && !rows.is_null(2))
             panel.series[at->second].points.push_back({rows.number(1), rows.number(2)});
+    for (std::size_t s = before; over && s < panel.series.size(); ++s)
+        if (panel.series[s].points.size() > most_circles)
+            panel.series[s].style = FigureSeries::Style::symbols, panel.series[s].symbol = 1; // gnuplot's cross
 }
 
 /// Runs that are drawn over panels of the same values.
@@ -128,9 +132,13 @@ void add_over(Figure& figure, const StudyPicture& picture, const std::vector<Sho
                 FigurePanel& panel = figure.panels[p];
                 const std::string x = first_coordinate(picture, run);
                 add_samples(panel, picture, run, x, shown[p], true);
-                if (const auto extent = run.extent(x); extent && panel.x_range && !picture.x_range)
-                    panel.x_range = std::pair(std::min(panel.x_range->first, extent->first),
-                                              std::max(panel.x_range->second, extent->second));
+                if (const auto extent = run.extent(x); extent && panel.x_range && !picture.x_range) {
+                    // What was measured may lie beside what was computed by its noise alone: not on the frame.
+                    constexpr double margin = 0.01;
+                    const double room = margin * (panel.x_range->second - panel.x_range->first);
+                    panel.x_range = std::pair(std::min(panel.x_range->first, extent->first - room),
+                                              std::max(panel.x_range->second, extent->second + room));
+                }
                 drawn = true;
             }
         if (!drawn)

@@ -355,7 +355,8 @@ std::optional<PointRecord> RecordRun::point(std::size_t number, const std::funct
     } catch (const InputError& error) {
         if (was_interrupted) // what was read in part makes no sense
             return std::nullopt;
-        if (!error.place().file.empty())
+        const bool placed = error.place().line > 0;
+        if (placed || (!request.bench && error.place().file == request.inputs[number].path))
             throw;
         throw InputError(request.bench ? run.place : Place{request.inputs[number].path, 0, 0},
                          (request.bench ? name + ": " : "") + error.problem(), error.remedy());

@@ -214,8 +214,8 @@ void read_identify(const StudyReader& reader, StudyRun& run, const TomlEntry& en
         request.loss = static_cast<FitLoss>(reader.choice(e, {"squares", "huber", "cauchy"}));
     });
     with("piece", [&](const TomlEntry& e) { request.piece = reader.positive(run.model, e); });
-    mistakes.attempt([&] { require_what_is_needed(reader, run, entry); });
     mistakes.throw_noted();
+    require_what_is_needed(reader, run, entry);
     run.value_names = residual_names(request);
     run.value_units.assign(run.value_names.size(), "");
 }

@@ -314,9 +314,14 @@ void read_record(const StudyReader& reader, StudyRun& run, const TomlEntry& entr
         });
     mistakes.throw_noted();
     if (request.samplings.empty()) {
-        request.samplings.push_back({.name = "record", .kind = RecordSampling::Kind::record});
+        const auto add = [&](const char* name, RecordSampling::Kind kind) {
+            RecordSampling& sampling = request.samplings.emplace_back();
+            sampling.name = name;
+            sampling.kind = kind;
+        };
+        add("record", RecordSampling::Kind::record);
         if (!request.reference.empty())
-            request.samplings.push_back({.name = "section", .kind = RecordSampling::Kind::section});
+            add("section", RecordSampling::Kind::section);
     }
 }
 

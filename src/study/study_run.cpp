@@ -288,14 +288,26 @@ void read_parameters(const StudyReader& reader, StudyRun& run, const TomlEntry& 
         reader.fail(entry, fmt::format("{} names no run", entry.path), "name a run of kind \"identify\"");
 }
 
+/// Whether a run's records are those of a virtual bench.
+bool has_bench(const RunKeys& keys) {
+    return keys.contains("bench") && !keys.contains("files");
+}
+
 /// Records, and what is found from them.
 void read_measured(const StudyReader& reader, StudyRun& run, const TomlEntry& entry, const StudyDefaults& defaults,
                    const RunKeys& keys) {
     Mistakes mistakes;
-    const bool has_model = run.kind == RunKind::identify || keys.contains("bench");
-    if (has_model) {
+    const bool identifies = run.kind == RunKind::identify;
+    if (identifies || has_bench(keys))
         mistakes.attempt([&] { read_beginning(reader, run, defaults, keys); });
+    if (identifies)
         mistakes.attempt([&] { read_settings(reader, run, keys); });
+    if (has_bench(keys)) {
+        with_key(mistakes, keys, "direction", [&](const TomlEntry& e) {
+            run.direction = static_cast<SweepDirection>(reader.choice(e, {"up", "down", "both"}));
+        });
+        with_key(mistakes, keys, "carry", [&](const TomlEntry& e) { run.carry = reader.toml().boolean(e); });
+        with_key(mistakes, keys, "seed", [&](const TomlEntry& e) { run.seed = reader.count(e); });
         mistakes.attempt([&] { read_axes(reader, run, keys); });
     }
     mistakes.throw_noted();
@@ -347,7 +359,7 @@ std::optional<StudyRun> read_run(const StudyReader& reader, const TomlEntry& ent
     // A key that could not be read may have been the one that names the model.
     const bool says_model = keys.contains("model") || !defaults.model.empty();
     if (run.is_measured() && has_keys) {
-        if (run.kind == RunKind::identify || keys.contains("bench"))
+        if (run.kind == RunKind::identify || has_bench(keys))
             mistakes.attempt([&] { read_model(reader, run, entry, defaults, keys); });
         mistakes.throw_noted();
         read_measured(reader, run, entry, defaults, keys);

@@ -107,7 +107,7 @@ inline constexpr Motion motions[] = {{"ball-and-shaker", 1.5},       {"bouncing-
                                      {"dry-friction-oscillator", 9}, {"electromagnetic-testbed", 0.2},
                                      {"impact-microactuator", 8},    {"impact-oscillator-two-stops", 9},
                                      {"impact-oscillator", 9},       {"mems-switch", 9},
-                                     {"mems-switch-device", 1.4},   {"microbeam", 9}};
+                                     {"mems-switch-device", 1.4},    {"microbeam", 9}};
 
 /// The equations of such a motion, with its model's first two parameters free.
 struct FollowedEquations {

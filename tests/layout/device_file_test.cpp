@@ -69,6 +69,13 @@ TEST(DeviceFile, SaysWhatIsWrongAndWhere) {
         {"gapp = 3", "one.toml:3:1: unknown key 'gapp' in device; did you mean 'gap'?"},
         {"[wafr]", "unknown key 'wafr'; did you mean 'wafer'?"},
         {"[process]\nchamber_depth = 300", "one.toml:4:17: the chambers, 300 um deep, leave nothing of the wafer"},
+        {"[process]\nmodulus = \"169 GHz\"", "one.toml:4:11: process.modulus is not measured in GHz; give it in GPa"},
+        {"[process]\ntaper = 90", "one.toml:4:9: process.taper is 90 deg; give a number from -45 to 45"},
+        {"[process]\npressure = 0", "one.toml:4:12: process.pressure is 0 Pa; give a number from 1e-06 to"},
+        {"[process]\ndensity = inf", "one.toml:4:11: process.density is not a finite number"},
+        {"[process]\nbais = 1", "one.toml:4:1: unknown key 'bais' in process; did you mean 'bias'?"},
+        {"[rules]\nsmallest_gap = -1", "one.toml:4:16: rules.smallest_gap is -1 um; give a number from 0 to"},
+        {"[rules]\nlargest_gap = 1", "one.toml:4:1: unknown key 'largest_gap' in rules"},
         {"[wafer]\nvary = { gapp = [1] }", "one.toml:4:10: unknown key 'gapp' in wafer.vary; did you mean 'gap'?"},
     };
     for (const auto& [text, said] : mistakes)
@@ -76,6 +83,7 @@ TEST(DeviceFile, SaysWhatIsWrongAndWhere) {
     EXPECT_THAT(message("", {{"gap", -1}}), HasSubstr("--set gap: gap is -1 um, not positive"));
     EXPECT_THAT(message("", {{"gab", 1}}),
                 HasSubstr("--set gab: a device has no dimension 'gab'; did you mean 'gap'?"));
+    EXPECT_THAT(message("", {{"chamber_depth", 400}}), HasSubstr("--set chamber_depth: the chambers, 400 um deep"));
     EXPECT_THAT(message("", {{"folds", 1.5}}), HasSubstr("give a whole number"));
     EXPECT_THROW(parse_device_file("name = \"one\"\n", "one.toml"), InputError) << "nothing to be drawn";
     EXPECT_THROW(parse_device_file("[device]\n", "one.toml"), InputError) << "no name";

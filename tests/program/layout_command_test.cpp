@@ -34,7 +34,7 @@ TEST_F(LayoutCommand, WritesTheSameBytesAndPrintsATable) {
     EXPECT_THAT(contents(folder / "one.gds"), StartsWith(std::string("\0\x06\0\x02\x02\x58", 6)));
     const Printed json = run_graze({"layout", "mems-switch-device", "--wafer", "--format", "json"});
     EXPECT_TRUE(JsonCheck(json.out).valid());
-    EXPECT_THAT(json.out, HasSubstr("\"top\": \"WAFER\""));
+    EXPECT_THAT(json.out, HasSubstr("\"top\":\"WAFER\""));
     EXPECT_EQ(folder.files(), 2U) << "without --output there is only the table";
 }
 

@@ -2,6 +2,7 @@
 
 #include "graze/layout/device_dimensions.hpp"
 #include "graze/layout/process_conditions.hpp"
+#include "graze/layout/process_spread.hpp"
 #include "graze/layout/wafer_plan.hpp"
 #include "graze/symbolic/input_error.hpp"
 
@@ -13,8 +14,8 @@
 
 namespace graze {
 
-/// What the sections [device], [process], [rules] and [wafer] of a design file say; the other sections are the
-/// designer's.
+/// What the sections [device], [process], [rules], [spread] and [wafer] of a design file say; the other sections are
+/// the designer's.
 struct DeviceFile {
     std::string name, text, file;
     std::string model = "mems-switch-device"; ///< a shipped one, or a path: whose parameters the device has
@@ -22,6 +23,7 @@ struct DeviceFile {
     ProcessData process;
     ProcessConditions conditions; ///< of [process], too
     RuleLimits rules;
+    ProcessSpread spread;
     WaferPlan wafer;
     std::map<std::string, Place, std::less<>> places; ///< of all that is given, as "device.gap"
 

@@ -1,0 +1,115 @@
+#include "graze/layout/wafer_yield.hpp"
+
+#include "design/simulated_devices.hpp"
+#include "design/switches.hpp"
+#include "graze/symbolic/input_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace graze::testing {
+namespace {
+
+/// The shipped device on its wafers, with some spread of its process.
+struct Wafers {
+    DeviceFile file = load_device_file("mems-switch-device");
+    Design design;
+    WaferYieldSettings settings;
+
+    explicit Wafers(double share = 1) {
+        for (const DepartureField& field : departure_fields())
+            for (const auto part : {&SpreadParts::wafer, &SpreadParts::radial, &SpreadParts::device})
+                (file.spread.*field.spread).*part *= share;
+        design = design_of_device(load_design("mems-switch-device"), file);
+        settings.wafers = 4;
+    }
+    WaferYield yield() const {
+        return wafer_yield_of(design, file, draw_wafer_layout(file), trip_of(design), settings);
+    }
+};
+
+TEST(WaferYield, OfSmallSpreadsIsThatOfTheFirstOrder) {
+    Wafers wafers(1e-3);
+    wafers.settings.wafers = 40;
+    const WaferYield found = wafers.yield();
+    ASSERT_EQ(found.yield.found, 320U);
+    // What is not linear is the square of relative departures, 1e-5 each.
+    EXPECT_LT(found.yield.largest_departure, 1e-3 * found.linear_deviation);
+    // Devices of a wafer have much in common: 40 wafers tell the deviation to 4/sqrt(80).
+    EXPECT_NEAR(found.yield.deviation->value, found.linear_deviation, 0.45 * found.linear_deviation);
+    EXPECT_NEAR(found.yield.deviation->value, found.yield.linear_deviation, 1e-3 * found.linear_deviation);
+    // The derivative by the bias, by devices alone.
+    DeviceFile etched = wafers.file;
+    etched.conditions.bias += 0.002;
+    const double more = trip_of(design_of_device(wafers.design, etched)).value();
+    const double derivative = (more - found.yield.nominal) / 0.002;
+    EXPECT_EQ(found.effects.front().name, "bias");
+    EXPECT_NEAR(found.effects.front().derivative, derivative, 2e-3 * std::abs(derivative)); // a one-sided difference
+}
+
+TEST(WaferYield, OfADeviceIsWhatSimulationSays) {
+    const Wafers wafers;
+    const WaferYield found = wafers.yield();
+    ASSERT_EQ(found.devices.size(), 32U);
+    const Model& model = wafers.design.model;
+    const SimulatedDevices shop(model, "V", {.begin = 0.5, .keeps = 0.94, .cycles = 250, .rests = 100});
+    for (const std::size_t i : {std::size_t{0}, std::size_t{13}, std::size_t{27}}) {
+        const WaferDevice& device = found.devices[i];
+        ASSERT_EQ(device.outcome, DeviceOutcome::found);
+        EXPECT_EQ(device.found, GrazingOutcome::lost);
+        std::vector<double> parameters;
+        Model one = model;
+        for (const auto& [name, value] : parameters_of(*device.lumped, model).set) {
+            one.set_parameter(name, value);
+            if (name == "f0")
+                one.set_parameter("f", value);
+        }
+        const std::vector<std::string> names = one.independent_parameters();
+        const std::vector<double> values = one.parameter_values();
+        for (const std::string& name : names)
+            parameters.push_back(values[*one.find_parameter(name)]);
+        const double cycle = 1 / (device.lumped->frequency() / 1000);
+        // From rest; the way up leaves a disturbance of 0.94^250, the rest is for contacts to grow.
+        EXPECT_FALSE(shop.trips(parameters, {0, 0, 0}, cycle, 0.999 * device.value)) << i;
+        EXPECT_TRUE(shop.trips(parameters, {0, 0, 0}, cycle, 1.001 * device.value)) << i;
+        ASSERT_TRUE(device.trip_time);
+        EXPECT_GT(*device.trip_time, cycle);
+    }
+}
+
+TEST(WaferYield, DependsOnTheSeedAndNotOnThreads) {
+    Wafers wafers;
+    wafers.settings.wafers = 10;
+    const WaferYield one = wafers.yield();
+    wafers.settings.jobs = 2;
+    const WaferYield two = wafers.yield();
+    for (std::size_t i = 0; i < one.devices.size(); ++i) {
+        EXPECT_EQ(one.devices[i].value, two.devices[i].value);
+        EXPECT_EQ(one.devices[i].trip_time, two.devices[i].trip_time);
+    }
+    EXPECT_EQ(one.classes, two.classes);
+}
+
+TEST(WaferYield, CountsDevicesThatTheEtchTakesAway) {
+    Wafers wafers;
+    wafers.file.spread.bias.wafer = 4; // of flexures that are 6.4 um wide
+    wafers.settings.wafers = 3;
+    const WaferYield found = wafers.yield();
+    std::size_t gone = 0;
+    for (const WaferDevice& device : found.devices)
+        if (!device.lumped) {
+            ++gone;
+            EXPECT_EQ(device.outcome, DeviceOutcome::failed);
+            EXPECT_FALSE(device.problem.empty());
+        }
+    EXPECT_GT(gone, 0U);
+    EXPECT_EQ(found.yield.made, 24U);
+    wafers.file.spread = {};
+    EXPECT_THROW(wafers.yield(), InputError);
+    wafers.settings.wafers = 0;
+    EXPECT_THROW(wafers.yield(), InputError);
+}
+
+} // namespace
+} // namespace graze::testing

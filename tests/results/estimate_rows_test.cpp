@@ -1,0 +1,53 @@
+// What was found from measurements comes out of a result file as it was written.
+
+#include "graze/results/result_file.hpp"
+
+#include "../symbolic/temporary_folder.hpp"
+
+#include <gtest/gtest.h>
+
+namespace graze {
+namespace {
+
+RunRecord identified(const std::string& name) {
+    RunRecord run;
+    run.name = name;
+    run.kind = "identify";
+    run.directions = {""};
+    return run;
+}
+
+TEST(EstimateRows, come_out_as_they_were_written) {
+    testing::TemporaryFolder folder;
+    ResultFile file(folder / "r.sqlite", ResultFile::Access::write);
+    file.begin_run(identified("a"));
+    file.begin_run(identified("b"));
+    const EstimateRecords found{{{"w0", "rad/s", {95.94, 0.01, 57}, ""}, {"zeta", "", {0.016, 0, 0}, "not determined"}},
+                                {1e-4, -2e-9, -2e-9, 0}};
+    file.set_estimates("a", found);
+    file.set_estimates("a", found); // in the place of what it had found
+    file.set_estimates("b", {{{"e", "", {0.8, 0.1, 3}, ""}}, {}});
+    const EstimateRecords read = file.estimates("a");
+    ASSERT_EQ(read.numbers.size(), 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(read.numbers[i].name, found.numbers[i].name);
+        EXPECT_EQ(read.numbers[i].unit, found.numbers[i].unit);
+        EXPECT_EQ(read.numbers[i].note, found.numbers[i].note);
+        EXPECT_EQ(read.numbers[i].estimate.value, found.numbers[i].estimate.value);
+        EXPECT_EQ(read.numbers[i].estimate.error, found.numbers[i].estimate.error);
+        EXPECT_EQ(read.numbers[i].estimate.freedom, found.numbers[i].estimate.freedom);
+    }
+    EXPECT_EQ(read.covariance, found.covariance);
+    EXPECT_TRUE(file.estimates("b").covariance.empty());
+    auto rows = file.query("SELECT low, high FROM estimates WHERE name = 'w0'");
+    ASSERT_TRUE(rows.next());
+    EXPECT_EQ(rows.number(0), 95.94 - found.numbers[0].estimate.half_width());
+    EXPECT_EQ(rows.number(1), 95.94 + found.numbers[0].estimate.half_width());
+    file.remove_run("a");
+    EXPECT_TRUE(file.estimates("a").numbers.empty());
+    EXPECT_EQ(file.estimates("b").numbers.size(), 1);
+    EXPECT_TRUE(file.estimates("none").numbers.empty());
+}
+
+} // namespace
+} // namespace graze

@@ -1,0 +1,295 @@
+// What studies find from records, against closed forms and the library's functions: estimates with their errors, fits,
+// parameters that other runs take, and what is refused.
+
+#include "graze/identify/coupling.hpp"
+#include "graze/identify/fit.hpp"
+#include "graze/model/catalogue.hpp"
+#include "graze/results/result_file.hpp"
+#include "graze/results/stored_run.hpp"
+#include "graze/study/picture.hpp"
+#include "graze/study/runner.hpp"
+#include "graze/study/stored_study.hpp"
+#include "graze/study/study.hpp"
+
+#include "../symbolic/temporary_folder.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace graze {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double w0 = 95.94, zeta = 0.016, mass = 0.6462, gap = 4.8e-3, beta1 = 1.9e-5, beta2 = 1.6e-3;
+
+class IdentifyRunTest : public ::testing::Test {
+protected:
+    /// The velocity of an oscillator that is let go.
+    void write_release(const std::string& name) const {
+        std::string text = "t [s], v [m/s]\n";
+        const double wd = w0 * std::sqrt(1 - zeta * zeta);
+        for (int i = 0; i < 1500; ++i) {
+            const double t = i / 1000.0;
+            text += fmt::format("{:.17g},{:.17g}\n", t, 0.07 * std::exp(-zeta * w0 * t) * std::sin(wd * t));
+        }
+        folder_.write(name, text);
+    }
+    /// Equilibria, with displacements that are off by an alternating part of themselves.
+    std::vector<StaticLoad> write_loads(const std::string& name) const {
+        std::vector<StaticLoad> loads;
+        std::string text = "n, q [m], I [A]\n";
+        for (int i = 1; i <= 12; ++i) {
+            const double q = 1e-4 * i;
+            const double current = (gap + beta2 - q) * std::sqrt(2 * mass * w0 * w0 * q / beta1);
+            loads.push_back({q * (1 + (i % 2 == 0 ? 1e-3 : -1e-3)), current});
+            text += fmt::format("{},{:.17g},{:.17g}\n", i, loads.back().displacement, current);
+        }
+        folder_.write(name, text);
+        return loads;
+    }
+    std::vector<RunReport> run(const std::string& text, const RunnerOptions& options = {}) const {
+        const Study study = read_study(folder_.write("s.toml", text));
+        ResultFile file(folder_ / "results.sqlite", ResultFile::Access::write);
+        return run_study(study, file, options);
+    }
+    std::string refusal(const std::string& text) const {
+        try {
+            for (const RunReport& report : run(text))
+                if (report.outcome == RunOutcome::failed)
+                    return report.problem + "; " + report.remedy;
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    }
+    EstimateRecord estimate(const std::string& of, const std::string& name) const {
+        const ResultFile file(folder_ / "results.sqlite", ResultFile::Access::read);
+        for (const EstimateRecord& number : file.estimates(of).numbers)
+            if (number.name == name)
+                return number;
+        ADD_FAILURE() << "no " << name;
+        return {};
+    }
+
+    testing::TemporaryFolder folder_;
+};
+
+const char* const head = R"(name = "s"
+model = "electromagnetic-testbed"
+[runs.releases]
+kind = "record"
+files = "r*.csv"
+[runs.decay]
+kind = "identify"
+what = "decrement"
+records = "releases"
+gives = { natural_frequency = "w0", damping_ratio = "zeta" }
+)";
+
+const char* const loads_text = R"([runs.loads]
+kind = "record"
+files = "loads.csv"
+channels = ["q", "I"]
+[runs.coupling]
+kind = "identify"
+what = "coupling"
+records = "loads"
+parameters = "decay"
+gap = 4.8e-3
+stiffness = "m*w0^2"
+)";
+
+TEST_F(IdentifyRunTest, decrement_and_coupling_find_what_the_records_were_made_with) {
+    for (const char* name : {"r1.csv", "r2.csv", "r3.csv"})
+        write_release(name);
+    const auto loads = write_loads("loads.csv");
+    const auto reports = run(std::string(head) + loads_text);
+    for (const RunReport& report : reports)
+        EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
+    // Peaks by polynomials through some of 65 samples a period: six digits.
+    EXPECT_NEAR(estimate("decay", "w0").estimate.value, w0, 1e-5 * w0);
+    EXPECT_NEAR(estimate("decay", "zeta").estimate.value, zeta, 1e-3 * zeta);
+    EXPECT_EQ(estimate("decay", "w0").unit, "rad/s");
+    // The library with the stiffness of the frequency that was found, and 2 m w0 times its error.
+    const Estimate found = estimate("decay", "w0").estimate;
+    CouplingSettings settings;
+    settings.gap = gap;
+    settings.stiffness = mass * found.value * found.value;
+    settings.stiffness_error = 2 * mass * found.value * found.error;
+    const Coupling expected = coupling(loads, settings);
+    for (const auto& [name, value] : {std::pair{"beta1", expected.beta1}, std::pair{"beta2", expected.beta2}}) {
+        const Estimate one = estimate("coupling", name).estimate;
+        EXPECT_NEAR(one.value, value.value, 1e-9 * value.value) << name;
+        EXPECT_NEAR(one.error, value.error, 1e-6 * value.error) << name;
+    }
+    EXPECT_NEAR(estimate("coupling", "beta1").estimate.value, beta1, 0.02 * beta1); // displacements are off by 1e-3
+    const ResultFile file(folder_ / "results.sqlite", ResultFile::Access::read);
+    const EstimateRecords both = file.estimates("coupling");
+    const std::size_t count = both.numbers.size();
+    ASSERT_EQ(both.covariance.size(), count * count);
+    EXPECT_NEAR(both.covariance[1],
+                expected.correlation * both.numbers[0].estimate.error * both.numbers[1].estimate.error,
+                1e-6 * std::abs(both.covariance[1]));
+    // What is drawn: all that was measured, and what is left is its difference from what is fitted.
+    const Figure figure = make_picture(default_picture(*file.find_run("decay")), file).figure;
+    ASSERT_EQ(figure.panels.size(), 2);
+    EXPECT_EQ(figure.panels[0].series[0].points.size(), 30);
+    for (std::size_t i = 0; i < 10; ++i)
+        EXPECT_NEAR(figure.panels[1].series[0].points[i].y,
+                    figure.panels[0].series[0].points[i].y - figure.panels[0].series[1].points[i].y, 1e-15);
+}
+
+TEST_F(IdentifyRunTest, other_runs_take_what_was_found) {
+    write_release("r1.csv");
+    const std::string later = R"([runs.motion]
+kind = "simulate"
+parameters = "decay"
+set = { w0 = 50, V0 = 1 }
+time = 1
+[runs.orbit]
+kind = "orbit"
+parameters = "decay"
+set = { V0 = 1 }
+[runs.on]
+kind = "simulate"
+start = { run = "motion" }
+time = 1
+)";
+    const std::string text = std::string(head) + later;
+    run(text);
+    const double found = estimate("decay", "w0").estimate.value;
+    {
+        ResultFile file(folder_ / "results.sqlite", ResultFile::Access::write);
+        const auto parameter = [&](const char* name, const char* what) {
+            const Model model = stored_model(*file.find_run(name));
+            return model.parameter_values()[model.independent_parameter(what).place()];
+        };
+        EXPECT_EQ(parameter("motion", "w0"), found);
+        EXPECT_EQ(parameter("motion", "V0"), 1);
+        EXPECT_EQ(parameter("orbit", "w0"), found);
+        EXPECT_EQ(parameter("on", "w0"), found); // parameters come with the point
+        // The file alone knows that nothing is to be done.
+        for (const RunReport& report : run_study(stored_study(file), file, {}))
+            EXPECT_EQ(report.computed, 0) << report.name << ' ' << report.problem;
+    }
+    for (const RunReport& report : run(text))
+        EXPECT_EQ(report.computed, 0) << report.name;
+    // With other records what follows from them is done anew.
+    write_release("r2.csv");
+    for (const RunReport& report : run(text))
+        EXPECT_GT(report.computed, 0) << report.name;
+}
+
+TEST_F(IdentifyRunTest, a_fit_is_that_of_the_library) {
+    // A swing whose square of frequency is sought; readings are its motion with an alternating error.
+    folder_.write("swing.toml", "name = \"swing\"\n[parameters]\nk = 4\n[states]\nx = { initial = 1 }\n"
+                                "v = { initial = 0 }\n[modes.swing]\nrates = { x = \"v\", v = \"-k*x\" }\n");
+    FitTask task;
+    FitRecord record;
+    record.readings.resize(1);
+    std::string text = "t,x\n";
+    for (int i = 0; i < 100; ++i) {
+        record.times.push_back(0.1 * i);
+        record.readings[0].values.push_back(std::cos(2.1 * 0.1 * i) + (i % 2 == 0 ? 1e-3 : -1e-3));
+        text += fmt::format("{:.17g},{:.17g}\n", record.times.back(), record.readings[0].values.back());
+    }
+    folder_.write("swing.csv", text);
+    const auto reports = run(R"(name = "s"
+model = "./swing.toml"
+[runs.record]
+kind = "record"
+files = "swing.csv"
+[runs.fit]
+kind = "identify"
+what = "fit"
+records = "record"
+unknowns = { k = { guess = 4.2, bounds = [1, 9] } }
+readings = ["x"]
+known = ["v"]
+)");
+    const Model model = load_model(folder_ / "swing.toml");
+    task.parameters.push_back({model.independent_parameter("k"), 4.2, 1, 9});
+    MeasuredOutput output;
+    output.name = "x";
+    output.value = model.symbol("x");
+    task.outputs.push_back(output);
+    record.unknown_states = {0};
+    task.records.push_back(record);
+    const Fit fit = fit_model(System(model), task);
+    const EstimateRecord k = estimate("fit", "k");
+    EXPECT_EQ(k.estimate.value, fit.numbers[0].estimate.value); // the same computation
+    EXPECT_EQ(k.estimate.error, fit.numbers[0].estimate.error);
+    EXPECT_NEAR(k.estimate.value, 2.1 * 2.1, 1e-3); // what is alternating tells a cosine nothing
+    EXPECT_NEAR(estimate("fit", "x(0)").estimate.value, 1, 1e-3);
+    // Alternating residuals are no noise, and the fit says so: it must not be gone on with.
+    EXPECT_EQ(fit.ending == FitEnding::converged, reports.back().complete()) << reports.back().problem;
+}
+
+TEST_F(IdentifyRunTest, what_must_not_be_gone_on_with_is_kept_to_be_looked_at) {
+    write_release("r1.csv");
+    // The current leads the voltage, as that of no coil does.
+    std::string text = "t [s], V [V], I [A]\n";
+    for (int i = 0; i < 1000; ++i)
+        text += fmt::format("{},{:.17g},{:.17g}\n", i * 1e-3, 2 * std::sin(25.1e-3 * i), std::sin(25.1e-3 * i + 0.5));
+    folder_.write("coil.csv", text);
+    const auto reports = run(std::string(head) + "[runs.clamped]\nkind = \"record\"\nfiles = \"coil.csv\"\n"
+                                                 "[runs.coil]\nkind = \"identify\"\nwhat = \"impedance\"\n"
+                                                 "records = \"clamped\"\nparameters = \"decay\"\n"
+                                                 "gives = { resistance = \"R\" }\n"
+                                                 "[runs.on]\nkind = \"simulate\"\nparameters = \"coil\"\ntime = 1\n");
+    EXPECT_EQ(reports[3].outcome, RunOutcome::failed);
+    EXPECT_THAT(reports[3].problem, HasSubstr("inductance comes out below zero"));
+    EXPECT_EQ(reports[4].outcome, RunOutcome::skipped);
+    // V0/I0 cos(phi) of amplitudes 2 and 1, half a radian apart
+    EXPECT_NEAR(estimate("coil", "R").estimate.value, 2 * std::cos(0.5), 1e-6);
+    const ResultFile file(folder_ / "results.sqlite", ResultFile::Access::read);
+    EXPECT_EQ(file.point_count("coil"), 1);
+}
+
+TEST_F(IdentifyRunTest, what_cannot_be_found_fails_with_all_that_needs_it) {
+    folder_.write("r1.csv", "t [s], v [m/s]\n0,1\n1,1\n2,1\n3,1\n4,1\n5,1\n6,1\n7,1\n8,1\n9,1\n10,1\n11,1\n");
+    const auto reports =
+        run(std::string(head) + "[runs.motion]\nkind = \"simulate\"\nparameters = \"decay\"\ntime = 1\n");
+    ASSERT_EQ(reports.size(), 3);
+    EXPECT_EQ(reports[1].outcome, RunOutcome::failed);
+    EXPECT_THAT(reports[1].problem, HasSubstr("r1.csv"));
+    EXPECT_EQ(reports[2].outcome, RunOutcome::skipped);
+    EXPECT_THAT(reports[2].problem, HasSubstr("'decay', which it needs, failed"));
+}
+
+TEST_F(IdentifyRunTest, studies_without_sense_are_refused) {
+    write_release("r1.csv");
+    const std::string records = "name = \"s\"\nmodel = \"electromagnetic-testbed\"\n[runs.a]\nkind = \"record\"\n"
+                                "files = \"r1.csv\"\n[runs.b]\nkind = \"identify\"\n";
+    const std::string decrement = records + "what = \"decrement\"\n";
+    EXPECT_EQ(refusal(decrement + "records = \"a\"\n"), "");
+    EXPECT_THAT(refusal(records), HasSubstr("does not say what is to be found"));
+    EXPECT_THAT(refusal(decrement), HasSubstr("has no records"));
+    EXPECT_THAT(refusal(decrement + "records = \"c\"\n"), HasSubstr("the study has no run 'c'"));
+    EXPECT_THAT(refusal(decrement + "records = \"b\"\n"), HasSubstr("starts from itself"));
+    EXPECT_THAT(refusal(decrement + "records = \"a\"\n[runs.c]\nkind = \"identify\"\nwhat = \"decrement\"\n"
+                                    "records = \"b\"\n"),
+                HasSubstr("run 'b' is of kind \"identify\""));
+    EXPECT_THAT(refusal(decrement + "records = \"a\"\nparameters = \"a\"\n"), HasSubstr("of kind \"record\""));
+    EXPECT_THAT(refusal(decrement + "records = \"a\"\nparameters = \"b\"\n"), HasSubstr("starts from itself"));
+    EXPECT_THAT(refusal(decrement + "records = \"a\"\nchannel = \"I\"\n"), HasSubstr("I"));
+    EXPECT_THAT(refusal(decrement + "records = \"a\"\ngap = 3\n"), HasSubstr("`gap` has no effect on a decrement"));
+    EXPECT_THAT(refusal(decrement + "records = \"a\"\ngives = { damping_ratio = \"zzeta\" }\n"),
+                HasSubstr("has no parameter 'zzeta'; did you mean 'zeta'?"));
+    EXPECT_THAT(refusal(decrement + "records = \"a\"\ngives = { damping = \"zeta\" }\n"),
+                HasSubstr("nothing of the name 'damping' is found; it finds natural_frequency"));
+    EXPECT_THAT(refusal(records + "what = \"coupling\"\nrecords = \"a\"\n"), HasSubstr("gap or stiffness"));
+    EXPECT_THAT(refusal(records + "what = \"fit\"\nrecords = \"a\"\n"), HasSubstr("what is to be found"));
+    EXPECT_THAT(refusal(records + "what = \"fit\"\nrecords = \"a\"\nunknowns = [\"w1\"]\nreadings = [\"v\"]\n"),
+                HasSubstr("has no parameter 'w1'"));
+    EXPECT_THAT(refusal(decrement + "records = \"a\"\n[runs.c]\nkind = \"simulate\"\ntime = 1\nparameters = \"b\"\n"),
+                HasSubstr("run 'b' has found no parameter of model"));
+}
+
+} // namespace
+} // namespace graze
