@@ -32,6 +32,39 @@ std::string title_of(const StudyPicture& one, const StoredRun& run, const PointR
     return title;
 }
 
+/// Rows of a record as a line, no more of them than can be seen: of a history in a thousand parts the first, least,
+/// greatest and last of each, otherwise the last ones.
+std::vector<PlanePoint> seen_rows(std::vector<PlanePoint> points, const StudyPicture& picture, bool portrait) {
+    constexpr std::size_t parts = 1000, most_of_portrait = 20'000;
+    if (!portrait && picture.x_range)
+        std::erase_if(points, [&](const PlanePoint& point) {
+            return point.x < picture.x_range->first || point.x > picture.x_range->second;
+        });
+    if (portrait) {
+        if (points.size() > most_of_portrait)
+            points.erase(points.begin(), points.end() - static_cast<std::ptrdiff_t>(most_of_portrait));
+        return points;
+    }
+    if (points.size() <= 4 * parts)
+        return points;
+    std::vector<PlanePoint> seen;
+    for (std::size_t part = 0; part < parts; ++part) {
+        const std::size_t first = part * points.size() / parts, last = (part + 1) * points.size() / parts - 1;
+        std::size_t least = first, greatest = first;
+        for (std::size_t i = first; i <= last; ++i) {
+            least = points[i].y < points[least].y ? i : least;
+            greatest = points[i].y > points[greatest].y ? i : greatest;
+        }
+        std::size_t before = points.size();
+        for (const std::size_t i : {first, std::min(least, greatest), std::max(least, greatest), last})
+            if (i != before) {
+                seen.push_back(points[i]);
+                before = i;
+            }
+    }
+    return seen;
+}
+
 /// Adds the motions of points, one after the other.
 class MotionPanels {
 public:
@@ -105,6 +138,8 @@ private:
                                 {}};
             for (std::size_t i = 0; i < std::min(xs.size(), ys.size()); ++i)
                 series.points.push_back({xs[i], ys[i]});
+            if (is_line)
+                series.points = seen_rows(std::move(series.points), *picture_, portrait_);
             panel.series.push_back(std::move(series));
         }
     }

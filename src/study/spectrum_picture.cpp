@@ -10,6 +10,19 @@
 
 namespace graze {
 
+namespace {
+
+/// Of a long record the mean over parts, of which there are no more frequencies than can be seen.
+Spectrum spectrum_of_rows(const std::vector<double>& times, const std::vector<double>& values) {
+    constexpr std::size_t most = 16'384, part = 8192;
+    if (values.size() <= most)
+        return spectrum(values, sampling_frequency(times));
+    StoredSamples record({{"t", ""}, {{"value", ""}}}, {times, {values}});
+    return averaged_spectrum(record, 0, part);
+}
+
+} // namespace
+
 ResultPicture spectrum_picture(const StudyPicture& picture, const ResultFile& file) {
     constexpr std::size_t wanted = 60;
     ResultPicture result;
@@ -41,10 +54,10 @@ ResultPicture spectrum_picture(const StudyPicture& picture, const ResultFile& fi
                 throw InputError(picture.place,
                                  fmt::format("run '{}' has too few samples for a spectrum", run.record.name),
                                  "choose another sampling or point");
-            const Spectrum parts = spectrum(values, 1 / spacing);
             // Of all rows of a record amplitudes are shown as they are, which is what its mean does not tell.
             const auto rows = row_samplings(run);
             const bool absolute = std::find(rows.begin(), rows.end(), sampling) != rows.end();
+            const Spectrum parts = absolute ? spectrum_of_rows(times, values) : spectrum(values, 1 / spacing);
             if (parts.mean == 0 && !absolute)
                 throw InputError(picture.place,
                                  fmt::format("the mean of '{}' is zero, of which a spectrum shows shares", value),

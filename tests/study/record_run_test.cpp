@@ -288,6 +288,46 @@ run = "computed"
                 HasSubstr("have no `over`"));
 }
 
+TEST_F(RecordRunTest, rows_of_records_have_histories_and_spectra) {
+    folder_.write("a.csv", waves(2, 1.999)); // ten periods
+    folder_.write("b.csv", waves(2, 20));
+    const Study study = read_study(study_file(std::string(head) + R"(files = ["a.csv", "b.csv"]
+[runs.a]
+kind = "record"
+files = "a.csv"
+[pictures.spectrum]
+kind = "spectrum"
+run = "a"
+y = "V"
+[pictures.long]
+kind = "spectrum"
+run = "r"
+y = "V"
+[pictures.history]
+kind = "history"
+run = "r"
+)"));
+    ResultFile file(results(), ResultFile::Access::write);
+    run_study(study, file, {});
+    const auto peak = [&](std::size_t picture) {
+        PlanePoint highest;
+        for (const PlanePoint& point : make_picture(study.pictures[picture], file).figure.panels[0].series[0].points)
+            highest = point.y > highest.y ? point : highest;
+        return highest;
+    };
+    EXPECT_NEAR(peak(0).x, frequency, 1e-9);
+    EXPECT_NEAR(peak(0).y, 2, 1e-9);                      // whole periods: nothing leaks
+    EXPECT_NEAR(peak(1).x, frequency, 0.5 * 1000 / 8192); // the nearest of the frequencies of parts
+    EXPECT_NEAR(peak(1).y, 2, 2 * 0.15);                  // Hann's window between two frequencies: 15 % less
+    const Figure history = make_picture(study.pictures[2], file).figure;
+    ASSERT_EQ(history.panels.size(), 2);
+    EXPECT_LE(history.panels[0].series[0].points.size(), 4000); // of 20001
+    double highest = 0;
+    for (const PlanePoint& point : history.panels[0].series[0].points)
+        highest = std::max(highest, point.y);
+    EXPECT_NEAR(highest, 2, 1e-12); // none that stands out is missing
+}
+
 TEST_F(RecordRunTest, records_stay_in_the_folder_of_the_study) {
     testing::TemporaryFolder elsewhere;
     elsewhere.write("a.csv", waves(2, 1));
