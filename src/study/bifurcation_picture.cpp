@@ -13,7 +13,7 @@ namespace graze {
 namespace {
 
 constexpr std::size_t most_marks = 8;
-constexpr std::size_t most_circles = 200; ///< of what is drawn over; beyond, dots are seen better
+constexpr std::size_t most_circles = 200; ///< of what is drawn over; beyond, crosses are seen better
 constexpr double least_stretch = 0.01;    ///< share of a sweep on both sides of a change that is marked
 
 /// Where something changes that lasted before and lasts after.
@@ -116,9 +116,9 @@ void add_samples(FigurePanel& panel, const StudyPicture& picture, const StoredRu
     while (rows.next())
         if (const auto at = series.find(rows.text(0)); at != series.end() && !rows.is_null(2))
             panel.series[at->second].points.push_back({rows.number(1), rows.number(2)});
-    for (std::size_t s = before; s < panel.series.size(); ++s)
+    for (std::size_t s = before; over && s < panel.series.size(); ++s)
         if (panel.series[s].points.size() > most_circles)
-            panel.series[s].style = FigureSeries::Style::dots;
+            panel.series[s].style = FigureSeries::Style::symbols, panel.series[s].symbol = 1; // gnuplot's cross
 }
 
 /// Runs that are drawn over panels of the same values.

@@ -225,8 +225,9 @@ private:
         report.remedy = remedy;
         failed_.insert(run.name);
         const RunRecord record = record_of(run, parent_fingerprint(run), 0);
+        const auto known = fingerprints_.find(run.name); // with what it has from other runs
         const auto stored = file.find_run(run.name);
-        if (!stored || stored->fingerprint != record.fingerprint)
+        if (!stored || stored->fingerprint != (known == fingerprints_.end() ? record.fingerprint : known->second))
             file.begin_run(record);
         report.points = file.point_count(run.name);
     }

@@ -288,7 +288,8 @@ void check_measured(const StudyRun& run, const SettingsReader& fields) {
         return;
     const RecordBench& bench = *request.bench;
     if (bench.levels.size() != bench.directions.size() || !bench.model.find_independent_parameter(bench.parameter) ||
-        bench.repeats > 10'000)
+        bench.repeats > 10'000 || !(bench.rate * bench.time >= 2) || !(bench.rate * bench.time <= most_bench_samples) ||
+        !(bench.settle >= 0) || !std::isfinite(bench.settle) || !(bench.rate > 0))
         fields.fail("bench", "one that a study could ask for");
     for (const std::size_t direction : bench.directions)
         if (direction >= request.directions.size())

@@ -1,5 +1,7 @@
 #include "study/study_bench.hpp"
 
+#include "study/point_limits.hpp"
+
 #include <fmt/format.h>
 
 namespace graze {
@@ -59,9 +61,8 @@ void read_bench(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
                    });
     if (bench.channels.empty())
         reader.fail(entry, fmt::format("{} measures nothing", entry.path), "give channels = { q = \"q\" }");
-    constexpr double most_samples = 1e7;
     if (!(bench.rate > 0) || !(bench.time > 0) || !(bench.rate * bench.time >= 2) || !(bench.settle >= 0) ||
-        !(bench.rate * bench.time <= most_samples))
+        !(bench.rate * bench.time <= most_bench_samples))
         reader.fail(entry, fmt::format("{} does not say how many samples there are, from 2 to 10 million", entry.path),
                     "give rate = SAMPLES_IN_A_SECOND, time = SECONDS, and settle, if any, of 0 or more");
 }

@@ -230,6 +230,27 @@ known = ["v"]
     EXPECT_EQ(fit.ending == FitEnding::converged, reports.back().complete()) << reports.back().problem;
 }
 
+TEST_F(IdentifyRunTest, what_must_not_be_gone_on_with_is_kept_to_be_looked_at) {
+    write_release("r1.csv");
+    // The current leads the voltage, as that of no coil does.
+    std::string text = "t [s], V [V], I [A]\n";
+    for (int i = 0; i < 1000; ++i)
+        text += fmt::format("{},{:.17g},{:.17g}\n", i * 1e-3, 2 * std::sin(25.1e-3 * i), std::sin(25.1e-3 * i + 0.5));
+    folder_.write("coil.csv", text);
+    const auto reports = run(std::string(head) + "[runs.clamped]\nkind = \"record\"\nfiles = \"coil.csv\"\n"
+                                                 "[runs.coil]\nkind = \"identify\"\nwhat = \"impedance\"\n"
+                                                 "records = \"clamped\"\nparameters = \"decay\"\n"
+                                                 "gives = { resistance = \"R\" }\n"
+                                                 "[runs.on]\nkind = \"simulate\"\nparameters = \"coil\"\ntime = 1\n");
+    EXPECT_EQ(reports[3].outcome, RunOutcome::failed);
+    EXPECT_THAT(reports[3].problem, HasSubstr("inductance comes out below zero"));
+    EXPECT_EQ(reports[4].outcome, RunOutcome::skipped);
+    // V0/I0 cos(phi) of amplitudes 2 and 1, half a radian apart
+    EXPECT_NEAR(estimate("coil", "R").estimate.value, 2 * std::cos(0.5), 1e-6);
+    const ResultFile file(folder_ / "results.sqlite", ResultFile::Access::read);
+    EXPECT_EQ(file.point_count("coil"), 1);
+}
+
 TEST_F(IdentifyRunTest, what_cannot_be_found_fails_with_all_that_needs_it) {
     folder_.write("r1.csv", "t [s], v [m/s]\n0,1\n1,1\n2,1\n3,1\n4,1\n5,1\n6,1\n7,1\n8,1\n9,1\n10,1\n11,1\n");
     const auto reports =

@@ -234,6 +234,60 @@ TEST_F(RecordRunTest, a_diagram_has_a_point_for_each_record_and_a_direction) {
     EXPECT_EQ(figure.panels[0].x_unit, "V");
 }
 
+TEST_F(RecordRunTest, measured_points_lie_over_computed_ones) {
+    for (int i = 1; i <= 2; ++i)
+        folder_.write(fmt::format("{}.csv", i), waves(i, 1));
+    folder_.write("m.toml", R"(name = "m"
+parameters = { amplitude = 1 }
+[states]
+q = { initial = "amplitude" }
+theta = { initial = 0, period = 1 }
+[modes.a]
+rates = { q = 0, theta = 1 }
+[sections.turn]
+state = "theta"
+value = 0
+)");
+    const Study study = read_study(study_file(std::string(head) + R"(files = "*.csv"
+reference = "V"
+[runs.computed]
+kind = "simulate"
+model = "./m.toml"
+vary = { amplitude = [1.2, 1.4, 1.6] }
+periods = 3
+values = ["q"]
+[pictures.both]
+kind = "bifurcation"
+run = "computed"
+over = "r"
+[pictures.nothing]
+kind = "bifurcation"
+run = "r"
+y = ["V"]
+over = "computed"
+[pictures.wrong]
+kind = "scatter"
+run = "computed"
+)"));
+    ResultFile file(results(), ResultFile::Access::write);
+    run_study(study, file, {});
+    const Figure figure = make_picture(study.pictures[0], file).figure;
+    ASSERT_EQ(figure.panels.size(), 1);
+    const FigureSeries& measured = figure.panels[0].series.back();
+    EXPECT_EQ(measured.title, "r");
+    ASSERT_GE(measured.points.size(), 6);
+    for (const PlanePoint& point : measured.points) {
+        EXPECT_TRUE(std::abs(point.x - 1) < 1e-6 || std::abs(point.x - 2) < 1e-6) << point.x;
+        EXPECT_NEAR(point.y, 4, 1e-4);
+    }
+    EXPECT_LT(figure.panels[0].x_range->first, 1); // room for all of them
+    EXPECT_GT(figure.panels[0].x_range->second, 2);
+    EXPECT_THROW(make_picture(study.pictures[1], file), InputError); // no values of the same name
+    EXPECT_THAT(refusal(std::string(head) + "files = \"1.csv\"\n[pictures.p]\nkind = \"scatter\"\nrun = \"r\"\n"
+                                            "over = \"r\"\n"),
+                HasSubstr("have no `over`"));
+}
+
 TEST_F(RecordRunTest, records_stay_in_the_folder_of_the_study) {
     testing::TemporaryFolder elsewhere;
     elsewhere.write("a.csv", waves(2, 1));
