@@ -265,6 +265,11 @@ AskedFor asked_for(const RunArguments& arguments) {
     AskedFor result;
     if (is_shipped || !from_results) {
         result.study = load_study_with(parameter_values(arguments.set), arguments.study);
+        std::vector<std::string> models;
+        for (const StudyRun& run : result.study.runs)
+            if (!run.model.name.empty() && std::find(models.begin(), models.end(), run.model.name) == models.end())
+                models.push_back(run.model.name);
+        require_models_of_files(arguments.set, models);
         const std::string own = result.study.set.empty() ? "" : "-" + text_of(result.study.set);
         result.folder = arguments.folder.empty() ? result.study.name + own : arguments.folder;
     } else {

@@ -40,14 +40,19 @@ Assignment parse_assignment(const std::string& item, const std::string& option) 
     return result;
 }
 
+void require_model(const ParameterFile& file, const std::vector<std::string>& models) {
+    if (!file.model.empty() && std::find(models.begin(), models.end(), file.model) == models.end())
+        throw InputError(file.places.at("model"),
+                         fmt::format("these values were found for the model '{}', not for '{}'", file.model,
+                                     fmt::join(models, "', '")),
+                         "give those of this model, or leave out the line that names it");
+}
+
 /// What a file of parameters has for an option. @param model the one that is used; null: not known yet
 std::vector<Assignment> assignments_in(const std::string& path, const std::string& option, const Model* model) {
     const ParameterFile file = read_parameter_file(path);
-    if (model != nullptr && !file.model.empty() && file.model != model->name)
-        throw InputError(
-            file.places.at("model"),
-            fmt::format("these values were found for the model '{}', not for '{}'", file.model, model->name),
-            "give those of this model, or leave out the line that names it");
+    if (model != nullptr)
+        require_model(file, {model->name});
     const std::string table = option.substr(2); // "--set", "--from"
     std::vector<Assignment> all;
     for (const auto& [name, value] : table == "set" ? file.set : file.from) {
@@ -147,6 +152,12 @@ std::vector<std::pair<std::string, double>> parameter_values(const std::vector<s
     for (const Assignment& assignment : all_assignments(assignments, "--set", nullptr))
         values.emplace_back(assignment.name, value_of_text(Model(), assignment.text, assignment.place));
     return values;
+}
+
+void require_models_of_files(const std::vector<std::string>& assignments, const std::vector<std::string>& models) {
+    for (const std::string& item : split_list(assignments))
+        if (item.starts_with('@'))
+            require_model(read_parameter_file(item.substr(1)), models);
 }
 
 void set_initial_state(Model& model, const std::vector<std::string>& assignments) {

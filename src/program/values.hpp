@@ -29,6 +29,9 @@ void set_parameters(Model& model, const std::vector<std::string>& assignments);
 /// Names and values of `--set NAME=NUMBER ...` for models that are not known yet: expressions without names.
 /// @throws InputError
 std::vector<std::pair<std::string, double>> parameter_values(const std::vector<std::string>& assignments);
+/// @param models names of those that are used. @throws InputError if `@FILE` among the assignments was found for
+/// another
+void require_models_of_files(const std::vector<std::string>& assignments, const std::vector<std::string>& models);
 /// Carries out `--from STATE=EXPRESSION ...`, with `@FILE` likewise. @throws InputError
 void set_initial_state(Model& model, const std::vector<std::string>& assignments);
 /// What `--disturbance STATE=EXPRESSION ...` adds to each state of the model; empty without any. @throws InputError

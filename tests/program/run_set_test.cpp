@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 namespace graze::testing {
 
@@ -92,6 +93,10 @@ TEST_F(RunSet, RefusesWhatHasNoEffect) {
         EXPECT_THAT(printed.err, HasSubstr(";"));
         EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
     }
+    std::ofstream(folder / "found.toml") << "model = \"another\"\n[set]\nk = 2\n";
+    const Printed foreign = run({"--set", "@" + (folder / "found.toml")});
+    EXPECT_EQ(foreign.code, 2);
+    EXPECT_THAT(foreign.err, HasSubstr("found.toml:1:1: these values were found for the model 'another', not for '"));
     const Printed results = run_graze({"run", folder / "a", "--set", "k=2"});
     EXPECT_EQ(results.code, 2);
     EXPECT_THAT(results.err, HasSubstr("name the study instead of its results"));
