@@ -67,7 +67,7 @@ void lanes(benchmark::State& state, double tolerance, double voltage, double spr
     };
     run_lanes(0);
     run_in_turn(0);
-    Duel duel;
+    Duel duel(Clock::processor);
     for (auto unused : state)
         state.SetIterationTime(duel.round([&] { run_lanes(periods); }, [&] { run_in_turn(periods); }));
     if (!side_by_side.same_states(in_turn))

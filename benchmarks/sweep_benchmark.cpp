@@ -72,7 +72,7 @@ void diagram(benchmark::State& state, std::size_t lyapunov_cycles) {
     model.set_parameter("V0", 4.95);
     const Simulation simulation(model);
     Totals totals;
-    Duel duel;
+    Duel duel(Clock::processor);
     for (auto unused : state)
         state.SetIterationTime(duel.round([&] { totals = run_all(plan, *searches, 1); },
                                           [&] {
@@ -104,7 +104,7 @@ void lanes(benchmark::State& state) {
     const StudyRun run = chains_run(16);
     const Plan plan = plan_of(run, run.model, nullptr);
     const auto searches = searches_of(run);
-    Duel duel;
+    Duel duel(Clock::processor);
     for (auto unused : state)
         state.SetIterationTime(duel.round([&] { run_all(plan, *searches, 1); },
                                           [&] {
@@ -127,7 +127,7 @@ void writing(benchmark::State& state) {
     const Plan plan = plan_of(study.runs[0], study.runs[0].model, nullptr);
     const auto searches = searches_of(study.runs[0]);
     const auto folder = std::filesystem::temp_directory_path() / ("graze-benchmark-" + std::to_string(getpid()));
-    Duel duel;
+    Duel duel(Clock::processor);
     for (auto unused : state)
         state.SetIterationTime(duel.round(
             [&] {

@@ -64,7 +64,7 @@ void period_3_orbit(benchmark::State& state, double tolerance) {
         state.SkipWithError("graze and odeint do not follow the same orbit");
         return;
     }
-    Duel duel;
+    Duel duel(Clock::processor);
     for (auto unused : state)
         state.SetIterationTime(duel.round([&] { own.run(periods); }, [&] { peer.run(periods); }));
     state.counters["periods_per_second"] = periods / duel.own();
@@ -89,7 +89,7 @@ void extra(benchmark::State& state, const SimulationOptions& options, const std:
             seeds[d * inputs + d] = 1;
         more.trajectory().carry_tangents(seeds, directions);
     }
-    Duel duel;
+    Duel duel(Clock::processor);
     for (auto unused : state)
         state.SetIterationTime(duel.round([&] { more.run(periods); }, [&] { plain.run(periods); }));
     state.counters["periods_per_second"] = periods / duel.own();

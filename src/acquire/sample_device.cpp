@@ -38,6 +38,9 @@ TextSampleDevice::TextSampleDevice(InstrumentLine& line, double timeout, std::fu
     } catch (const InputError&) {
         refuse(channels, "the names of its channels");
     }
+    for (const Channel& channel : header_.channels) // of a line with other separators
+        if (channel.name.find_first_of(",;") != std::string::npos)
+            refuse(channels, "the names of its channels, separated by commas,");
 }
 
 void TextSampleDevice::refuse(const std::string& line, const char* wanted) const {

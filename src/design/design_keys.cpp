@@ -7,7 +7,8 @@ namespace graze {
 void require_design_key(const TomlReader& reader, const TomlEntry& entry) {
     reader.require_known(entry, "",
                          {"name", "text", "source", "model", "control", "set", "approach", "trip", "points", "planes",
-                          "dimensions", "yield", "adjustable", "wanted", "device", "process", "wafer", "rules", "spread"});
+                          "dimensions", "yield", "adjustable", "wanted", "device", "process", "wafer", "rules",
+                          "spread"});
 }
 
 std::string beside(const std::string& file, const std::string& path) {

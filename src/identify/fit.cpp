@@ -160,7 +160,7 @@ private:
         constexpr double same = 0.01; // of logarithms of likelihoods
         Way best = way_here(pass(false, fit));
         const double usual = usual_length();
-        bool again = best.contacts > 0 || !std::isfinite(best.unlikelihood);
+        bool again = best.contacts > 0 || !best.noise_alone;
         for (int round = 1; again && round < most_passes && !best.exact && !best.report.interrupted; ++round) {
             restore(best);
             if (round > 1)
@@ -169,7 +169,7 @@ private:
             if (other.report.interrupted)
                 return other;
             const double better = best.unlikelihood - other.unlikelihood;
-            again = !best.noise_alone || !(std::abs(better) <= same);
+            again = !(std::abs(better) <= same) || (best.contacts > 0 && !best.noise_alone);
             if (better > 0)
                 best = std::move(other);
         }

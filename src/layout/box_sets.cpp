@@ -17,10 +17,10 @@ planar::rectangle_data<Coordinate> rectangle(const GridBox& box) {
             static_cast<Coordinate>(box.top)};
 }
 
-BoxSet set_of(std::span<const GridBox> boxes) {
+BoxSet set_of(std::span<const GridBox> boxes, const GridBox& clip) {
     BoxSet set;
     for (const GridBox& box : boxes)
-        if (box.width() > 0 && box.height() > 0)
+        if (box.width() > 0 && box.height() > 0 && box.meets(clip))
             set.insert(rectangle(box));
     return set;
 }
@@ -48,8 +48,8 @@ std::vector<GridPolygon> outlines(std::span<const GridBox> boxes, std::span<cons
                                   const GridBox& clip) {
     using planar::operators::operator-=;
     using planar::operators::operator&=;
-    BoxSet set = set_of(boxes);
-    const BoxSet taken = set_of(without);
+    BoxSet set = set_of(boxes, clip);
+    const BoxSet taken = set_of(without, clip);
     set -= taken;
     const auto window = rectangle(clip);
     set &= window;

@@ -109,8 +109,8 @@ public:
             drawing.stops.push_back(polygon_of(one.moved(centre)));
         const Span channel_span(d_->channel_width);
         const GridBox channel{window_[0].right + centre.x, channel_span.low, drawing.die.right, channel_span.high};
-        drawing.etched = drawn(window_, stays_, centre, channel, drawing.die, 0);
-        drawing.chambers = drawn(window_, base_, centre, channel, drawing.die, margin);
+        drawing.etched = drawn(window_, stays_, centre, channel, drawing.die, 0, openings(drawing.flexure, centre));
+        drawing.chambers = drawn(window_, base_, centre, channel, drawing.die, margin, {});
     }
 
 private:
@@ -153,6 +153,24 @@ private:
         stays_.insert(stays_.end(), stops_.begin(), stops_.end());
     }
 
+    /// Where trenches of a notch open towards the frame. What goes on beyond is cut there: polygons that touch have
+    /// their corners in common, and no crack opens where a device is turned and its corners are rounded.
+    static std::vector<std::int64_t> openings(const FlexureDrawing& flexure, GridPoint centre) {
+        std::vector<std::int64_t> all;
+        const auto add = [&](std::int64_t x) {
+            if (x != flexure.notch.left && x != flexure.notch.right)
+                all.push_back(x + centre.x);
+        };
+        for (const std::vector<GridBox>* boxes : {&flexure.trusses, &flexure.lugs})
+            for (const GridBox& box : *boxes)
+                if (box.top == flexure.notch.top) {
+                    add(box.left);
+                    add(box.right);
+                }
+        std::sort(all.begin(), all.end());
+        return all;
+    }
+
     static std::vector<GridBox> moved(std::vector<GridBox> boxes, GridPoint by) {
         for (GridBox& box : boxes)
             box = box.moved(by);
@@ -169,16 +187,26 @@ private:
 
     /// What is etched: windows and channel, grown by a margin, without what stays. In two halves, for polygons to have
     /// no holes: whatever stays within reaches over the line y = 0, or is joined to what does.
+    /// @param cuts where they are cut along y, too, in coordinates of the die
     static std::vector<GridPolygon> drawn(const std::vector<GridBox>& windows, const std::vector<GridBox>& stays,
-                                          GridPoint centre, GridBox channel, const GridBox& die, std::int64_t margin) {
+                                          GridPoint centre, GridBox channel, const GridBox& die, std::int64_t margin,
+                                          std::vector<std::int64_t> cuts) {
         std::vector<GridBox> all = moved(windows, centre);
         for (GridBox& one : all)
             one = one.grown(margin, margin);
         all.push_back(channel.grown(0, margin));
         const std::vector<GridBox> without = moved(stays, centre);
-        std::vector<GridPolygon> result = outlines(all, without, {die.left, 0, die.right, die.top});
-        const std::vector<GridPolygon> lower = outlines(all, without, {die.left, die.bottom, die.right, 0});
-        result.insert(result.end(), lower.begin(), lower.end());
+        cuts.push_back(die.right);
+        std::vector<GridPolygon> result;
+        for (const bool is_upper : {true, false}) {
+            std::int64_t from = die.left;
+            for (const std::int64_t to : cuts) {
+                const GridBox part{from, is_upper ? 0 : die.bottom, to, is_upper ? die.top : 0};
+                const std::vector<GridPolygon> found = outlines(all, without, part);
+                result.insert(result.end(), found.begin(), found.end());
+                from = to;
+            }
+        }
         return result;
     }
 

@@ -114,12 +114,6 @@ void DeviceFileReader::read_process(const TomlEntry& entry) {
             !read_quantity_field(reader_, condition_fields(), item, result_.conditions))
             fail_unknown(item, entry.path, names_of_process());
     });
-    const ProcessData& process = result_.process;
-    if (!(process.chamber_depth < process.wafer_thickness))
-        throw InputError(result_.place("process.chamber_depth"),
-                         fmt::format("the chambers, {} um deep, leave nothing of the wafer, which is {} um thick",
-                                     process.chamber_depth, process.wafer_thickness),
-                         "give a smaller chamber_depth");
 }
 
 void DeviceFileReader::read_rules(const TomlEntry& entry) {
@@ -148,7 +142,7 @@ void DeviceFileReader::read_vary(const TomlEntry& entry) {
         if (items.empty() || items.size() > most_values)
             reader_.fail(item, fmt::format("{} has {} values", item.path, items.size()),
                          fmt::format("give from 1 to {}", most_values));
-        auto& [name, values] = result_.wafer.vary.emplace_back(item.name, std::vector<double>());
+        std::vector<double>& values = result_.wafer.vary.emplace_back(item.name, std::vector<double>()).second;
         reader_.each(items, [&](const TomlEntry& one) {
             values.push_back(folds ? static_cast<double>(reader_.count(one, 1, most_folds))
                                    : length(one, field->may_be_zero));
@@ -192,7 +186,8 @@ bool DeviceFileReader::take_condition(const std::string& name, double value, con
 }
 
 void DeviceFileReader::take(const std::pair<std::string, double>& given) {
-    const auto& [name, value] = given;
+    const std::string& name = given.first;
+    const double value = given.second;
     const Place place{"--set " + name, 0, 0};
     const auto set = [&](auto fields, auto& section, const std::string& bare) {
         const auto* field = field_named(fields, bare);
@@ -224,6 +219,15 @@ void DeviceFileReader::take(const std::pair<std::string, double>& given) {
         known.emplace_back("folds");
         throw InputError(place, fmt::format("a device has no dimension '{}'", name), study_name_remedy(name, known));
     }
+}
+
+void DeviceFileReader::require_layer() const {
+    const ProcessData& process = result_.process;
+    if (!(process.chamber_depth < process.wafer_thickness))
+        throw InputError(result_.place("process.chamber_depth"),
+                         fmt::format("the chambers, {} um deep, leave nothing of the wafer, which is {} um thick",
+                                     process.chamber_depth, process.wafer_thickness),
+                         "give a smaller chamber_depth");
 }
 
 DeviceFile DeviceFileReader::read(const toml::table& root, const GivenLengths& given) {
@@ -266,6 +270,7 @@ DeviceFile DeviceFileReader::read(const toml::table& root, const GivenLengths& g
     for (const auto& one : given)
         mistakes_.attempt([&] { take(one); });
     mistakes_.throw_noted();
+    require_layer();
     return std::move(result_);
 }
 

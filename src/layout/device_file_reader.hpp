@@ -28,6 +28,7 @@ private:
     void read_vary(const TomlEntry& entry);
     bool take_condition(const std::string& name, double value, const Place& place);
     void take(const std::pair<std::string, double>& given);
+    void require_layer() const;
 
     StudyReader reader_;
     DeviceFile result_;

@@ -144,7 +144,7 @@ SpringProperties properties_of(const FoldedSpring& spring) {
     require_positive(spring.spacing, "distance between the flexures after the etch");
     require_positive(spring.half_middle, "distance of the flexures from the middle after the etch");
     require_positive(spring.height, "height of the flexures");
-    require_positive(spring.modulus, "Young's modulus");
+    require_positive(spring.modulus, "Young's modulus", "Pa");
     const Chain chain = chain_of(spring);
     const Load loads = chain.compliance().ldlt().solve(Load::UnitX());
     const double length = spring.beam_length, inertia = spring.beam_width.mean_cube() / 12;

@@ -159,8 +159,10 @@ LumpedModel lumped_model_of(const DeviceDrawing& drawing, const DeviceFile& file
     try {
         return lumped_model_of(drawing, file.process, file.conditions);
     } catch (const InputError& error) {
-        throw InputError(file.place(file.places.contains("process.bias") ? "process.bias" : "process"), error.problem(),
-                         error.remedy());
+        const ProcessConditions& conditions = file.conditions;
+        const double by_taper = conditions.wall().slope * file.process.layer_thickness();
+        throw InputError(file.place(std::abs(by_taper) > std::abs(conditions.bias) ? "process.taper" : "process.bias"),
+                         error.problem(), error.remedy());
     }
 }
 

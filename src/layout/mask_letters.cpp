@@ -71,26 +71,17 @@ const Glyph* glyph_of(char letter) {
     return found == std::end(glyphs) ? nullptr : found;
 }
 
-/// Runs of squares in a row, which grow downwards while the rows below have the same.
+/// Square by square: all corners that touch an edge are the ends of one, so that no crack opens where letters are
+/// turned and their corners are rounded.
 void add_boxes(const Glyph& glyph, std::int64_t left, std::int64_t square, std::vector<GridBox>& boxes) {
-    const std::size_t first = boxes.size();
     for (std::int64_t row = 0; row < letter_rows; ++row) {
         const std::string_view squares = glyph.rows[static_cast<std::size_t>(row)];
-        const std::int64_t top = (letter_rows - row) * square, bottom = top - square;
-        for (std::size_t from = squares.find('#'); from != std::string_view::npos;) {
-            const std::size_t to = std::min(squares.find(' ', from), squares.size());
-            const GridBox run{left + static_cast<std::int64_t>(from) * square, bottom,
-                              left + static_cast<std::int64_t>(to) * square, top};
-            const auto above =
-                std::find_if(boxes.begin() + static_cast<std::ptrdiff_t>(first), boxes.end(), [&](const GridBox& one) {
-                    return one.left == run.left && one.right == run.right && one.bottom == run.top;
-                });
-            if (above != boxes.end())
-                above->bottom = bottom;
-            else
-                boxes.push_back(run);
-            from = squares.find('#', to);
-        }
+        const std::int64_t top = (letter_rows - row) * square;
+        for (std::int64_t column = 0; column < letter_columns; ++column)
+            if (squares[static_cast<std::size_t>(column)] == '#') {
+                const std::int64_t from = left + column * square;
+                boxes.push_back({from, top - square, from + square, top});
+            }
     }
 }
 

@@ -10,21 +10,15 @@
 namespace graze {
 
 /// @throws InputError unless it is positive and finite
-inline void require_positive(double value, std::string_view what) {
+inline void require_positive(double value, std::string_view what, std::string_view unit = "m") {
     if (!(value > 0 && std::isfinite(value)))
-        throw InputError(fmt::format("the {} is {}", what, value), "it must be positive and finite");
+        throw InputError(fmt::format("the {} is {:.6g} {}", what, value, unit), "it must be positive and finite");
 }
 
 /// @throws InputError unless it is finite and not negative
-inline void require_not_negative(double value, std::string_view what) {
+inline void require_not_negative(double value, std::string_view what, std::string_view unit = "m") {
     if (!(value >= 0 && std::isfinite(value)))
-        throw InputError(fmt::format("the {} is {}", what, value), "it must be finite and not negative");
-}
-
-/// @throws InputError for NaN and infinities
-inline void require_number(double value, std::string_view what) {
-    if (!std::isfinite(value))
-        throw InputError(fmt::format("the {} is {}", what, value), "it must be finite");
+        throw InputError(fmt::format("the {} is {:.6g} {}", what, value, unit), "it must be finite and not negative");
 }
 
 } // namespace graze

@@ -13,8 +13,8 @@ namespace {
 constexpr double standard_atmosphere = 101325; // Pa
 
 void require_gas(const Gas& gas) {
-    require_positive(gas.pressure, "pressure of the gas");
-    require_positive(gas.viscosity, "viscosity of the gas");
+    require_positive(gas.pressure, "pressure of the gas", "Pa");
+    require_positive(gas.viscosity, "viscosity of the gas", "Pa s");
     require_positive(gas.mean_free_path, "mean free path of the gas");
 }
 
@@ -75,13 +75,13 @@ double squeeze_film_damping(const GasFilm& film, const Gas& gas) {
 
 double squeeze_number(const GasFilm& film, const Gas& gas, double angular_frequency) {
     require_film(film);
-    require_positive(angular_frequency, "angular frequency");
+    require_positive(angular_frequency, "angular frequency", "rad/s");
     const double side = std::min(film.height, film.length) / film.gap.mean();
     return 12 * effective_viscosity(gas, film.gap.mean()) * angular_frequency * (side / gas.pressure) * side;
 }
 
 double sliding_film_damping(double area, double gap, const Gas& gas) {
-    require_positive(area, "area of the plate");
+    require_positive(area, "area of the plate", "m^2");
     return effective_viscosity(gas, gap) * (area / gap);
 }
 

@@ -190,6 +190,12 @@ private:
                     "give a shorter label or a smaller label_height");
     }
 
+    /// As the die's own part of the channel is, for corners to be in common.
+    static void add_halves(LayoutCell& cell, MaskLayer layer, const GridBox& box) {
+        cell.add(layer, GridBox{box.left, 0, box.right, box.top});
+        cell.add(layer, GridBox{box.left, box.bottom, box.right, 0});
+    }
+
     void add_site(std::size_t i) {
         const DeviceDrawing& device = device_at(i);
         const DeviceDimensions& d = device.dimensions;
@@ -197,8 +203,8 @@ private:
         site.name = fmt::format("SITE_{}", i + 1);
         site.references.push_back({layout_.devices[layout_.sites[i]].cell, {}, false, 0});
         if (const GridBox channel = channel_of(device, 0); channel.width() > 0) {
-            site.add(mask_layers::front, channel);
-            site.add(mask_layers::back, channel_of(device, nanometres(d.chamber_margin)));
+            add_halves(site, mask_layers::front, channel);
+            add_halves(site, mask_layers::back, channel_of(device, nanometres(d.chamber_margin)));
         }
         const std::int64_t edge = edge_distance(d), letters = nanometres(d.label_height);
         if (letters > 0)

@@ -62,7 +62,6 @@ public:
         yield.jobs = settings_->jobs;
         yield.interrupted = settings_->interrupted;
         yield.progress = settings_->progress;
-        yield.solver.map = true;
         yield.solved = [this](std::size_t i, const LocatedSolution& solution) {
             classify(result_.devices[i], solution);
         };
@@ -197,6 +196,9 @@ private:
 
 Design design_of_device(const Design& design, const DeviceFile& file) {
     Design result = design;
+    result.dimensions.clear(); // from which the designer may choose: this device is what it is
+    result.planes.clear();
+    result.adjustable.reset();
     const auto set = [&](const std::string& name, double value) {
         result.model.set_parameter(name, value);
         std::erase_if(result.set, [&](const auto& one) { return one.first == name; });

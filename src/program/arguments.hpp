@@ -130,7 +130,10 @@ struct DesignArguments {
 };
 
 struct LayoutArguments {
-    std::string design, file, picture, parameters, recipe;
+    std::string design, file, picture, parameters, recipe, folder;
+    std::optional<std::size_t> yield; ///< wafers
+    std::uint64_t seed = 1;
+    int jobs = 0;
     std::vector<std::string> set;
     std::optional<int> mask;
     bool wafer = false, despite_rules = false;

@@ -5,6 +5,7 @@
 #include "program/design_page.hpp"
 #include "program/figure.hpp"
 #include "program/interrupt.hpp"
+#include "program/json_rows.hpp"
 #include "program/output_file.hpp"
 #include "program/process.hpp"
 #include "program/status_line.hpp"
@@ -24,19 +25,6 @@ namespace graze {
 
 namespace {
 
-std::vector<JsonObject> rows_of(const Table& table) {
-    std::vector<JsonObject> rows;
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-        JsonObject& object = rows.emplace_back();
-        for (std::size_t column = 0; column < table.columns().size(); ++column)
-            if (table.is_text(row, column))
-                object.add(table.columns()[column].name, table.text(row, column));
-            else if (!table.is_missing(row, column))
-                object.add(table.columns()[column].name, table.number(row, column));
-    }
-    return rows;
-}
-
 /// Everything but the long tables, which have files of their own.
 std::string json_of(const Design& design, const std::vector<NamedTable>& tables) {
     JsonObject report;
@@ -46,7 +34,7 @@ std::string json_of(const Design& design, const std::vector<NamedTable>& tables)
     report.add("control", design.control);
     for (const NamedTable& table : tables)
         if (!table.name.starts_with("plane-") && table.name != "devices")
-            report.add(table.name, rows_of(table.table));
+            report.add(table.name, json_rows(table.table));
     return "{" + report.members() + "}\n";
 }
 

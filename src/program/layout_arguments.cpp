@@ -18,7 +18,8 @@ constexpr const char* layout_examples = R"(Examples:
   graze layout mine.toml --set stop_gap=7.5 --set folds=2
   graze layout mine.toml --wafer --mask 1 --output mask1.gds        one mask alone
   graze layout mine.toml --set bias=0.4 --parameters etched.toml
-  graze simulate mems-switch-device --set @etched.toml --time 6     moves as it would)";
+  graze simulate mems-switch-device --set @etched.toml --time 6     moves as it would
+  graze layout mems-switch-device --yield 25 --folder wafers)";
 
 } // namespace
 
@@ -44,6 +45,16 @@ void declare_layout_command(CLI::App& app, Arguments& arguments) {
                    "Write how it is made, step by step (Markdown)");
     command.add_flag("--despite-rules", layout.despite_rules, "Write files although a rule of [rules] is broken")
         ->group("Where results go");
+    const char* group = "Wafers of devices";
+    declare_option(command, group, "--yield", layout.yield, "N",
+                   "Make N wafers with the spread of [spread]: which device trips where, in a folder")
+        ->check(whole_number(1, 100'000));
+    declare_option(command, group, "--folder", layout.folder, "FOLDER",
+                   "Made if need be (the design's name and -wafers)");
+    declare_option(command, group, "--seed", layout.seed, "N", "Of what is drawn (1)");
+    declare_option(command, group, "--jobs", layout.jobs, "N",
+                   "Threads (one for each core); results do not depend on them")
+        ->check(whole_number(1, 1024));
     declare_digits(command, layout.output);
 }
 

@@ -6,6 +6,7 @@
 #include "program/commands.hpp"
 #include "program/layout_model.hpp"
 #include "program/layout_picture.hpp"
+#include "program/layout_yield.hpp"
 #include "program/output_file.hpp"
 #include "program/picture.hpp"
 #include "program/values.hpp"
@@ -119,6 +120,10 @@ int layout_command(const LayoutArguments& arguments, const Console& console) {
         if (!arguments.mask)
             add_masks(layout);
         write_file(path, gds_stream(arguments.mask ? mask_library(layout, *arguments.mask) : layout.library));
+    }
+    if (arguments.yield) {
+        const int code = layout_yield(arguments, file, arguments.wafer ? layout : draw_wafer_layout(file), console);
+        return code == exit_success && !ruled ? exit_irregular : code;
     }
     JsonObject heading;
     heading.add("design", file.name);

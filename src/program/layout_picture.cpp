@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -254,7 +255,23 @@ private:
         fill({mask_layers::back_letters, "#bbaacc"});
         outline(mask_layers::die, "#999999");
         outline(mask_layers::wafer, "#444444");
+        number_devices();
         end_panel();
+    }
+
+    /// Beside their dies, towards the middle of the wafer.
+    void number_devices() {
+        const std::vector<const GridPolygon*>& dies = by_layer_[mask_layers::die];
+        for (std::size_t i = 0; i < dies.size(); ++i) {
+            const GridBox box = bounding_box(*dies[i]);
+            const double x = static_cast<double>(box.left + box.right) / 2 / grid_per_micrometre;
+            const double y = static_cast<double>(box.bottom + box.top) / 2 / grid_per_micrometre;
+            const double size = static_cast<double>(box.width()) / grid_per_micrometre, from = std::hypot(x, y);
+            const double inwards = from > 0 ? 1 - (size / 2 + letter * scale_) / from : 1;
+            if (size > 2 * letter * scale_) // smaller ones would be covered
+                commands_ +=
+                    fmt::format("set label \"{}\" at {:.10g},{:.10g} center front\n", i + 1, x * inwards, y * inwards);
+        }
     }
 
     const Layout* layout_;

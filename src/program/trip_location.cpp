@@ -26,7 +26,8 @@ bool follow(const Study& study, ResultFile& file, const DesignReportOptions& opt
 
 } // namespace
 
-std::optional<TripPoint> locate_trip(const Design& design, const std::string& path, const DesignReportOptions& options) {
+std::optional<TripPoint> locate_trip(const Design& design, const std::string& path,
+                                     const DesignReportOptions& options) {
     const Study study = approach_study(design);
     ResultFile file(path, ResultFile::Access::write);
     if (!follow(study, file, options))

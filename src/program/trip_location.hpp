@@ -8,8 +8,8 @@
 
 namespace graze {
 
-/// Does something with a design; what is wrong with the device that it asks for, and has no place of its own, is said of
-/// its file.
+/// Does something with a design; what is wrong with the device that it asks for, and has no place of its own, is said
+/// of its file.
 template <class Work>
 auto said_of(const Design& design, const Work& work) {
     try {

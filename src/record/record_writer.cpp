@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/input_error.hpp"
 #include "graze/symbolic/require.hpp"
+#include "graze/symbolic/trimmed.hpp"
 #include "record/hdf5_handle.hpp"
 
 #include <fmt/format.h>
@@ -35,10 +36,22 @@ std::string titled(const Channel& channel) {
     return channel.unit.empty() ? channel.name : fmt::format("{} [{}]", channel.name, channel.unit);
 }
 
+/// A name that would be read back as another one, or as two.
+void require_column(const Channel& channel) {
+    const bool splits = channel.name.find_first_of(",;\t\n\r[]") != std::string::npos || channel.name.empty() ||
+                        channel.name.find_first_of("#%") == 0 || trimmed(channel.name) != channel.name;
+    if (splits || channel.unit.find_first_of("[]\n\r") != std::string::npos)
+        throw InputError(fmt::format("channel '{}' cannot be a column of text", titled(channel)),
+                         "give it a name without commas, semicolons and brackets, or write HDF5 (.h5)");
+}
+
 class TextTarget : public RecordWriter::Target {
 public:
-    TextTarget(const std::string& path, const RecordHeader& header)
-        : path_(path), file_(std::fopen(path.c_str(), "wb"), std::fclose) {
+    TextTarget(const std::string& path, const RecordHeader& header) : path_(path), file_(nullptr, std::fclose) {
+        require_column(header.time);
+        for (const Channel& channel : header.channels)
+            require_column(channel);
+        file_.reset(std::fopen(path.c_str(), "wb"));
         if (!file_)
             refuse(path);
         text_ = titled(header.time);

@@ -10,6 +10,7 @@
 
 #include "tape/kernel_table.hpp"
 #include "tape/lane_numbers.hpp"
+#include "tape/sine_and_cosine.hpp"
 
 #include <type_traits>
 #include <utility>

@@ -75,6 +75,25 @@ GRAZE_INLINE Pack with_first(Pack first, Pack others) {
 #endif
 }
 
+/// The sign bits cleared.
+GRAZE_INLINE Pack absolute(Pack a) {
+    typedef long long Bits __attribute__((vector_size(8 * lanes)));
+    return __builtin_bit_cast(Pack, __builtin_bit_cast(Bits, a) & 0x7fffffffffffffff);
+}
+/// Lanes in which not a <= b, as bits.
+GRAZE_INLINE unsigned lanes_above(Pack a, Pack b) {
+#if defined(__AVX512F__)
+    return _mm512_cmp_pd_mask(a, b, _CMP_NLE_UQ);
+#elif defined(__FMA__)
+    return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_NLE_UQ)));
+#else
+    unsigned bits = 0;
+    for (int lane = 0; lane < lanes; ++lane)
+        bits |= a[lane] <= b[lane] ? 0U : 1U << lane;
+    return bits;
+#endif
+}
+
 template <class V, class Function>
 GRAZE_INLINE V for_parts(Function&& function) {
     V result;
@@ -281,25 +300,6 @@ template <Operation function>
 inline Tangent evaluate(Tangent a) {
     const double value = value_of<function>(a.part[0][0]);
     return along(value, slope_of<function>(a.part[0][0], value), a);
-}
-
-inline void evaluate_sine_and_cosine(double a, double& sine, double& cosine) {
-    sine = ::sin(a);
-    cosine = ::cos(a);
-}
-inline void evaluate_sine_and_cosine(Ensemble a, Ensemble& sine, Ensemble& cosine) {
-    for (int i = 0; i < Ensemble::parts; ++i)
-        for (int lane = 0; lane < lanes; ++lane) {
-            const double argument = a.part[i][lane];
-            sine.part[i][lane] = ::sin(argument);
-            cosine.part[i][lane] = ::cos(argument);
-        }
-}
-inline void evaluate_sine_and_cosine(Tangent a, Tangent& sine, Tangent& cosine) {
-    const double s = ::sin(a.part[0][0]);
-    const double c = ::cos(a.part[0][0]);
-    sine = along(s, c, a);
-    cosine = along(c, -s, a);
 }
 
 inline double power(double a, double exponent) {

@@ -23,11 +23,6 @@ using Plain = typename PlainNumbers<V>::Type;
 GRAZE_INLINE double absolute(double a) {
     return __builtin_fabs(a);
 }
-/// The sign bits cleared.
-GRAZE_INLINE Pack absolute(Pack a) {
-    typedef long long Bits __attribute__((vector_size(8 * lanes)));
-    return __builtin_bit_cast(Pack, __builtin_bit_cast(Bits, a) & 0x7fffffffffffffff);
-}
 GRAZE_INLINE double lesser(double a, double b) {
     return b < a ? b : a;
 }

@@ -7,19 +7,6 @@
 
 namespace graze::GRAZE_INSTRUCTION_SET {
 
-/// Lanes in which not a <= b, as bits.
-GRAZE_INLINE unsigned lanes_above(Pack a, Pack b) {
-#if defined(__AVX512F__)
-    return _mm512_cmp_pd_mask(a, b, _CMP_NLE_UQ);
-#elif defined(__FMA__)
-    return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_NLE_UQ)));
-#else
-    unsigned bits = 0;
-    for (int lane = 0; lane < lanes; ++lane)
-        bits |= a[lane] <= b[lane] ? 0U : 1U << lane;
-    return bits;
-#endif
-}
 template <int n>
 GRAZE_INLINE unsigned lanes_above(Packs<n> a, Packs<n> b) {
     unsigned bits = 0;

@@ -52,6 +52,7 @@ TEST(SampleDevice, RefusesWhatIsNoneOfIt) {
         {"CHANNELS", "", "has not answered for 0.02 s"},
         {"CHANNELS", "t", "in the place of the names of its channels"},
         {"CHANNELS", "ERROR no board", "says: no board"},
+        {"CHANNELS", "t [s]; x, y [V]", "in the place of the names of its channels, separated by commas"},
         {"RATE 10", "OK 11", "takes 11 samples in a second instead of 10"},
         {"RATE 10", "OK ten", "says 'OK ten' in the place of 'OK' and its rate"},
         {"RATE 10", "OK nan", "takes nan samples"},

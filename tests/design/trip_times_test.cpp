@@ -2,7 +2,11 @@
 
 #include "graze/design/trip_times.hpp"
 
+#include "graze/symbolic/input_error.hpp"
+
 #include "switches.hpp"
+
+#include <gmock/gmock.h>
 
 namespace graze::testing {
 

@@ -182,7 +182,7 @@ void expect_found_with_slow_impacts(std::uint64_t seed, double factor) {
     motion.add_noise(0.005, seed);
     const Fit fit = fit_model(motion.model, motion.task);
     EXPECT_EQ(name_of(fit.ending), "converged") << fit.detail;
-    // Of 4 numbers in some 50 fits, one in sixty would be beyond four errors by chance.
+    // Of 4 numbers in 18 fits one would be beyond four errors by chance in one of 200 such tests.
     for (std::size_t j = 0; j < 4; ++j)
         EXPECT_LE(std::abs(fit.numbers[j].estimate.value - motion.truth(j)), 4 * fit.numbers[j].estimate.error)
             << fit.numbers[j].name << ", seed " << seed << ", guesses " << factor;
@@ -196,10 +196,10 @@ TEST(FitErrors, SlowImpactsAreFound) {
         expect_found_with_slow_impacts(seed, 1);
 }
 
-/// From the true values, and from guesses that are two, five and ten percent off.
+/// From the true values, and from guesses that are ten percent off.
 TEST(FitErrorsSlow, GuessesMakeNoDifference) {
-    for (std::uint64_t seed = 1; seed <= 12; ++seed)
-        for (const double factor : {1.0, 1.02, 1.05, 1.1})
+    for (std::uint64_t seed = 1; seed <= 8; ++seed)
+        for (const double factor : {1.0, 1.1})
             expect_found_with_slow_impacts(seed, factor);
 }
 

@@ -129,13 +129,34 @@ TEST(DeviceDrawing, RefusesWhatDoesNotGoTogether) {
     EXPECT_THAT(with(&DeviceDimensions::stop_gap, 40), HasSubstr("give a stop_gap less than clearance"));
     EXPECT_THAT(with(&DeviceDimensions::channel_width, 3000), HasSubstr("give a narrower channel"));
     EXPECT_THAT(with(&DeviceDimensions::base_inset, 500), HasSubstr("nothing is left of the electrode's base"));
-    EXPECT_THAT(with(&DeviceDimensions::pad_width, 6000), HasSubstr("with its moat takes"));
+    EXPECT_THAT(with(&DeviceDimensions::pad_width, 6000), HasSubstr("with moat and frame takes"));
     EXPECT_THAT(with(&DeviceDimensions::mark_size, 2000), HasSubstr("an alignment mark of 2000 um"));
     EXPECT_THAT(with(&DeviceDimensions::mark_size, 0.01), HasSubstr("too small"));
     EXPECT_THAT(with(&DeviceDimensions::label_height, 600), HasSubstr("for which the die has no room"));
     EXPECT_THAT(with(&DeviceDimensions::label_height, 0.005), HasSubstr("too small"));
     EXPECT_THAT(with(&DeviceDimensions::label_height, 2000), HasSubstr("do not fit beside the chamber"));
     EXPECT_THAT(with(&DeviceDimensions::stop_gap, 39.998), HasSubstr("step that is too small")) << "stops of 2 nm";
+}
+
+/// What a message asks for is enough, to the nanometre.
+TEST(DeviceDrawing, FitsOnTheDieThatAMessageAsksFor) {
+    for (const double length : {1150.0, 1234.567, 877.001}) {
+        DeviceDimensions dimensions;
+        dimensions.flexure_length = length;
+        dimensions.mark_size = dimensions.label_height = 0;
+        const auto asked = [&](const char* key) {
+            const std::string text = message(dimensions), words = std::string(key) + " of at least ";
+            const std::size_t at = text.find(words);
+            return at == std::string::npos ? 0.0 : std::stod(text.substr(at + words.size()));
+        };
+        dimensions.die_width = 1000;
+        dimensions.die_width = asked("die_width");
+        dimensions.die_length = 1000;
+        dimensions.die_length = asked("die_length");
+        EXPECT_EQ(message(dimensions), "") << length;
+        dimensions.die_length -= 0.001;
+        EXPECT_THAT(message(dimensions), HasSubstr("give a smaller pad_length"));
+    }
 }
 
 /// Whatever the dimensions are, all parts are right, or there is a message.

@@ -83,6 +83,7 @@ TEST(DeviceFile, SaysWhatIsWrongAndWhere) {
     EXPECT_THAT(message("", {{"gap", -1}}), HasSubstr("--set gap: gap is -1 um, not positive"));
     EXPECT_THAT(message("", {{"gab", 1}}),
                 HasSubstr("--set gab: a device has no dimension 'gab'; did you mean 'gap'?"));
+    EXPECT_THAT(message("", {{"chamber_depth", 400}}), HasSubstr("--set chamber_depth: the chambers, 400 um deep"));
     EXPECT_THAT(message("", {{"folds", 1.5}}), HasSubstr("give a whole number"));
     EXPECT_THROW(parse_device_file("name = \"one\"\n", "one.toml"), InputError) << "nothing to be drawn";
     EXPECT_THROW(parse_device_file("[device]\n", "one.toml"), InputError) << "no name";

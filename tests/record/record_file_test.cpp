@@ -159,6 +159,23 @@ TEST(RecordFile, WhatIsWrittenIsReadBackBitForBit) {
     }
 }
 
+/// Names that would come back as others.
+TEST(RecordFile, TextTakesOnlyNamesThatItCanGiveBack) {
+    const TemporaryFolder folder;
+    for (const char* name : {"a,b", "a;b", "a\tb", "a [b]", "#a", "", " a"}) {
+        const RecordHeader header{{"t", "s"}, {{name, "V"}}};
+        EXPECT_THROW(RecordWriter(folder / "r.csv", header), InputError) << name;
+        EXPECT_FALSE(std::filesystem::exists(folder / "r.csv"));
+    }
+    RecordWriter writer(folder / "r.h5", {{"t", "s"}, {{"a,b", "V"}}});
+    Samples samples;
+    samples.times = {0, 1};
+    samples.values = {{2, 3}};
+    writer.write(samples);
+    writer.close();
+    EXPECT_EQ(open_record(folder / "r.h5")->header().channels.at(0).name, "a,b");
+}
+
 TEST(RecordFile, DamagedHdf5IsRefused) {
     const TemporaryFolder folder;
     std::ifstream stream(written(folder, "record.h5", 20'000), std::ios::binary);

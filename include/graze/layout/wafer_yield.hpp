@@ -52,7 +52,7 @@ struct WaferYield {
 };
 
 /// The design with the numbers of its drawn and etched device in its model, and the drive beside its frequency if that
-/// is tuned.
+/// is tuned; without dimensions that may be chosen.
 /// @throws InputError for a model that lacks a parameter
 Design design_of_device(const Design& design, const DeviceFile& file);
 

@@ -49,6 +49,11 @@ with open("variants.toml", "w") as design:
     design.write('name = "variants"\n[device]\n[wafer]\ndevices = 5\nvary = { stop_gap = [7, 8.5, 9.001], gap = [15, 14] }\n')
 must("variants", ["variants.toml", "--wafer"])
 
+with open("folded.toml", "w") as design:
+    design.write('name = "folded"\n[device]\nfolds = 3\nelectrode_length = 1999.999\nchannel_width = 200.001\n'
+                 'bar_width = 99.997\n[wafer]\ndevices = 7\n')
+must("folded", ["folded.toml", "--wafer"])
+
 generator = random.Random(16)
 drawn = 0
 for attempt in range(MOST):

@@ -74,6 +74,13 @@ class Drawing:
             merged_region = raw.merged()
             self.expect(merged_region.corners(-179.0, -91.0).is_empty(), f"an acute corner on {layer}/{datatype}")
             self.expect(merged_region.corners(91.0, 179.0).is_empty(), f"an acute corner on {layer}/{datatype}")
+            if datatype < 3 and layer < 3:
+                projection = pya.Region.Projection
+                # Where corners are rounded, no crack of some nanometres may open between polygons that touch. Right angles
+                # that are rounded to a little less are no narrow places.
+                limit = 20
+                self.expect(merged_region.space_check(limit, False, projection, 80).is_empty(), f"a crack on {layer}/{datatype}")
+                self.expect(merged_region.width_check(limit, False, projection, 80).is_empty(), f"a sliver on {layer}/{datatype}")
             if not self.is_wafer:
                 self.expect(raw.non_rectilinear().is_empty(), f"an oblique edge on {layer}/{datatype}")
 

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "graze/layout/wafer_yield.hpp"
+
+#include <optional>
+#include <string>
+
+namespace graze {
+
+/// What a map of wafers is labelled with.
+struct WaferMapLabels {
+    std::string title, control, unit;
+    std::optional<double> least, greatest; ///< trip values that will do: such devices have a ring
+};
+
+/// Where on wafers devices trip, coloured by the trip value; one without has a cross. The first sixteen wafers.
+/// @param ending svg, png or pdf; @param output the file that the commands write
+std::string wafer_map_script(const WaferYield& yield, const WaferPlan& plan, const WaferMapLabels& labels,
+                             const std::string& ending, const std::string& output);
+
+/// @throws InputError when gnuplot is missing or fails, or the file cannot be written
+void draw_wafer_map(const WaferYield& yield, const WaferPlan& plan, const WaferMapLabels& labels,
+                    const std::string& path);
+
+} // namespace graze

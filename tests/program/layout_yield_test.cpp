@@ -1,0 +1,84 @@
+#include "program/layout_yield.hpp"
+
+#include "run_graze.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+namespace graze::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(LayoutModel, WritesParametersThatOtherCommandsTake) {
+    const Folder folder;
+    const std::string file = folder / "etched.toml";
+    ASSERT_EQ(run_graze({"layout", "mems-switch-device", "--set", "bias=0.31", "--parameters", file}).code, 0);
+    EXPECT_THAT(contents(file), HasSubstr("model = \"mems-switch-device\""));
+    const Printed moved = run_graze(
+        {"simulate", "mems-switch-device", "--set", "@" + file, "--set", "f=f0", "--time", "1", "--format", "csv"});
+    EXPECT_EQ(moved.code, 0) << moved.err;
+    // The same text is a device again.
+    const Printed drawn = run_graze({"layout", "mems-switch-device", "--set", "bias=310 nm"});
+    EXPECT_EQ(drawn.code, 2) << "numbers of --set have no units";
+}
+
+TEST(LayoutModel, WritesNothingWhereARuleIsBrokenUnlessAsked) {
+    const Folder folder;
+    const std::string file = folder / "device.gds";
+    const Printed refused = run_graze({"layout", "mems-switch-device", "--set", "flexure_width=4.5", "--output", file});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("rule smallest_line is 4.5 um for a beam, at ("));
+    EXPECT_EQ(folder.files(), 0U);
+    const Printed written =
+        run_graze({"layout", "mems-switch-device", "--set", "flexure_width=4.5", "--output", file, "--despite-rules"});
+    EXPECT_EQ(written.code, 3);
+    EXPECT_THAT(written.err, HasSubstr("graze: rule smallest_line is 4.5 um"));
+    EXPECT_EQ(folder.files(), 1U);
+}
+
+TEST(LayoutModel, RefusesWhatTheEtchTakesAway) {
+    const Printed gone = run_graze({"layout", "mems-switch-device", "--set", "bias=4"});
+    EXPECT_EQ(gone.code, 2);
+    EXPECT_THAT(gone.err, HasSubstr("--set bias: the width of the flexures after the etch is -"));
+}
+
+TEST(LayoutModel, WritesTheRecipe) {
+    const Folder folder;
+    ASSERT_EQ(run_graze({"layout", "mems-switch-device", "--recipe", folder / "recipe.md"}).code, 0);
+    EXPECT_THAT(contents(folder / "recipe.md"), HasSubstr("Etch 50 um deep"));
+}
+
+TEST(LayoutYield, MakesAFolderOfTablesAndMaps) {
+    const Folder folder;
+    const std::string place = folder / "wafers";
+    const std::vector<std::string> words{"layout", "mems-switch-device", "--yield", "2",      "--folder",
+                                         place,    "--format",           "csv",     "--seed", "3"};
+    const Printed printed = run_graze(words);
+    ASSERT_EQ(printed.code, 0) << printed.err;
+    EXPECT_EQ(header(printed.out), "quantity,value,unit,meaning");
+    EXPECT_THAT(printed.out, HasSubstr("\ndevices,16,,"));
+    EXPECT_THAT(printed.out, HasSubstr("\nclass_trips,16,,"));
+    EXPECT_THAT(printed.out, HasSubstr("\ntrip_time_median,"));
+    const std::string devices = contents(place + "/devices.csv");
+    EXPECT_EQ(header(devices), "wafer,site,x,y,more_bias,more_thickness,more_taper,more_stop_gap,m,f0,zeta,area,d,stop,"
+                               "V,class,trip_time");
+    EXPECT_EQ(std::count(devices.begin(), devices.end(), '\n'), 17);
+    EXPECT_TRUE(JsonCheck(contents(place + "/report.json")).valid());
+    const Printed again = run_graze(words);
+    EXPECT_EQ(again.out, printed.out) << "the same devices";
+    EXPECT_EQ(contents(place + "/devices.csv"), devices);
+}
+
+TEST(LayoutYield, SaysWhatItLacks) {
+    const Folder folder;
+    const Printed alike = run_graze({"layout", "mems-switch", "--yield", "2", "--folder", folder / "none"});
+    EXPECT_EQ(alike.code, 2);
+    EXPECT_THAT(alike.err, HasSubstr("no device to be drawn"));
+    EXPECT_EQ(run_graze({"layout", "mems-switch-device", "--yield", "0"}).code, 2);
+    EXPECT_EQ(run_graze({"layout", "mems-switch-device", "--yield", "-3"}).code, 2);
+}
+
+} // namespace
+} // namespace graze::testing
