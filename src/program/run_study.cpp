@@ -119,6 +119,18 @@ std::vector<Table::Column> report_columns() {
     return {{"run", ""}, {"kind", ""}, {"points", ""}, {"computed", ""}, {"seconds", "s"}, {"status", ""}};
 }
 
+/// What a run of kind identify has found, as far as its error is known: not of each record by itself, whose names have
+/// blanks.
+std::string found_by(const std::string& run, const ResultFile& file) {
+    std::string text;
+    for (const EstimateRecord& number : file.estimates(run).numbers)
+        if (number.estimate.freedom > 0 && number.estimate.error > 0 && number.name.find(' ') == std::string::npos)
+            text +=
+                fmt::format("{}{} = {:.6g} +- {:.2g}{}{}", text.empty() ? "" : ", ", number.name, number.estimate.value,
+                            number.estimate.error, number.unit.empty() ? "" : " ", number.unit);
+    return text;
+}
+
 /// For people: "periodic 1330, chaotic 270; up: ..." in the last column, which is broken into lines; besides what fits
 /// into a terminal's width beside it.
 Table table_of(const std::vector<RunReport>& reports, const ResultFile& file) {
@@ -129,8 +141,8 @@ Table table_of(const std::vector<RunReport>& reports, const ResultFile& file) {
         table.add(report.seconds);
         table.add(status_of(report));
         const ListedRun run = listed(report, file);
-        std::string results;
-        for (const auto& [label, count] : run.labels)
+        std::string results = found_by(report.name, file);
+        for (const auto& [label, count] : results.empty() ? run.labels : Counts())
             results += fmt::format("{}{} {}", results.empty() ? "" : ", ", label, count);
         const auto add = [&](const std::string& text) { results += (results.empty() ? "" : "; ") + text; };
         if (!run.remedy.empty())

@@ -58,7 +58,13 @@ bool BenchRecords::take(std::size_t number, const std::function<bool()>& interru
                 fmt::format("the generator of the bench cannot be set to {} = {}", bench_->parameter, level),
                 "levels may be from 1/200 of the largest one up to it; with carry = false any");
     }
-    instrument_->pass(bench_->settle);
+    // In parts as long as those of the samples, so that one can break off.
+    const double stretch = static_cast<double>(part) / bench_->rate;
+    for (double left = bench_->settle; left > 0; left -= stretch) {
+        if (interrupted && interrupted())
+            return false;
+        instrument_->pass(std::min(left, stretch));
+    }
     samples.clear(header_.channels.size());
     Samples some;
     for (auto left = static_cast<std::size_t>(std::llround(bench_->rate * bench_->time)); left > 0;) {

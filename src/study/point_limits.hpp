@@ -17,6 +17,7 @@ constexpr std::size_t most_values = 10'000'000;
 constexpr std::size_t most_cycles = 100'000'000, most_kept_returns = 1'000'000, most_returns_of_orbit = 1000;
 /// Samples of a record that a virtual bench makes, which are in memory.
 constexpr double most_bench_samples = 1e7;
+constexpr double most_bench_records = 1e6;
 /// Steps along a branch, each of which stores an orbit.
 constexpr std::size_t most_branch_steps = 10'000'000;
 /// Grazings of a ladder: each is many steps, and their distances fall below round-off long before.

@@ -98,6 +98,9 @@ void set_levels(const StudyReader& reader, StudyRun& run, const TomlEntry& place
     if (bench.carry && bench.repeats > 1)
         reader.fail(place, "levels that are gone through one after the other are recorded once",
                     "give carry = false, for each record to begin at the initial state");
+    if (static_cast<double>(bench.levels.size()) * static_cast<double>(bench.repeats) > most_bench_records)
+        reader.fail(place, fmt::format("there would be more than {} records", most_bench_records),
+                    "take larger steps, or fewer repeats");
     run.axes.clear();
 }
 

@@ -64,7 +64,7 @@ TEST_F(Info, CountsWhatIsInResults) {
     EXPECT_THAT(csv, StartsWith("item,name,property,value,unit\n"));
     EXPECT_EQ(fact(csv, "file,,kind"), "results");
     EXPECT_EQ(fact(csv, "file,,size"), fmt::format("{}", std::filesystem::file_size(path)));
-    EXPECT_EQ(fact(csv, "file,,format"), "5");
+    EXPECT_EQ(fact(csv, "file,,format"), "6");
     EXPECT_EQ(fact(csv, "run,first,kind"), "continue");
     EXPECT_EQ(fact(csv, "run,first,points"), "10");
     EXPECT_EQ(fact(csv, "run,first,segments"), "10");

@@ -39,10 +39,12 @@ TEST(EstimateRows, come_out_as_they_were_written) {
     }
     EXPECT_EQ(read.covariance, found.covariance);
     EXPECT_TRUE(file.estimates("b").covariance.empty());
-    auto rows = file.query("SELECT low, high FROM estimates WHERE name = 'w0'");
-    ASSERT_TRUE(rows.next());
-    EXPECT_EQ(rows.number(0), 95.94 - found.numbers[0].estimate.half_width());
-    EXPECT_EQ(rows.number(1), 95.94 + found.numbers[0].estimate.half_width());
+    {
+        auto rows = file.query("SELECT low, high FROM estimates WHERE name = 'w0'");
+        ASSERT_TRUE(rows.next());
+        EXPECT_EQ(rows.number(0), 95.94 - found.numbers[0].estimate.half_width());
+        EXPECT_EQ(rows.number(1), 95.94 + found.numbers[0].estimate.half_width());
+    }
     file.remove_run("a");
     EXPECT_TRUE(file.estimates("a").numbers.empty());
     EXPECT_EQ(file.estimates("b").numbers.size(), 1);

@@ -498,6 +498,19 @@ TEST_F(RecordRunTest, benches_without_sense_are_refused) {
     EXPECT_EQ(told("vary = { amplitude = [0.001, 1] }\ncarry = false\n", fine), "");
     EXPECT_THAT(told("vary = { amplitude = [0.5, 1] }\n", fine + "repeats = 2\n"), HasSubstr("recorded once"));
     EXPECT_THAT(told("vary = { x = [0.5, 1] }\n", fine), HasSubstr("the values of one parameter"));
+    EXPECT_THAT(
+        told("vary = { amplitude = { from = 1, to = 2, points = 1000 } }\ncarry = false\n", fine + "repeats = 10000\n"),
+        HasSubstr("more than 1000000 records"));
+    // What would settle for ever can be broken off.
+    const Study study =
+        read_study(study_file("name = \"s\"\nmodel = \"impact-oscillator\"\n[runs.r]\nkind = \"record\"\n"
+                              "[runs.r.bench]\nsettle = 1e300\n" +
+                              fine));
+    ResultFile file(folder_ / "settling.sqlite", ResultFile::Access::write);
+    RunnerOptions options;
+    int left = 20;
+    options.interrupted = [&] { return left-- <= 0; };
+    EXPECT_EQ(run_study(study, file, options).front().outcome, RunOutcome::interrupted);
 }
 
 } // namespace

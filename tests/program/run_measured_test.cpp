@@ -1,0 +1,74 @@
+// Records and what is found from them, by the program: what it prints, draws and exports, and with which exit codes.
+
+#include "../symbolic/temporary_folder.hpp"
+#include "run_graze.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+namespace graze {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::run_graze;
+
+const char* const study = R"(name = "releases"
+model = "electromagnetic-testbed"
+[runs.releases]
+kind = "record"
+set = { V0 = 0, w0 = 90 }
+from = { q = -0.7e-3 }
+[runs.releases.bench]
+channels = { v = { value = "v", noise = 1e-4 } }
+rate = 1000
+time = 1.5
+repeats = 3
+[runs.decay]
+kind = "identify"
+what = "decrement"
+records = "releases"
+gives = { natural_frequency = "w0", damping_ratio = "zeta" }
+)";
+
+TEST(RunMeasured, what_is_found_is_printed_kept_and_exported) {
+    const testing::TemporaryFolder folder;
+    const std::string file = folder.write("s.toml", study);
+    const testing::Printed run = run_graze({"run", file, "--output", folder / "out", "--no-pictures"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("ended 3"));
+    EXPECT_THAT(run.out, HasSubstr("w0 = 90.0")); // the bench's, to its error of some 0.01
+    EXPECT_THAT(run_graze({"export", folder / "out", "--sql",
+                           "SELECT name FROM estimates WHERE low < 90 AND high > 90 AND name = 'w0'"})
+                    .out,
+                HasSubstr("w0"));
+    const testing::Printed hdf5 =
+        run_graze({"export", folder / "out", "--format", "hdf5", "--output", folder / "out.h5"});
+    EXPECT_EQ(hdf5.code, 0) << hdf5.err;
+    const testing::Printed info = run_graze({"info", folder / "out"});
+    EXPECT_EQ(info.code, 0) << info.err;
+    EXPECT_THAT(info.out, HasSubstr("identify"));
+    // From the file alone all of it is done again.
+    const testing::Printed again = run_graze({"run", folder / "out", "--output", folder / "again", "--no-pictures"});
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_THAT(again.out, HasSubstr("w0 = 90.0"));
+}
+
+TEST(RunMeasured, records_that_are_none_end_with_two) {
+    const testing::TemporaryFolder folder;
+    folder.write("a.csv", "t,V\n0,1\n1,nan\n");
+    const std::string head = "name = \"s\"\n[runs.a]\nkind = \"record\"\n";
+    const testing::Printed outside =
+        run_graze({"run", folder.write("o.toml", head + "files = \"../a.csv\"\n"), "--output", folder / "o"});
+    EXPECT_EQ(outside.code, 2);
+    EXPECT_THAT(outside.err, HasSubstr("o.toml:4:10: the record '../a.csv' would be outside"));
+    const testing::Printed wrong =
+        run_graze({"run", folder.write("w.toml", head + "files = \"a.csv\"\n"), "--output", folder / "w"});
+    EXPECT_NE(wrong.code, 0);
+    EXPECT_THAT(wrong.err, HasSubstr("a.csv:3:"));
+}
+
+} // namespace
+} // namespace graze
