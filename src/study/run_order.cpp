@@ -17,7 +17,8 @@ const std::vector<std::string>& kinds_of_runs() {
 }
 
 std::string_view name_of(RunKind kind) {
-    return kinds_of_runs()[static_cast<std::size_t>(kind)];
+    const auto index = static_cast<std::size_t>(kind);
+    return index < kinds_of_runs().size() ? std::string_view(kinds_of_runs()[index]) : "unknown";
 }
 
 std::vector<std::pair<std::string, Place>> StudyRun::needs() const {
