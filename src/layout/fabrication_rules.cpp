@@ -38,6 +38,8 @@ public:
         back_places_ = facing_edges(mask_edges(back_));
         add_widths("smallest_line", limits_->smallest_line, false);
         add_widths("smallest_gap", limits_->smallest_gap, true);
+        add_etched_widths("smallest_etched_line", limits_->smallest_etched_line, false);
+        add_etched_widths("smallest_etched_gap", limits_->smallest_etched_gap, true);
         add_aspects();
         add_overlap();
         add_undercut();
@@ -54,10 +56,8 @@ private:
         GridPoint at;
     };
 
-    bool is_given(const std::string& rule) const { return file_->places.contains("rules." + rule); }
-
     void add(const std::string& rule, double limit, const char* unit, bool at_least, std::vector<Measured> places) {
-        if (!is_given(rule))
+        if (!std::isfinite(limit))
             return;
         std::stable_sort(places.begin(), places.end(), [&](const Measured& a, const Measured& b) {
             return at_least ? a.value < b.value : a.value > b.value;
@@ -119,16 +119,35 @@ private:
         add(rule, limit, "um", true, std::move(places));
     }
 
+    double depth_of(const FacingEdges& place, bool on_front) const {
+        const ProcessData& process = file_->process;
+        if (!on_front)
+            return process.chamber_depth;
+        return within_any(back_, place.middle()) ? process.layer_thickness() : process.wafer_thickness;
+    }
+
+    /// Of what is etched from the front, whose walls the process tells.
+    void add_etched_widths(const char* rule, double limit, bool etched) {
+        std::vector<Measured> places;
+        const EtchedWall wall = file_->conditions.wall();
+        for (const FacingEdges& place : front_places_)
+            if (place.etched == etched) {
+                const double drawn = micrometres(place.distance), depth = depth_of(place, true);
+                const EtchedWidth width = etched ? etched_trench(wall, drawn, depth) : etched_line(wall, drawn, depth);
+                const char* end = width.top < width.bottom ? " at its top" : " at its bottom";
+                places.push_back(
+                    {width.least(), part_of(place, true) + (width.top == width.bottom ? "" : end), place.middle()});
+            }
+        add(rule, limit, "um", true, std::move(places));
+    }
+
     void add_aspects() {
         std::vector<Measured> places;
-        const ProcessData& process = file_->process;
         for (const bool on_front : {true, false})
             for (const FacingEdges& place : on_front ? front_places_ : back_places_)
                 if (place.etched) {
-                    const double depth = !on_front                           ? process.chamber_depth
-                                         : within_any(back_, place.middle()) ? process.layer_thickness()
-                                                                             : process.wafer_thickness;
-                    places.push_back({depth / micrometres(place.distance), part_of(place, on_front), place.middle()});
+                    places.push_back({depth_of(place, on_front) / micrometres(place.distance), part_of(place, on_front),
+                                      place.middle()});
                 }
         add("largest_aspect", limits_->largest_aspect, "", false, std::move(places));
     }
@@ -182,8 +201,15 @@ private:
             margins(drawing_->base, {drawing_->electrode}, "the fixed electrode's base"));
     }
 
+    /// Of a part of which nothing is left there is no model; its rule says so.
+    bool is_etched_away() const {
+        return std::any_of(findings_.begin(), findings_.end(), [](const RuleFinding& one) {
+            return one.rule.starts_with("smallest_etched") && one.value <= 0 && !one.holds();
+        });
+    }
+
     void add_motion() {
-        if (!is_given("largest_stop_share") && !is_given("largest_stress") && !is_given("largest_squeeze"))
+        if (is_etched_away())
             return;
         const LumpedModel lumped = lumped_model_of(*drawing_, *file_);
         const GridPoint stop = bounding_middle(drawing_->stops.front());
@@ -272,10 +298,13 @@ void require_rules(const DeviceFile& file, const std::vector<RuleFinding>& findi
     for (const RuleFinding& one : findings)
         mistakes.attempt([&] {
             if (!one.holds())
-                throw InputError(file.place(one.key.empty() ? "rules." + one.rule : one.key), "rule " + one.text(),
-                                 one.remedy.empty()
-                                     ? "change the dimension or the rule, or draw it all the same by --despite-rules"
-                                     : one.remedy);
+                throw InputError(
+                    file.place(one.key.empty() ? "rules." + one.rule : one.key), "rule " + one.text(),
+                    one.remedy.empty()
+                        ? fmt::format("change the dimension, or {} in [rules] (false: none), or draw it all "
+                                      "the same by --despite-rules",
+                                      one.rule)
+                        : one.remedy);
         });
     mistakes.throw_noted();
 }

@@ -27,8 +27,9 @@ struct RuleFinding {
     std::string text() const;
 };
 
-/// Checks one device by its polygons and the rules that its file gives: distances are those between edges that face
-/// each other, on the masks as drawn. Stops and stresses are of the device after the etch.
+/// Checks one device by its polygons and the rules that its file does not switch off: distances are those between edges
+/// that face each other, on the masks as drawn, and those of etched lines and gaps at the worst depth. Stops and
+/// stresses are of the device after the etch.
 ///
 /// The rule free_way needs no limit: the mass meets stops and electrode before anything else, or else the model, which
 /// knows nothing else, is wrong. It is found by moving the polygons of mass and trusses along x, after the etch.
