@@ -14,7 +14,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t most_places = 20; // of one rule
+constexpr std::size_t most_places = 5; // of one rule: further ones are counted
 
 double micrometres(std::int64_t nanometres) {
     return static_cast<double>(nanometres) / grid_per_micrometre;
@@ -62,13 +62,26 @@ private:
         std::stable_sort(places.begin(), places.end(), [&](const Measured& a, const Measured& b) {
             return at_least ? a.value < b.value : a.value > b.value;
         });
-        for (std::size_t i = 0; i < std::min(places.size(), most_places); ++i) {
-            const Measured& one = places[i];
-            RuleFinding finding{rule, one.value, limit, unit, at_least, one.part, one.at, device_, false, "", ""};
-            if (i > 0 && finding.holds())
+        std::size_t count = 0;
+        for (const Measured& one : places) {
+            RuleFinding finding{rule,   one.value, limit, unit,         at_least, one.part,
+                                one.at, device_,   false, key_of(rule), "",       0};
+            if (count > 0 && finding.holds())
                 break;
-            findings_.push_back(std::move(finding));
+            if (++count > most_places)
+                ++findings_.back().more;
+            else
+                findings_.push_back(std::move(finding));
         }
+    }
+
+    /// What there is to blame: a rule, or what the process does to all widths.
+    std::string key_of(const std::string& rule) const {
+        if (!rule.starts_with("smallest_etched"))
+            return "rules." + rule;
+        const ProcessConditions& conditions = file_->conditions;
+        const double by_taper = conditions.wall().slope * file_->process.layer_thickness();
+        return std::abs(by_taper) > std::abs(conditions.bias) ? "process.taper" : "process.bias";
     }
 
     static bool within_any(const std::vector<GridPolygon>& polygons, GridPoint point) {
@@ -234,7 +247,7 @@ private:
             const char* aim = to_stops ? "the stops" : "the fixed electrode";
             std::size_t count = 0;
             for (const FreeWay& one : ways) {
-                if (one.to_stops != to_stops || count >= most_places)
+                if (one.to_stops != to_stops)
                     continue;
                 RuleFinding finding{
                     .rule = "free_way",
@@ -249,10 +262,14 @@ private:
                     .key = "device." + one.key,
                     .remedy = fmt::format("give a greater {}, or a smaller {}: what else it meets, the model does not "
                                           "know",
-                                          one.key, to_stops ? "stop_gap" : "gap")};
-                if (count++ > 0 && finding.holds())
+                                          one.key, to_stops ? "stop_gap" : "gap"),
+                    .more = 0};
+                if (count > 0 && finding.holds())
                     break;
-                findings_.push_back(std::move(finding));
+                if (++count > most_places)
+                    ++findings_.back().more;
+                else
+                    findings_.push_back(std::move(finding));
             }
         }
     }
@@ -276,9 +293,10 @@ private:
 std::string RuleFinding::text() const {
     const std::string in = unit.empty() ? "" : " " + unit;
     const char* bound = beyond ? "more than" : at_least ? "at least" : "at most";
-    return fmt::format("{} is {:.6g}{} for {}, at ({:.3f}, {:.3f}) um of {}, where {} {:.6g}{} is {}", rule, value, in,
-                       part, micrometres(at.x), micrometres(at.y), device, bound, limit, in,
-                       beyond ? "needed" : "allowed");
+    return fmt::format("{} is {:.6g}{} for {}, at ({:.3f}, {:.3f}) um of {}, where {} {:.6g}{} is {}{}", rule, value,
+                       in, part, micrometres(at.x), micrometres(at.y), device, bound, limit, in,
+                       beyond ? "needed" : "allowed",
+                       more == 0 ? std::string() : fmt::format(" (and at {} more places)", more));
 }
 
 std::vector<RuleFinding> rule_findings(const DeviceFile& file, const Layout& layout, const DrawnDevice& device) {
@@ -299,7 +317,7 @@ void require_rules(const DeviceFile& file, const std::vector<RuleFinding>& findi
         mistakes.attempt([&] {
             if (!one.holds())
                 throw InputError(
-                    file.place(one.key.empty() ? "rules." + one.rule : one.key), "rule " + one.text(),
+                    file.place(one.key), "rule " + one.text(),
                     one.remedy.empty()
                         ? fmt::format("change the dimension, or {} in [rules] (false: none), or draw it all "
                                       "the same by --despite-rules",

@@ -91,6 +91,7 @@ TEST(FabricationRules, KnowWhatTheEtchLeaves) {
     EXPECT_EQ(of(findings, "smallest_etched_gap").part, "the trench between the mass and a stop at its top");
     file.conditions.bias = 3.2;
     EXPECT_THAT(message(file), HasSubstr("rule smallest_etched_line is 0.163"));
+    EXPECT_EQ(of(found(file), "smallest_etched_line").key, "process.bias");
     file.conditions.bias = 0;
     file.conditions.taper = -1; // trenches narrow with depth
     EXPECT_THAT(message(file), HasSubstr("rule smallest_etched_gap is -0.32"));
@@ -131,6 +132,19 @@ TEST(FabricationRules, TellEachBrokenOneWithItsPlaceInTheFile) {
         for (const InputError& error : errors.all())
             EXPECT_GT(error.place().line, 1U);
     }
+}
+
+TEST(FabricationRules, CountFurtherPlaces) {
+    DeviceFile file = shipped();
+    file.device.flexure_width = 4;
+    const std::vector<RuleFinding> findings = found(file);
+    std::vector<RuleFinding> lines;
+    std::copy_if(findings.begin(), findings.end(), std::back_inserter(lines),
+                 [](const RuleFinding& one) { return one.rule == "smallest_line"; });
+    ASSERT_EQ(lines.size(), 5U);
+    EXPECT_EQ(lines.front().more, 0U);
+    EXPECT_EQ(lines.back().more, 3U) << "of eight beams";
+    EXPECT_THAT(lines.back().text(), HasSubstr("at least 5 um is allowed (and at 3 more places)"));
 }
 
 TEST(FabricationRules, KnowWhatReachesOutOfItsChamber) {
