@@ -1,6 +1,7 @@
 #include "graze/layout/fabrication_rules.hpp"
 
 #include "graze/symbolic/input_errors.hpp"
+#include "layout/free_way.hpp"
 #include "layout/mask_edges.hpp"
 
 #include <fmt/format.h>
@@ -41,6 +42,7 @@ public:
         add_overlap();
         add_undercut();
         add_motion();
+        add_free_ways();
         return std::move(findings_);
     }
 
@@ -62,7 +64,7 @@ private:
         });
         for (std::size_t i = 0; i < std::min(places.size(), most_places); ++i) {
             const Measured& one = places[i];
-            RuleFinding finding{rule, one.value, limit, unit, at_least, one.part, one.at, device_};
+            RuleFinding finding{rule, one.value, limit, unit, at_least, one.part, one.at, device_, false, "", ""};
             if (i > 0 && finding.holds())
                 break;
             findings_.push_back(std::move(finding));
@@ -197,6 +199,38 @@ private:
             {{lumped.squeeze, "the gas between the electrodes", bounding_middle(drawing_->electrode)}});
     }
 
+    /// To either side the worst place, and all others where the mass is held up.
+    void add_free_ways() {
+        std::vector<FreeWay> ways =
+            free_ways(*drawing_, front_, file_->conditions.wall(), file_->process.layer_thickness());
+        std::stable_sort(ways.begin(), ways.end(), [](const FreeWay& a, const FreeWay& b) { return a.way < b.way; });
+        for (const bool to_stops : {true, false}) {
+            const char* aim = to_stops ? "the stops" : "the fixed electrode";
+            std::size_t count = 0;
+            for (const FreeWay& one : ways) {
+                if (one.to_stops != to_stops || count >= most_places)
+                    continue;
+                RuleFinding finding{
+                    .rule = "free_way",
+                    .value = one.way,
+                    .limit = one.needed,
+                    .unit = "um",
+                    .at_least = true,
+                    .part = fmt::format("the mass on its way to {}, until {}", aim, one.part),
+                    .at = one.at,
+                    .device = device_,
+                    .beyond = true,
+                    .key = "device." + one.key,
+                    .remedy = fmt::format("give a greater {}, or a smaller {}: what else it meets, the model does not "
+                                          "know",
+                                          one.key, to_stops ? "stop_gap" : "gap")};
+                if (count++ > 0 && finding.holds())
+                    break;
+                findings_.push_back(std::move(finding));
+            }
+        }
+    }
+
     static GridPoint bounding_middle(const GridPolygon& polygon) {
         const GridBox box = bounding_box(polygon);
         return {(box.left + box.right) / 2, (box.bottom + box.top) / 2};
@@ -215,9 +249,10 @@ private:
 
 std::string RuleFinding::text() const {
     const std::string in = unit.empty() ? "" : " " + unit;
-    return fmt::format("{} is {:.6g}{} for {}, at ({:.3f}, {:.3f}) um of {}, where {} {:.6g}{} is allowed", rule, value,
-                       in, part, micrometres(at.x), micrometres(at.y), device, at_least ? "at least" : "at most", limit,
-                       in);
+    const char* bound = beyond ? "more than" : at_least ? "at least" : "at most";
+    return fmt::format("{} is {:.6g}{} for {}, at ({:.3f}, {:.3f}) um of {}, where {} {:.6g}{} is {}", rule, value, in,
+                       part, micrometres(at.x), micrometres(at.y), device, bound, limit, in,
+                       beyond ? "needed" : "allowed");
 }
 
 std::vector<RuleFinding> rule_findings(const DeviceFile& file, const Layout& layout, const DrawnDevice& device) {
@@ -237,8 +272,10 @@ void require_rules(const DeviceFile& file, const std::vector<RuleFinding>& findi
     for (const RuleFinding& one : findings)
         mistakes.attempt([&] {
             if (!one.holds())
-                throw InputError(file.place("rules." + one.rule), "rule " + one.text(),
-                                 "change the dimension or the rule, or draw it all the same by --despite-rules");
+                throw InputError(file.place(one.key.empty() ? "rules." + one.rule : one.key), "rule " + one.text(),
+                                 one.remedy.empty()
+                                     ? "change the dimension or the rule, or draw it all the same by --despite-rules"
+                                     : one.remedy);
         });
     mistakes.throw_noted();
 }
