@@ -4,6 +4,7 @@
 #include "graze/design/design.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/results/name_advice.hpp"
+#include "graze/results/result_table.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "program/identify_arguments.hpp"
@@ -249,8 +250,7 @@ Choices choices_for(const CLI::App& app, const CLI::App& command, const Declared
     if (starts("TABLE") && of == "identify")
         return {fit_table_names(), false};
     if (starts("TABLE"))
-        return {{"points", "samples", "segments", "multipliers", "half_multipliers", "minima", "end_values", "runs"},
-                false};
+        return {result_table_names(), false};
     return {};
 }
 

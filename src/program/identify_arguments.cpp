@@ -17,6 +17,7 @@ WHAT is one of
   coupling     constants of an electromagnet from equilibria: each row of the records is one
   impedance    resistance and inductance of a coil whose mass is clamped, under a sinusoidal voltage
   fit          any parameters and initial states of a model, named before the records: least squares through impacts
+or the name or file of a study: what its runs of kind `identify` find is computed where that is not done, and shown.
 Each value comes with its standard error and the interval that covers the truth with a probability of 95 %. The picture
 shows what was measured, what was fitted, and what is left.)";
 
@@ -26,7 +27,8 @@ constexpr const char* identify_examples = R"(Examples:
   graze identify coupling static.csv --gap 4.79e-3 --stiffness 5948
   graze identify impedance clamped.csv --voltage V --current I --format json
   graze identify fit impact-oscillator run.csv --free zeta,e=0.7 --save found.toml
-  graze simulate impact-oscillator --set @found.toml --from @found.toml --time 100)";
+  graze simulate impact-oscillator --set @found.toml --from @found.toml --time 100
+  graze identify testbed-experiment --format csv)";
 
 void declare_channels(CLI::App& command, IdentifyArguments& arguments) {
     const char* group = "Channels";
@@ -127,13 +129,10 @@ void declare_identify_command(CLI::App& app, Arguments& all) {
     IdentifyArguments& arguments = all.identify;
     CLI::App& command = *app.add_subcommand("identify", identify_text);
     command.footer(identify_examples);
-    command.add_option("WHAT", arguments.what, "decrement, restitution, coupling, impedance or fit")
-        ->type_name("")
-        ->check(one_of(identify_kinds()))
-        ->required();
-    command.add_option("FILE", arguments.reading.files, "Records; of a fit, the model before them")
+    command.add_option("WHAT", arguments.what, "decrement, restitution, coupling, impedance, fit; or a study, alone")
         ->type_name("")
         ->required();
+    command.add_option("FILE", arguments.reading.files, "Records; of a fit, the model before them")->type_name("");
     declare_channels(command, arguments);
     declare_known(command, arguments);
     declare_fit(command, arguments);

@@ -2,17 +2,25 @@
 #include "graze/symbolic/input_error.hpp"
 #include "program/commands.hpp"
 #include "program/figure.hpp"
+#include "program/identify_arguments.hpp"
 #include "program/identify_fit.hpp"
 #include "program/identify_kinds.hpp"
+#include "program/identify_study.hpp"
 #include "program/picture.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace graze {
 
 int identify_command(const IdentifyArguments& arguments, const Console& console) {
+    const std::vector<std::string> kinds = identify_kinds();
+    if (std::find(kinds.begin(), kinds.end(), arguments.what) == kinds.end())
+        return identify_study(arguments, console);
+    if (arguments.reading.files.empty())
+        throw InputError({"FILE", 0, 0}, "no records are named", "write graze identify WHAT FILE ...");
     const std::string& plot = arguments.reading.plot;
     if (!plot.empty())
         picture_ending(plot, "--plot", {"svg", "png", "pdf"});

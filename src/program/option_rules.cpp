@@ -1,6 +1,7 @@
 #include "program/option_rules.hpp"
 
 #include "graze/symbolic/input_error.hpp"
+#include "program/identify_arguments.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -163,6 +164,12 @@ const std::vector<NeedsValue>& needs_of_values() {
         {"identify", "--piece", "WHAT", {"fit"}},
         {"identify", "--table", "WHAT", {"fit"}},
         {"identify", "--save", "WHAT", {"fit"}},
+        {"identify", "--columns", "WHAT", identify_kinds()},
+        {"identify", "--group", "WHAT", identify_kinds()},
+        {"identify", "--scale", "WHAT", identify_kinds()},
+        {"identify", "--from", "WHAT", identify_kinds()},
+        {"identify", "--to", "WHAT", identify_kinds()},
+        {"identify", "--plot", "WHAT", identify_kinds()},
         {"simulate", "--samples", "--table", {"samples"}},
         {"simulate", "--every", "--table", {"samples"}},
         {"simulate", "--derivatives", "--table", {"derivatives"}},

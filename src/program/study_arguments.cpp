@@ -95,7 +95,8 @@ void declare_export(CLI::App& app, ExportArguments& arguments) {
     add(command, "FILE", arguments.file, "", "Result file, or the folder of a study")->required();
     add(command, "--run", arguments.runs, "RUN", "Only these runs (all)");
     add(command, "--what", arguments.what, "TABLE",
-        "points (default), samples, segments, multipliers, half_multipliers, minima, end_values or runs");
+        "points (default), samples, segments, multipliers, half_multipliers, minima, end_values, estimates, "
+        "covariances or runs");
     add(command, "--label", arguments.label, "LABEL",
         "Only points with this label, such as periodic; of branches also a type, such as GR");
     add(command, "--direction", arguments.direction, "WAY", "Only points of sweeps or branches up or down");

@@ -222,7 +222,45 @@ ResultTable table_of_rows(const ResultFile& file, const ResultTableRequest& requ
     return {file.query(all), std::move(units), std::move(left_out)};
 }
 
+/// What was found from measurements; of two numbers their covariance, by their names.
+ResultTable table_of_estimates(const ResultFile& file, const ResultTableRequest& request) {
+    std::vector<std::string> names;
+    for (const RunRecord& run : file.runs())
+        if (request.runs.empty()
+                ? run.kind == "identify"
+                : std::find(request.runs.begin(), request.runs.end(), run.name) != request.runs.end()) {
+            if (run.kind != "identify")
+                throw InputError(
+                    request.place_of_what,
+                    fmt::format("run '{}' is of kind {}, which has no {}", run.name, run.kind, request.what),
+                    "name runs of kind identify");
+            names.push_back(run.name);
+        }
+    if (names.empty())
+        throw InputError(request.place_of_what, "no run of the file is of kind identify",
+                         "export what others have: points or samples");
+    const char* columns = request.what == "estimates"
+                              ? "r.name AS run, e.name, e.unit, e.value, e.error, e.low, e.high, e.freedom, e.note"
+                              : "r.name AS run, e.name, o.name AS other, c.covariance";
+    const char* more = request.what == "estimates"
+                           ? ""
+                           : " JOIN covariances AS c ON c.run = e.run AND c.position = e.position JOIN estimates AS o "
+                             "ON o.run = c.run AND o.position = c.other";
+    return with_units(file.query(fmt::format("SELECT {} FROM estimates AS e JOIN runs AS r ON r.name = e.run{} WHERE "
+                                             "r.name IN ({}) ORDER BY r.number, e.position{}",
+                                             columns, more, text_literals(names), *more == 0 ? "" : ", c.other")),
+                      {});
+}
+
 } // namespace
+
+std::vector<std::string> result_table_names() {
+    std::vector<std::string> names{"points", "samples", "segments"};
+    for (const DetailTable& table : detail_tables())
+        names.emplace_back(table.name);
+    names.insert(names.end(), {"estimates", "covariances", "runs"});
+    return names;
+}
 
 std::vector<std::string> chosen_runs(const ResultFile& file, const std::vector<std::string>& wanted,
                                      const Place& place) {
@@ -238,17 +276,16 @@ ResultTable result_table(const ResultFile& file, const ResultTableRequest& reque
     chosen_runs(file, request.runs, request.place_of_runs);
     if (request.what == "runs")
         return table_of_runs(file);
-    std::vector<std::string> tables{"points", "samples", "segments"};
-    if (std::find(tables.begin(), tables.end(), request.what) != tables.end())
-        return table_of_rows(file, request);
-    for (const DetailTable& table : detail_tables()) {
+    if (request.what == "estimates" || request.what == "covariances")
+        return table_of_estimates(file, request);
+    for (const DetailTable& table : detail_tables())
         if (request.what == table.name)
             return table_of_details(file, request, table);
-        tables.push_back(table.name);
-    }
-    tables.emplace_back("runs");
-    throw InputError(request.place_of_what, fmt::format("there is no table '{}'", request.what),
-                     name_advice(request.what, tables, ""));
+    const std::vector<std::string> known = result_table_names();
+    if (std::find(known.begin(), known.end(), request.what) == known.end())
+        throw InputError(request.place_of_what, fmt::format("there is no table '{}'", request.what),
+                         name_advice(request.what, known, ""));
+    return table_of_rows(file, request);
 }
 
 ResultTable queried_table(const ResultFile& file, const std::string& sql, const std::vector<std::string>& runs,

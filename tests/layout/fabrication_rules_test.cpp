@@ -70,7 +70,7 @@ TEST(FabricationRules, AreBrokenByDimensions) {
     EXPECT_THAT(broken([](DeviceFile& f) { f.device.base_inset = 28; }), HasSubstr("undercut is 28 um"));
     EXPECT_THAT(broken([](DeviceFile& f) { f.device.stop_gap = 14; }), HasSubstr("largest_stop_share is"));
     EXPECT_THAT(broken([](DeviceFile& f) { f.rules.largest_stress = 15; }),
-                HasSubstr("largest_stress is 18.1155 MPa for a beam, when the electrodes touch"));
+                HasSubstr("largest_stress is 18.1085 MPa for a beam, when the electrodes touch"));
     EXPECT_THAT(broken([](DeviceFile& f) { f.rules.largest_squeeze = 0.05; }), HasSubstr("largest_squeeze is"));
     // Without a margin the chamber ends with the trench around the mass.
     EXPECT_THAT(broken([](DeviceFile& f) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -149,6 +150,37 @@ TEST_F(IdentifyCommand, MistakesAreOneLineWithARemedy) {
         EXPECT_THAT(printed.err, HasSubstr(";")) << line;
         EXPECT_EQ(std::count(printed.err.begin(), printed.err.end(), '\n'), 1) << printed.err;
     }
+}
+
+/// Its runs of that kind, and what they need, but not its sweep.
+TEST_F(IdentifyCommand, DoesWhatAStudyIdentifies) {
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder / ".");
+    const Printed printed = run_graze("identify testbed-experiment --format csv");
+    const Printed again = run_graze("identify testbed-experiment --format csv");
+    const Printed exported = run_graze("export testbed-experiment --what estimates --format csv");
+    const Printed runs = run_graze("export testbed-experiment --what runs --format csv");
+    const Printed picture = run_graze("identify testbed-experiment --plot a.png");
+    const Printed crowd = run_graze("identify testbed-experiment a.csv");
+    const Printed without = run_graze("identify mems-switch");
+    std::filesystem::current_path(before);
+    EXPECT_EQ(printed.code, 0) << printed.err;
+    EXPECT_EQ(again.out, printed.out);
+    EXPECT_EQ(exported.out, printed.out);
+    const Csv found(printed.out);
+    ASSERT_GE(found.rows.size(), 8U);
+    EXPECT_EQ(found.text(0, "run"), "decay");
+    EXPECT_EQ(found.text(0, "name"), "w0");
+    EXPECT_LT(found.number(0, "low"), found.number(0, "value"));
+    EXPECT_THAT(runs.out, HasSubstr("releases"));
+    EXPECT_THAT(runs.out, ::testing::Not(HasSubstr("predicted")));
+    EXPECT_THAT(picture.err, HasSubstr("--plot has no effect"));
+    EXPECT_EQ(crowd.code, 2);
+    EXPECT_THAT(crowd.err, HasSubstr("name the study alone"));
+    EXPECT_EQ(without.code, 2);
+    EXPECT_THAT(without.err, HasSubstr("no run of kind identify"));
+    EXPECT_THAT(run_graze("identify decremnt a.csv").err, HasSubstr("did you mean 'decrement'?"));
+    EXPECT_THAT(run_graze("identify decrement").err, HasSubstr("no records are named"));
 }
 
 } // namespace graze::testing

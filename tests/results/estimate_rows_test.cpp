@@ -1,6 +1,6 @@
 // What was found from measurements comes out of a result file as it was written.
 
-#include "graze/results/result_file.hpp"
+#include "graze/results/result_table.hpp"
 
 #include "../symbolic/temporary_folder.hpp"
 
@@ -45,6 +45,25 @@ TEST(EstimateRows, come_out_as_they_were_written) {
         EXPECT_EQ(rows.number(0), 95.94 - found.numbers[0].estimate.half_width());
         EXPECT_EQ(rows.number(1), 95.94 + found.numbers[0].estimate.half_width());
     }
+    ResultTableRequest request;
+    request.what = "covariances";
+    ResultTable pairs = result_table(file, request);
+    std::vector<std::string> read_pairs;
+    while (pairs.rows.next())
+        read_pairs.push_back(pairs.rows.text(0) + " " + pairs.rows.text(1) + " " + pairs.rows.text(2));
+    EXPECT_EQ(read_pairs, (std::vector<std::string>{"a w0 w0", "a w0 zeta", "a zeta w0", "a zeta zeta"}));
+    request.what = "estimates";
+    request.runs = {"b"};
+    ResultTable one = result_table(file, request);
+    ASSERT_TRUE(one.rows.next());
+    EXPECT_EQ(one.rows.text(1), "e");
+    EXPECT_EQ(one.rows.number(3), 0.8);
+    EXPECT_FALSE(one.rows.next());
+    RunRecord other = identified("c");
+    other.kind = "record";
+    file.begin_run(other);
+    request.runs = {"c"};
+    EXPECT_THROW(result_table(file, request), InputError);
     file.remove_run("a");
     EXPECT_TRUE(file.estimates("a").numbers.empty());
     EXPECT_EQ(file.estimates("b").numbers.size(), 1);

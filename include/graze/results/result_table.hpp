@@ -10,8 +10,7 @@ namespace graze {
 
 /// What is taken out of a result file as one table.
 struct ResultTableRequest {
-    /// runs, points, samples, segments, or one of the tables of details: multipliers, half_multipliers, minima,
-    /// end_values
+    /// one of `result_table_names()`
     std::string what = "points";
     std::vector<std::string> runs = {}; ///< empty: all that have such a table
     std::string label = {};             ///< only points with this label (or, of a branch, of this type); empty: all
@@ -26,6 +25,9 @@ struct ResultTable {
     std::vector<std::string> left_out; ///< runs that were not named, and have other columns
 };
 
+/// points, samples and segments; details of orbits: multipliers, half_multipliers, minima, end_values; what was found
+/// from measurements: estimates, covariances; and runs.
+std::vector<std::string> result_table_names();
 /// @throws InputError for a table or run that is not there, and for runs that do not fit into one table
 ResultTable result_table(const ResultFile& file, const ResultTableRequest& request);
 /// The rows of a query of somebody's own. @param sql see ResultFile::query
