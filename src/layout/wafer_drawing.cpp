@@ -190,10 +190,26 @@ private:
                     "give a shorter label or a smaller label_height");
     }
 
-    /// As the die's own part of the channel is, for corners to be in common.
-    static void add_halves(LayoutCell& cell, MaskLayer layer, const GridBox& box) {
-        cell.add(layer, GridBox{box.left, 0, box.right, box.top});
-        cell.add(layer, GridBox{box.left, box.bottom, box.right, 0});
+    /// How far a site's channel goes on at a distance from its middle, in the site's own coordinates: to the rim, or to
+    /// the flat.
+    std::int64_t channel_end(std::size_t site, std::int64_t aside) const {
+        const auto y = static_cast<double>(aside);
+        const double radius = grid_per_micrometre * plan_.radius;
+        double end = std::sqrt(radius_ * radius_ - y * y) - radius;
+        const double angle = layout_.site_degrees[site] * std::numbers::pi / (full_turn / 2);
+        if (const double falls = -std::sin(angle); falls > 0) // towards the flat
+            end = std::min(end, (flat_ + std::cos(angle) * y) / falls - radius);
+        return std::max<std::int64_t>(std::llround(std::floor(end)), device_at(site).die.right);
+    }
+
+    /// In two halves, as the die's own part of the channel is, for corners to be in common; cut off along the wafer's
+    /// edge.
+    void add_channel(LayoutCell& cell, MaskLayer layer, std::size_t site, const GridBox& channel) const {
+        for (const std::int64_t aside : {channel.top, channel.bottom})
+            cell.add(layer, GridPolygon{{channel.left, 0},
+                                        {channel_end(site, 0), 0},
+                                        {channel_end(site, aside), aside},
+                                        {channel.left, aside}});
     }
 
     void add_site(std::size_t i) {
@@ -203,8 +219,8 @@ private:
         site.name = fmt::format("SITE_{}", i + 1);
         site.references.push_back({layout_.devices[layout_.sites[i]].cell, {}, false, 0});
         if (const GridBox channel = channel_of(device, 0); channel.width() > 0) {
-            add_halves(site, mask_layers::front, channel);
-            add_halves(site, mask_layers::back, channel_of(device, nanometres(d.chamber_margin)));
+            add_channel(site, mask_layers::front, i, channel);
+            add_channel(site, mask_layers::back, i, channel_of(device, nanometres(d.chamber_margin)));
         }
         const std::int64_t edge = edge_distance(d), letters = nanometres(d.label_height);
         if (letters > 0)

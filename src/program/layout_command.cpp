@@ -108,12 +108,18 @@ int layout_command(const LayoutArguments& arguments, const Console& console) {
     require_places(arguments);
     const DeviceFile file = load_device_file(arguments.design, parameter_values(arguments.set));
     Layout layout = arguments.wafer ? draw_wafer_layout(file) : draw_device_layout(file);
+    if (!arguments.parameters.empty() && layout.devices.size() > 1)
+        throw InputError(
+            {"--parameters", 0, 0},
+            fmt::format("the wafer has {} devices that differ (wafer.vary), and one file is for one device",
+                        layout.devices.size()),
+            "leave --wafer out, and name the device that is meant by --set NAME=VALUE");
     const bool all_devices = arguments.yield && !arguments.wafer; // of which the wafer may have several
     const bool ruled =
         check_rules(file, all_devices ? draw_wafer_layout(file) : layout, arguments.despite_rules, console);
     const Table table = table_of(layout, file);
     if (!arguments.parameters.empty())
-        write_device_parameters(file, arguments.parameters);
+        write_device_parameters(file, layout.devices.front(), arguments.parameters);
     if (!arguments.recipe.empty())
         write_file(arguments.recipe, recipe_text(file));
     for (const std::string& picture : pictures)

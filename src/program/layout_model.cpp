@@ -35,8 +35,8 @@ void add_lumped_rows(Table& table, const DeviceFile& file, const DrawnDevice& de
     add("model: stress at closed electrodes", lumped.stress_per_travel * lumped.closure / mega, "MPa");
 }
 
-void write_device_parameters(const DeviceFile& file, const std::string& path) {
-    ParameterFile parameters = parameters_of(lumped_model_of(file), model_of(file));
+void write_device_parameters(const DeviceFile& file, const DrawnDevice& device, const std::string& path) {
+    ParameterFile parameters = parameters_of(lumped_model_of(device.drawing, file), model_of(file));
     parameters.text = fmt::format("The device of the design {}, after the etch.", file.name);
     write_file(path, write_parameter_file(parameters));
 }

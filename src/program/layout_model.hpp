@@ -12,7 +12,7 @@ namespace graze {
 void add_lumped_rows(Table& table, const DeviceFile& file, const DrawnDevice& device);
 
 /// Writes the parameters of the device for other commands' `--set @FILE`.
-void write_device_parameters(const DeviceFile& file, const std::string& path);
+void write_device_parameters(const DeviceFile& file, const DrawnDevice& device, const std::string& path);
 
 /// Whether all rules hold. @throws InputError unless that is to be told alone
 bool check_rules(const DeviceFile& file, const Layout& layout, bool despite, const Console& console);

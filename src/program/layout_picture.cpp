@@ -2,6 +2,7 @@
 
 #include "graze/symbolic/input_error.hpp"
 #include "program/gnuplot_text.hpp"
+#include "program/layout_labels.hpp"
 #include "program/output_file.hpp"
 #include "program/picture.hpp"
 
@@ -39,14 +40,6 @@ constexpr LayerStyle device_styles[] = {
 constexpr LayerStyle mask_styles[][3] = {
     {{mask_layers::back, "#222222"}, {mask_layers::back_letters, "#222222"}, {mask_layers::back_marks, "#222222"}},
     {{mask_layers::front, "#222222"}, {mask_layers::front_letters, "#222222"}, {mask_layers::front_marks, "#222222"}}};
-
-/// What is written beside the drawing, and where its line leads. Micrometres.
-struct PartLabel {
-    std::string text;
-    double x, y;
-    bool to_left;
-    double below = 0; ///< by how much it stands lower than where its line leads
-};
 
 class LayoutPicture {
 public:
@@ -90,7 +83,9 @@ private:
         else
             terminal = fmt::format("svg noenhanced size {:.0f},{:.0f} background rgb 'white'", page_width, page_height);
         return fmt::format("set terminal {} {}\nset output {}\nset encoding utf8\nunset key\nunset tics\nunset border\n"
-                           "set style fill solid\nset multiplot\n",
+                           "set style fill solid\n"
+                           "set style textbox opaque margins 0.4,0.4 fillcolor rgb '#ffffff' noborder\n"
+                           "set multiplot\n",
                            terminal, font, quoted_path(output));
     }
 
@@ -183,36 +178,8 @@ private:
         const std::vector<PartLabel> labels = part_labels(drawing);
         for (const bool to_left : {true, false})
             write_labels(labels, to_left);
+        write_scale();
         end_panel();
-    }
-
-    static std::vector<PartLabel> part_labels(const DeviceDrawing& drawing) {
-        const DeviceDimensions& d = drawing.dimensions;
-        const auto um = [](std::int64_t value) { return static_cast<double>(value) / grid_per_micrometre; };
-        const GridBox mass = bounding_box(drawing.mass), electrode = bounding_box(drawing.electrode);
-        const GridBox stop = bounding_box(drawing.stops.front());
-        const std::vector<GridBox> beams = drawing.beams(), trusses = drawing.trusses();
-        const GridBox &beam = beams[2 * d.folds], &chamber = drawing.chamber_box;
-        const double face = um(electrode.right);
-        const GridBox& truss = trusses[trusses.size() / 2]; // of the lower flexure
-        return {
-            {"chamber on the back", um(mass.left), um(chamber.top), true},
-            {fmt::format("gap d = {:.6g} µm", d.gap), face + d.gap / 2, um(electrode.top) * 0.9, true},
-            {"fixed electrode", face - d.electrode_width / 2, um(electrode.top) * 0.55, true},
-            {"its bonded base", um(electrode.left) + d.base_inset, d.pad_width * 0.2, true},
-            {"contact pad", um(electrode.left) + d.pad_length * 0.3, -d.pad_width * 0.2, true},
-            {fmt::format("moat, {:.6g} µm", d.moat), um(electrode.left) + d.pad_length * 0.3,
-             -d.pad_width / 2 - d.moat / 2, true},
-            {fmt::format("folded flexure, {} beams", 4 * d.folds), um(beam.right), um(mass.top) * 0.85, false},
-            {fmt::format("beam, {:.6g} by {:.6g} µm", d.flexure_width, d.flexure_length),
-             um(beams[2 * d.folds + 1].left), um(mass.top) * 0.6, false},
-            {"mass (H)", um(mass.right) - d.bar_width / 2, um(mass.top) * 0.35, false},
-            {fmt::format("stop, gap {:.6g} µm", d.stop_gap), um(stop.left), um(stop.top) - d.stop_width / 4, false},
-            {fmt::format("channel, {:.6g} µm", d.channel_width), um(chamber.right), 0, false},
-            {"truss", um(truss.right) - d.flexure_width, um(truss.top) - d.truss_width / 2, false,
-             -0.2 * um(mass.bottom)},
-            {"frame", um(chamber.right) + d.chamber_margin, um(mass.bottom) * 0.6, false},
-        };
     }
 
     /// Below one another on one side, near to where their lines lead.
@@ -221,26 +188,39 @@ private:
         std::copy_if(labels.begin(), labels.end(), std::back_inserter(here),
                      [&](const PartLabel& one) { return one.to_left == to_left; });
         std::stable_sort(here.begin(), here.end(),
-                         [](const PartLabel& a, const PartLabel& b) { return a.y - a.below > b.y - b.below; });
+                         [](const PartLabel& a, const PartLabel& b) { return a.at.y > b.at.y; });
+        const auto um = [](std::int64_t value) { return static_cast<double>(value) / grid_per_micrometre; };
         const double step = 2.2 * letter * scale_;
         std::vector<double> places;
         for (const PartLabel& one : here)
-            places.push_back(places.empty() ? one.y - one.below : std::min(one.y - one.below, places.back() - step));
-        const double least = bottom_ + step;
+            places.push_back(places.empty() ? um(one.at.y) : std::min(um(one.at.y), places.back() - step));
+        const double least = bottom_ + 2.5 * step; // above the scale bar
         for (std::size_t i = places.size(); i-- > 0;)
             places[i] = std::max(places[i], i + 1 < places.size() ? places[i + 1] + step : least);
         for (std::size_t i = 0; i < here.size(); ++i) {
             const double room = 225 * scale_;
             const double x = to_left ? left_ + room : right_ - room;
-            commands_ += fmt::format("set label \"{}\" at {:.10g},{:.10g} {} front\n", plain(here[i].text),
-                                     to_left ? x - 5 * scale_ : x + 5 * scale_, places[i], to_left ? "right" : "left");
+            // Letters cover what is below them.
+            commands_ += fmt::format("set label \"{}\" at {:.10g},{:.10g} {} front boxed\n", plain(here[i].text),
+                                     to_left ? x - 8 * scale_ : x + 8 * scale_, places[i], to_left ? "right" : "left");
             commands_ += fmt::format("set arrow from {:.10g},{:.10g} to {:.10g},{:.10g} nohead lw 0.8 lc rgb '#000000' "
                                      "front\n",
-                                     x, places[i], here[i].x, here[i].y);
+                                     x, places[i], um(here[i].at.x), um(here[i].at.y));
             commands_ +=
                 fmt::format("set object circle at {:.10g},{:.10g} size {:.6g} fc rgb '#000000' fs solid front\n",
-                            here[i].x, here[i].y, 2.5 * scale_);
+                            um(here[i].at.x), um(here[i].at.y), 2.5 * scale_);
         }
+    }
+
+    /// In the lower right corner.
+    void write_scale() {
+        const double length = round_length(0.2 * (right_ - left_));
+        const double to = right_ - letter * scale_, y = bottom_ + letter * scale_;
+        constexpr double millimetre = 1000;
+        commands_ += fmt::format("set arrow from {:.10g},{:.10g} to {:.10g},{:.10g} nohead lw 3 lc rgb '#000000' "
+                                 "front\nset label \"{:.6g} {}\" at {:.10g},{:.10g} center front boxed\n",
+                                 to - length, y, to, y, length < millimetre ? length : length / millimetre,
+                                 length < millimetre ? "µm" : "mm", to - length / 2, y + letter * scale_);
     }
 
     void draw_wafer(const PageBox& place, const GridBox& all) {
@@ -256,6 +236,7 @@ private:
         outline(mask_layers::die, "#999999");
         outline(mask_layers::wafer, "#444444");
         number_devices();
+        write_scale();
         end_panel();
     }
 

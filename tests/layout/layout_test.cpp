@@ -105,6 +105,29 @@ TEST(Layout, OfAWaferHasDevicesAroundItsMiddle) {
     EXPECT_EQ(masses, 8U * 20U) << "corners of eight masses";
 }
 
+/// Twelve devices: two of them point at the flat, at 15 degrees to either side of its middle.
+TEST(Layout, OfAWaferHasChannelsThatEndAtItsFlat) {
+    const Layout layout = draw_wafer_layout(file_of("[device]\n[wafer]\ndevices = 12\n"));
+    const double flat = std::sqrt(50e6 * 50e6 - 16.25e6 * 16.25e6); // nm
+    double lowest = 0;
+    for (const PlacedShape& one : flattened(layout.library, "WAFER"))
+        if (one.layer == mask_layers::front || one.layer == mask_layers::back)
+            for (const GridPoint& corner : one.polygon) {
+                // Corners are rounded where they are drawn, and once more where they are turned.
+                lowest = std::min(lowest, static_cast<double>(corner.y));
+                EXPECT_GE(static_cast<double>(corner.y), -flat - 2);
+                EXPECT_LE(std::hypot(static_cast<double>(corner.x), static_cast<double>(corner.y)), 50e6 + 2);
+            }
+    EXPECT_NEAR(lowest, -flat, 5) << "and they do reach it";
+    // Each channel, 200 um wide, is 17 mm long; two are shorter by what the flat takes along the radius. From the
+    // others the rim, 100^2/(2 50000) = 0.1 um lower at their sides, takes half of that by its chords. Ends are on the
+    // grid.
+    const double device = areas_of(layout.library, "DEVICE").at(mask_layers::front);
+    const double cut = 50'000 - flat / 1000 / std::cos(M_PI / 12);
+    const double expected = 12 * device + 200 * (12 * 17'000 - 2 * cut - 10 * 0.05);
+    EXPECT_NEAR(areas_of(layout.library, "WAFER").at(mask_layers::front), expected, 12 * 200 * 0.001);
+}
+
 TEST(Layout, OfVariantsHasEachOnce) {
     const Layout layout = draw_wafer_layout(
         file_of("[device]\n[wafer]\ndevices = 7\nvary = { stop_gap = [7, 8, 9], gap = [15], folds = [2] }\n"));

@@ -57,6 +57,34 @@ TEST_F(LayoutCommand, WritesOneMaskAlone) {
     }
 }
 
+TEST_F(LayoutCommand, WritesParametersOfOneDevice) {
+    const std::string file = design("[device]\n[wafer]\nvary = { stop_gap = [8, 9] }\n");
+    const Printed several = run_graze({"layout", file, "--wafer", "--parameters", folder / "a.toml"});
+    EXPECT_EQ(several.code, 2);
+    EXPECT_THAT(several.err, HasSubstr("--parameters: the wafer has 2 devices that differ (wafer.vary)"));
+    EXPECT_EQ(folder.files(), 1U);
+    EXPECT_EQ(run_graze({"layout", file, "--set", "stop_gap=8", "--parameters", folder / "a.toml"}).code, 0);
+    const std::string alike = design("[device]\n[wafer]\nvary = { stop_gap = [8] }\n");
+    EXPECT_EQ(run_graze({"layout", alike, "--wafer", "--parameters", folder / "b.toml"}).code, 0);
+    EXPECT_EQ(contents(folder / "a.toml"), contents(folder / "b.toml"));
+    EXPECT_EQ(run_graze({"layout", alike, "--parameters", folder / "c.toml"}).code, 0);
+    EXPECT_NE(contents(folder / "a.toml"), contents(folder / "c.toml")) << "which is that of [device]";
+}
+
+TEST_F(LayoutCommand, RefusesAMassThatMeetsTheFrameFirst) {
+    for (const std::string change : {"flexure_spacing=8", "clearance=13"}) {
+        const Printed printed =
+            run_graze({"layout", "mems-switch-device", "--set", change, "--output", folder / "a.gds"});
+        EXPECT_EQ(printed.code, 2);
+        EXPECT_THAT(printed.err, HasSubstr("rule free_way is"));
+        EXPECT_EQ(folder.files(), 0U);
+    }
+    const Printed despite = run_graze(
+        {"layout", "mems-switch-device", "--set", "clearance=13", "--output", folder / "a.gds", "--despite-rules"});
+    EXPECT_EQ(despite.code, 3);
+    EXPECT_THAT(despite.err, HasSubstr("graze: rule free_way is 13.6 um"));
+}
+
 TEST_F(LayoutCommand, DrawsPictures) {
     if (std::system("command -v gnuplot > /dev/null") != 0)
         GTEST_SKIP() << "no gnuplot";

@@ -41,7 +41,10 @@ TEST(LayoutModel, WritesNothingWhereARuleIsBrokenUnlessAsked) {
 TEST(LayoutModel, RefusesWhatTheEtchTakesAway) {
     const Printed gone = run_graze({"layout", "mems-switch-device", "--set", "bias=4"});
     EXPECT_EQ(gone.code, 2);
-    EXPECT_THAT(gone.err, HasSubstr("--set bias: the width of the flexures after the etch is -"));
+    EXPECT_THAT(gone.err, HasSubstr("--set bias: rule smallest_etched_line is -1.43"));
+    const Printed despite = run_graze({"layout", "mems-switch-device", "--set", "bias=4", "--despite-rules"});
+    EXPECT_EQ(despite.code, 2) << "of nothing there is no model";
+    EXPECT_THAT(despite.err, HasSubstr("--set bias: "));
 }
 
 TEST(LayoutModel, WritesTheRecipe) {
