@@ -1,7 +1,7 @@
 #include "graze/layout/lumped_model.hpp"
 
 #include "graze/layout/folded_spring.hpp"
-#include "graze/layout/physical_unit.hpp"
+#include "graze/symbolic/physical_unit.hpp"
 #include "graze/layout/plate_attraction.hpp"
 #include "graze/layout/squeeze_film.hpp"
 #include "graze/model/catalogue.hpp"

@@ -44,12 +44,21 @@ TEST(LayoutModel, RefusesWhatTheEtchTakesAway) {
     EXPECT_EQ(gone.code, 2);
     EXPECT_THAT(gone.err,
                 HasSubstr("--set bias: the width of the flexures after the etch is -1.43633 um; draw it larger"));
-    for (const char* set : {"taper=1", "wafer_thickness=40", "chamber_depth=300", "bar_width=0.5", "gap=1e-6"}) {
+    for (const char* set : {"taper=1", "wafer_thickness=40", "chamber_depth=300", "gap=1e-6"}) {
         const Printed refused = run_graze({"layout", "mems-switch-device", "--set", set});
         EXPECT_EQ(refused.code, 2);
         const std::string name = set;
         EXPECT_THAT(refused.err, HasSubstr("graze: --set " + name.substr(0, name.find('=')) + ": "));
     }
+}
+
+TEST(LayoutModel, SaysWhichFilesThereAre) {
+    const Printed text = run_graze({"layout", "mems-switch-device", "--output", "x.txt"});
+    EXPECT_EQ(text.code, 2);
+    EXPECT_THAT(text.err, HasSubstr("what kind of masks or picture to draw; let the name end in .gds"));
+    const Printed unknown = run_graze({"layout", std::string(3000, 'n')});
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_LT(unknown.err.size(), 1000U);
 }
 
 TEST(LayoutModel, WritesTheRecipe) {
