@@ -43,7 +43,7 @@ TEST(LayoutModel, RefusesWhatTheEtchTakesAway) {
     const Printed gone = run_graze({"layout", "mems-switch-device", "--set", "bias=4"});
     EXPECT_EQ(gone.code, 2);
     EXPECT_THAT(gone.err,
-                HasSubstr("--set bias: the width of the flexures after the etch is -1.43633 um; draw it larger"));
+                HasSubstr("--set bias: rule smallest_etched_line is -1.43633 um"));
     for (const char* set : {"taper=1", "wafer_thickness=40", "chamber_depth=300", "gap=1e-6"}) {
         const Printed refused = run_graze({"layout", "mems-switch-device", "--set", set});
         EXPECT_EQ(refused.code, 2);
