@@ -60,15 +60,16 @@ double length_on_grid(double value, const std::string& what, bool may_be_zero) {
     if (!std::isfinite(value))
         throw InputError(fmt::format("{} is not a finite number", what), "give a length in micrometres");
     if (value < 0 || (value == 0 && !may_be_zero))
-        throw InputError(fmt::format("{} is {} um, not positive", what, value),
+        throw InputError(fmt::format("{} is {:.6g} um, not positive", what, value),
                          may_be_zero ? "give zero or a positive length" : "give a positive length");
     if (value > greatest_length)
-        throw InputError(fmt::format("{} is {} um, more than a metre", what, value),
-                         "give a length in micrometres, or with its unit as \"1.2 mm\"");
+        throw InputError(fmt::format("{} is {:.6g} um, more than a metre", what, value),
+                         "give a length in micrometres, at most 1e6");
     const double rounded = std::round(value * grid_per_micrometre) / grid_per_micrometre;
     if (value > 0 && rounded == 0)
-        throw InputError(fmt::format("{} is {} um, less than the grid of 1 nm on which masks are drawn", what, value),
-                         "give a greater length");
+        throw InputError(
+            fmt::format("{} is {:.6g} um, less than the grid of 1 nm on which masks are drawn", what, value),
+            "give a greater length");
     return rounded;
 }
 

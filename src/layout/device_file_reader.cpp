@@ -74,10 +74,12 @@ double DeviceFileReader::length(const TomlEntry& entry, bool may_be_zero) {
     std::string text = entry.node->is_string() ? reader_.toml().line(entry) : "";
     const std::size_t blank = text.find_last_of(' ');
     const double unit = blank == std::string::npos ? 0 : unit_of(std::string_view(text).substr(blank + 1));
-    if (unit > 0)
+    if (unit > 0) {
         value = value_of_text(Model(), text.substr(0, blank), reader_.inside(entry)) * unit;
-    else
+    } else {
+        require_no_unit(reader_, entry, text, "nm, um, mm, cm or m");
         value = reader_.number(Model(), entry);
+    }
     try {
         return length_on_grid(value, entry.path, may_be_zero);
     } catch (const InputError& error) {
@@ -238,10 +240,12 @@ void DeviceFileReader::take(const std::pair<std::string, double>& given) {
 void DeviceFileReader::require_layer() const {
     const ProcessData& process = result_.process;
     if (!(process.chamber_depth < process.wafer_thickness))
-        throw InputError(result_.place("process.chamber_depth"),
-                         fmt::format("the chambers, {} um deep, leave nothing of the wafer, which is {} um thick",
+        throw InputError(result_.place(result_.place("process.wafer_thickness").file.starts_with("--set")
+                                           ? "process.wafer_thickness"
+                                           : "process.chamber_depth"),
+                         fmt::format("the chambers, {:.6g} um deep, leave nothing of the wafer, {:.6g} um thick",
                                      process.chamber_depth, process.wafer_thickness),
-                         "give a smaller chamber_depth");
+                         "give a smaller chamber_depth or a greater wafer_thickness");
 }
 
 DeviceFile DeviceFileReader::read(const toml::table& root, const GivenLengths& given) {

@@ -80,6 +80,17 @@ void require_lengths(const Requirements& rules, const DeviceDimensions& d) {
                   fmt::format("give a whole number from 1 to {}", most_folds));
 }
 
+/// Between the chamber and the die's edge across the motion, less what stays free.
+double beyond_chamber(const DeviceDimensions& d) {
+    return std::max(d.mass_half_length() + d.clearance + d.chamber_margin, half_across_electrode(d));
+}
+
+/// Of the die: room for device, electrode, frame, marks and letters.
+double sufficient_width(const DeviceDimensions& d) {
+    const double edges = d.frame_width / 2;
+    return 2 * (beyond_chamber(d) + std::max(d.frame_width, edges + std::max(d.mark_size, d.label_height)));
+}
+
 /// Along y.
 void require_width(const Requirements& rules, const DeviceDimensions& d) {
     const double half = d.mass_half_length();
@@ -90,16 +101,28 @@ void require_width(const Requirements& rules, const DeviceDimensions& d) {
                                     {"clearance", 4 * d.clearance},
                                     {"chamber_margin", 2 * d.chamber_margin},
                                     {"frame_width", 2 * d.frame_width}});
-    rules.require(fits(across, d.die_width), longest,
-                  fmt::format("flexures of {} make a mass {} long, which with clearance, chamber and frame takes {} of "
-                              "a die {} wide",
-                              text_of(d.flexure_length), text_of(2 * half), text_of(across), text_of(d.die_width)),
-                  fmt::format("give a smaller {}, or a die_width of at least {}", longest, text_of(across)));
+    rules.require(
+        fits(across, d.die_width), longest,
+        fmt::format("flexures of {} make a mass {} long, which with clearance, chamber and frame takes {} of "
+                    "a die {} wide",
+                    text_of(d.flexure_length), text_of(2 * half), text_of(across), text_of(d.die_width)),
+        fmt::format("give a smaller {}, or a die_width of at least {}", longest, text_of(sufficient_width(d))));
     const double electrode = 2 * (half_across_electrode(d) + d.frame_width);
-    rules.require(fits(electrode, d.die_width), d.pad_width > d.electrode_length ? "pad_width" : "electrode_length",
-                  fmt::format("the fixed electrode with moat and frame takes {} of a die {} wide", text_of(electrode),
-                              text_of(d.die_width)),
-                  fmt::format("give a smaller electrode and pad, or a die_width of at least {}", text_of(electrode)));
+    rules.require(
+        fits(electrode, d.die_width), d.pad_width > d.electrode_length ? "pad_width" : "electrode_length",
+        fmt::format("the fixed electrode with moat and frame takes {} of a die {} wide", text_of(electrode),
+                    text_of(d.die_width)),
+        fmt::format("give a smaller electrode and pad, or a die_width of at least {}", text_of(sufficient_width(d))));
+}
+
+/// How long the label is.
+double written_length(const DeviceDimensions& d) {
+    return static_cast<double>(letters_width(label_of(d), nanometres(d.label_height))) / grid_per_micrometre;
+}
+
+/// Of a die with room for its label, a mark and three edges.
+double length_of_letters(const DeviceDimensions& d) {
+    return nanometres(d.label_height) < letter_rows ? 0 : written_length(d) + 0.75 * d.frame_width + d.mark_size;
 }
 
 /// Along x.
@@ -119,10 +142,11 @@ void require_length(const Requirements& rules, const DeviceDimensions& d) {
                                     {"clearance", 2 * d.clearance},
                                     {"chamber_margin", 2 * d.chamber_margin},
                                     {"frame_width", 2 * d.frame_width}});
+    const double sufficient = std::max(length, length_of_letters(d));
     rules.require(
         fits(length, d.die_length), longest,
         fmt::format("device and frame, {} long, do not fit on a die {} long", text_of(length), text_of(d.die_length)),
-        fmt::format("give a smaller {}, or a die_length of at least {}", longest, text_of(length)));
+        fmt::format("give a smaller {}, or a die_length of at least {}", longest, text_of(sufficient)));
 }
 
 /// What faces the mass, or lies below the electrode.
@@ -150,28 +174,27 @@ void require_parts(const Requirements& rules, const DeviceDimensions& d) {
 /// Letters and marks stand in the strip between the chamber and the die's upper edge.
 void require_letters(const Requirements& rules, const DeviceDimensions& d) {
     const double edge = d.frame_width / 4;
-    const double chamber = std::max(d.mass_half_length() + d.clearance + d.chamber_margin, half_across_electrode(d));
-    const double strip = d.die_width / 2 - chamber - 2 * edge;
+    const double strip = d.die_width / 2 - beyond_chamber(d) - 2 * edge;
     rules.require(fits(d.mark_size, strip), "mark_size",
                   fmt::format("an alignment mark of {} does not fit beside the chamber, where {} are free",
                               text_of(d.mark_size), text_of(strip)),
-                  "give a smaller mark_size, or a larger die_width");
+                  fmt::format("give a smaller mark_size, or a die_width of at least {}", text_of(sufficient_width(d))));
     rules.require(d.mark_size == 0 || nanometres(d.mark_size) >= least_mark, "mark_size",
                   fmt::format("a mark of {} is too small to be drawn", text_of(d.mark_size)),
                   "give a greater mark_size, or 0 for none");
-    rules.require(fits(d.label_height, strip), "label_height",
-                  fmt::format("letters of {} do not fit beside the chamber, where {} are free", text_of(d.label_height),
-                              text_of(strip)),
-                  "give a smaller label_height, or a larger die_width");
+    rules.require(
+        fits(d.label_height, strip), "label_height",
+        fmt::format("letters of {} do not fit beside the chamber, where {} are free", text_of(d.label_height),
+                    text_of(strip)),
+        fmt::format("give a smaller label_height, or a die_width of at least {}", text_of(sufficient_width(d))));
     if (d.label_height == 0)
         return;
     rules.require(nanometres(d.label_height) >= letter_rows, "label_height", "the letters are too small to be drawn",
                   "give a greater label_height, or 0 for none");
-    const double written =
-        static_cast<double>(letters_width(label_of(d), nanometres(d.label_height))) / grid_per_micrometre;
-    rules.require(fits(written, d.die_length - 3 * edge - d.mark_size), "label_height",
-                  fmt::format("'{}' is {} long, for which the die has no room", label_of(d), text_of(written)),
-                  "give a smaller label_height, or a larger die_length");
+    rules.require(
+        fits(length_of_letters(d), d.die_length), "label_height",
+        fmt::format("'{}' is {} long, for which the die has no room", label_of(d), text_of(written_length(d))),
+        fmt::format("give a smaller label_height, or a die_length of at least {}", text_of(length_of_letters(d))));
 }
 
 std::int64_t least_length(const DeviceDimensions& dimensions) {

@@ -1,11 +1,11 @@
 #include "graze/layout/lumped_model.hpp"
 
 #include "graze/layout/folded_spring.hpp"
-#include "graze/symbolic/physical_unit.hpp"
 #include "graze/layout/plate_attraction.hpp"
 #include "graze/layout/squeeze_film.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "graze/symbolic/physical_unit.hpp"
 
 #include <fmt/format.h>
 
@@ -161,14 +161,32 @@ LumpedModel lumped_model_of(const DeviceFile& file) {
     return lumped_model_of(draw_device(file), file);
 }
 
+namespace {
+
+/// To be blamed where the etch leaves nothing: what was given on the command line, the etch before what is drawn, or
+/// else what takes most.
+Place place_of_etch(const DeviceFile& file) {
+    const auto is_given = [](const Place& place) { return place.file.starts_with("--set"); };
+    const double by_taper = file.conditions.wall().slope * file.process.layer_thickness();
+    const bool tapered = std::abs(by_taper) > std::abs(file.conditions.bias);
+    for (const char* key : {tapered ? "process.taper" : "process.bias", tapered ? "process.bias" : "process.taper"})
+        if (const Place place = file.place(key); is_given(place))
+            return place;
+    for (const auto& [key, place] : file.places)
+        if (is_given(place))
+            return place;
+    return file.place(tapered ? "process.taper" : "process.bias");
+}
+
+} // namespace
+
 LumpedModel lumped_model_of(const DeviceDrawing& drawing, const DeviceFile& file) {
     try {
         return lumped_model_of(drawing, file.process, file.conditions);
     } catch (const InputError& error) {
-        const ProcessConditions& conditions = file.conditions;
-        const double by_taper = conditions.wall().slope * file.process.layer_thickness();
-        throw InputError(file.place(std::abs(by_taper) > std::abs(conditions.bias) ? "process.taper" : "process.bias"),
-                         error.problem(), error.remedy());
+        throw InputError(
+            place_of_etch(file), error.problem(),
+            "draw it larger, or give another bias, taper or thickness, so that the etch leaves some of it");
     }
 }
 

@@ -2,9 +2,33 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 namespace graze {
 
-std::string recipe_text(const DeviceFile& file) {
+namespace {
+
+/// For a shell: between quotes unless it is plain.
+std::string shell_word(const std::string& text) {
+    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-+/=,@";
+    if (!text.empty() && text.find_first_not_of(plain) == std::string::npos)
+        return text;
+    std::string quoted = "'";
+    for (const char c : text)
+        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
+std::string mask_command(const DeviceFile& file, const std::vector<std::string>& options, int mask) {
+    std::string text = "graze layout " + shell_word(file.file);
+    for (const std::string& option : options)
+        text += " " + shell_word(option);
+    return text + fmt::format(" --wafer --mask {} --output {}-mask{}.gds", mask, file.name, mask);
+}
+
+} // namespace
+
+std::string recipe_text(const DeviceFile& file, const std::vector<std::string>& options) {
     const ProcessData& process = file.process;
     const ProcessConditions& conditions = file.conditions;
     // Appendix D etches 50 um in 6 min and 250 um in 38 min: the rate falls in deep trenches.
@@ -19,12 +43,12 @@ std::string recipe_text(const DeviceFile& file) {
         "## What it takes\n\n"
         "- wafer 1: silicon, surface (100), doped with boron (1 to 5 ohm cm), polished on both sides, {:g} um thick\n"
         "- wafer 2: silicon, polished on one side, {:g} um thick\n"
-        "- mask 1 (chambers, for the back) and mask 2 (all else, for the front), chrome on glass: `graze layout {} "
-        "--wafer "
-        "--mask 1` and `--mask 2`\n"
+        "- mask 1 (chambers, for the back) and mask 2 (all else, for the front), chrome on glass:\n\n      {}\n      "
+        "{}\n\n"
         "- photoresist SPR220 with adhesion promoter AP8000, developer 327, remover 1165\n"
         "- SU-8 epoxy that sets by heat, for a layer of {:g} um\n\n",
-        process.wafer_thickness, conditions.base_thickness, file.name, conditions.bond_thickness);
+        process.wafer_thickness, conditions.base_thickness, mask_command(file, options, 1),
+        mask_command(file, options, 2), conditions.bond_thickness);
     text += fmt::format(
         "## Chambers, in the back of wafer 1\n\n"
         "1. Clean with acetone, isopropanol and water, blow dry, and bake for 2 min at 120 C.\n"

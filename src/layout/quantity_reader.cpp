@@ -1,9 +1,11 @@
 #include "layout/quantity_reader.hpp"
 
 #include "graze/symbolic/physical_unit.hpp"
+#include "graze/symbolic/printable.hpp"
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 #include <optional>
 
@@ -21,6 +23,24 @@ std::optional<PhysicalUnit> unit_in(std::string_view text) {
 
 } // namespace
 
+void require_no_unit(const StudyReader& reader, const TomlEntry& entry, const std::string& text, const char* units) {
+    const std::size_t blank = text.find_last_of(' ');
+    const std::size_t before = blank == std::string::npos ? blank : text.find_last_not_of(' ', blank);
+    if (before == std::string::npos || blank + 1 == text.size())
+        return;
+    const std::string word = text.substr(blank + 1);
+    const auto first = static_cast<unsigned char>(word.front());
+    const bool is_word = std::isalpha(first) || first >= 0x80; // or the Greek letter
+    // Behind an operator it is a name, which the expression is left to refuse.
+    if (!is_word || std::string_view("+-*/^(,").find(text[before]) != std::string_view::npos ||
+        word.find('(') != std::string::npos)
+        return;
+    reader.fail(entry,
+                unit_in(word) ? fmt::format("{} is not measured in {}", entry.path, word)
+                              : fmt::format("{} has the unknown unit '{}'", entry.path, shortened(word, 100)),
+                *units ? fmt::format("give it in {}", units) : "give a number without a unit");
+}
+
 double read_quantity(const StudyReader& reader, const TomlEntry& entry, const char* unit) {
     if (!entry.node->is_string())
         return reader.number(Model(), entry);
@@ -36,12 +56,13 @@ double read_quantity(const StudyReader& reader, const TomlEntry& entry, const ch
         if (is_unit)
             return converted(value_of_text(Model(), text.substr(0, blank), reader.inside(entry)), *given, wanted);
     }
+    require_no_unit(reader, entry, text, unit);
     return reader.number(Model(), entry);
 }
 
 void require_within(double value, const std::string& what, const char* unit, double least, double greatest) {
     if (!(value >= least && value <= greatest))
-        throw InputError(fmt::format("{} is {}{}{}", what, value, *unit ? " " : "", unit),
+        throw InputError(fmt::format("{} is {:.6g}{}{}", what, value, *unit ? " " : "", unit),
                          fmt::format("give a number from {} to {}", least, greatest));
 }
 

@@ -7,6 +7,10 @@
 
 namespace graze {
 
+/// @throws InputError with the place, for a text that ends in a word behind a value: a unit that is none, or of another
+/// kind @param units for the remedy
+void require_no_unit(const StudyReader& reader, const TomlEntry& entry, const std::string& text, const char* units);
+
 /// A number, an expression, or either with a unit of the kind behind it. @return in the unit
 /// @throws InputError with the place
 double read_quantity(const StudyReader& reader, const TomlEntry& entry, const char* unit);

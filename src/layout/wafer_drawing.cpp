@@ -39,11 +39,11 @@ public:
             file_.places.insert_or_assign("device." + name, file.place("wafer.vary." + name));
         radius_ = grid_per_micrometre * plan_.diameter / 2;
         require(plan_.flat_length < plan_.diameter, "flat_length",
-                fmt::format("a flat of {} um is longer than the wafer's diameter, {} um", plan_.flat_length,
+                fmt::format("a flat of {:.6g} um is longer than the wafer's diameter, {:.6g} um", plan_.flat_length,
                             plan_.diameter),
                 "give a shorter flat, or 0 for none");
         require(2 * plan_.exclusion < plan_.diameter, "exclusion",
-                fmt::format("nothing is left within an exclusion of {} um", plan_.exclusion), "give a smaller one");
+                fmt::format("nothing is left within an exclusion of {:.6g} um", plan_.exclusion), "give a smaller one");
         const double half_flat = grid_per_micrometre * plan_.flat_length / 2;
         flat_ = std::sqrt(radius_ * radius_ - half_flat * half_flat);
     }
@@ -139,7 +139,7 @@ private:
             }
         }
         require(plan_.mark_size == 0 || nanometres(plan_.mark_size) >= least_mark, "mark_size",
-                fmt::format("a mark of {} um is too small to be drawn", plan_.mark_size),
+                fmt::format("a mark of {:.6g} um is too small to be drawn", plan_.mark_size),
                 "give a greater mark_size, or 0 for none");
         for (const TurnedBox& mark : marks())
             for (std::size_t i = 0; i < dies_.size(); ++i)

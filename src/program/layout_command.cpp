@@ -101,6 +101,18 @@ void require_places(const LayoutArguments& arguments) {
             require_writable(files[i].path);
 }
 
+/// What the masks of the same device take.
+std::vector<std::string> options_again(const LayoutArguments& arguments, bool ruled) {
+    std::vector<std::string> options;
+    for (const std::string& one : arguments.set) {
+        options.emplace_back("--set");
+        options.push_back(one);
+    }
+    if (!ruled)
+        options.emplace_back("--despite-rules");
+    return options;
+}
+
 } // namespace
 
 int layout_command(const LayoutArguments& arguments, const Console& console) {
@@ -121,7 +133,7 @@ int layout_command(const LayoutArguments& arguments, const Console& console) {
     if (!arguments.parameters.empty())
         write_device_parameters(file, layout.devices.front(), arguments.parameters);
     if (!arguments.recipe.empty())
-        write_file(arguments.recipe, recipe_text(file));
+        write_file(arguments.recipe, recipe_text(file, options_again(arguments, ruled)));
     for (const std::string& picture : pictures)
         draw_layout(layout, picture);
     if (!path.empty()) {

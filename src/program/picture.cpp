@@ -17,7 +17,9 @@ std::string picture_ending(const std::string& path, const std::string& option, c
     ending.erase(0, 1);
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
     if (std::find(known.begin(), known.end(), ending) == known.end())
-        throw InputError({option, 0, 0}, fmt::format("'{}' does not say what kind of picture to draw", path),
+        throw InputError({option, 0, 0},
+                         fmt::format("'{}' does not say what kind of {} to draw", path,
+                                     known.front() == "gds" ? "masks or picture" : "picture"),
                          fmt::format("let the name end in .{}", fmt::join(known, ", .")));
     return ending;
 }

@@ -2,6 +2,7 @@
 #include "study/point_limits.hpp"
 
 #include "graze/results/name_advice.hpp"
+#include "graze/symbolic/printable.hpp"
 
 #include <fmt/format.h>
 
@@ -23,7 +24,7 @@ std::string embedded_text(std::span<const EmbeddedModel> files, const std::strin
             return std::string(file.text);
         names.emplace_back(file.name);
     }
-    const std::string problem = fmt::format("there is no {} '{}'", kind, name);
+    const std::string problem = fmt::format("there is no {} '{}'", kind, shortened(name, 100));
     std::error_code error;
     if (const std::string file = name + ".toml"; std::filesystem::exists(file, error))
         throw InputError(problem, fmt::format("the file is called {}", file));
@@ -64,6 +65,9 @@ double StudyReader::positive(const Model& model, const TomlEntry& entry) const {
 
 std::size_t StudyReader::count(const TomlEntry& entry, std::size_t least, std::size_t most) const {
     const auto* integer = entry.node->as_integer();
+    if (const auto* floating = entry.node->as_floating_point())
+        fail(entry, fmt::format("{} is {:.6g}", entry.path, floating->get()),
+             fmt::format("give a whole number from {} to {}", least, most));
     if (!integer)
         toml_.fail_type(entry, "a whole number");
     if (integer->get() < static_cast<std::int64_t>(least) || integer->get() > static_cast<std::int64_t>(most))

@@ -26,7 +26,7 @@ bool is_file_name(std::string_view name) {
 
 void require_file_name(std::string_view name, std::string_view what, const Place& place) {
     if (!is_file_name(name))
-        throw InputError(place, fmt::format("'{}' cannot be the {}", name, what),
+        throw InputError(place, fmt::format("'{}' cannot be the {}", shortened(name, 100), what),
                          fmt::format("use up to {} letters, digits, '.', '_' and '-', the first a letter, digit or '_'",
                                      longest_name));
 }

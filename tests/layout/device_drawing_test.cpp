@@ -140,10 +140,11 @@ TEST(DeviceDrawing, RefusesWhatDoesNotGoTogether) {
 
 /// What a message asks for is enough, to the nanometre.
 TEST(DeviceDrawing, FitsOnTheDieThatAMessageAsksFor) {
-    for (const double length : {1150.0, 1234.567, 877.001}) {
+    for (const auto& [length, marks] : {std::pair{1150.0, 0.0}, {1234.567, 0.0}, {877.001, 0.0}, {6000.0, 300.0}}) {
         DeviceDimensions dimensions;
         dimensions.flexure_length = length;
-        dimensions.mark_size = dimensions.label_height = 0;
+        dimensions.mark_size = marks;
+        dimensions.label_height = marks / 3;
         const auto asked = [&](const char* key) {
             const std::string text = message(dimensions), words = std::string(key) + " of at least ";
             const std::size_t at = text.find(words);
@@ -155,7 +156,7 @@ TEST(DeviceDrawing, FitsOnTheDieThatAMessageAsksFor) {
         dimensions.die_length = asked("die_length");
         EXPECT_EQ(message(dimensions), "") << length;
         dimensions.die_length -= 0.001;
-        EXPECT_THAT(message(dimensions), HasSubstr("give a smaller pad_length"));
+        EXPECT_THAT(message(dimensions), HasSubstr("die_length of at least"));
     }
 }
 

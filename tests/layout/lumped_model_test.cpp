@@ -185,6 +185,22 @@ TEST(LumpedModel, RefusesWhatTheEtchTakesAway) {
     }
 }
 
+TEST(LumpedModel, SaysWhereWhatIsEtchedAwayWasGiven) {
+    const auto place = [](const GivenLengths& given) {
+        try {
+            lumped_model_of(load_device_file(shipped, given));
+        } catch (const InputError& error) {
+            EXPECT_NE(error.problem().find(" um"), std::string::npos) << error.problem();
+            EXPECT_NE(error.remedy().find("another bias, taper"), std::string::npos);
+            return error.place().file;
+        }
+        return std::string("nothing is wrong");
+    };
+    EXPECT_EQ(place({{"bar_width", 0.5}}), "--set bar_width");
+    EXPECT_EQ(place({{"taper", 1}}), "--set taper");
+    EXPECT_EQ(place({{"bar_width", 90}, {"bias", 4}}), "--set bias");
+}
+
 TEST(LumpedModel, GivesParametersInTheModelsUnits) {
     const LumpedModel lumped = lumped_model_of(load_device_file(shipped));
     Model model = load_model(shipped);

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <fstream>
 
 namespace graze::testing {
 namespace {
@@ -41,16 +42,56 @@ TEST(LayoutModel, WritesNothingWhereARuleIsBrokenUnlessAsked) {
 TEST(LayoutModel, RefusesWhatTheEtchTakesAway) {
     const Printed gone = run_graze({"layout", "mems-switch-device", "--set", "bias=4"});
     EXPECT_EQ(gone.code, 2);
-    EXPECT_THAT(gone.err, HasSubstr("--set bias: rule smallest_etched_line is -1.43"));
     const Printed despite = run_graze({"layout", "mems-switch-device", "--set", "bias=4", "--despite-rules"});
     EXPECT_EQ(despite.code, 2) << "of nothing there is no model";
     EXPECT_THAT(despite.err, HasSubstr("--set bias: "));
+    EXPECT_THAT(gone.err, HasSubstr("--set bias: rule smallest_etched_line is -1.43633 um"));
+    for (const char* set : {"taper=1", "wafer_thickness=40", "chamber_depth=300", "gap=1e-6"}) {
+        const Printed refused = run_graze({"layout", "mems-switch-device", "--set", set});
+        EXPECT_EQ(refused.code, 2);
+        const std::string name = set;
+        EXPECT_THAT(refused.err, HasSubstr("graze: --set " + name.substr(0, name.find('=')) + ": "));
+    }
+}
+
+TEST(LayoutModel, SaysWhichFilesThereAre) {
+    const Printed text = run_graze({"layout", "mems-switch-device", "--output", "x.txt"});
+    EXPECT_EQ(text.code, 2);
+    EXPECT_THAT(text.err, HasSubstr("what kind of masks or picture to draw; let the name end in .gds"));
+    const Printed unknown = run_graze({"layout", std::string(3000, 'n')});
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_LT(unknown.err.size(), 1000U);
 }
 
 TEST(LayoutModel, WritesTheRecipe) {
     const Folder folder;
     ASSERT_EQ(run_graze({"layout", "mems-switch-device", "--recipe", folder / "recipe.md"}).code, 0);
     EXPECT_THAT(contents(folder / "recipe.md"), HasSubstr("Etch 50 um deep"));
+}
+
+TEST(LayoutModel, PrintsCommandsForTheMasksThatRun) {
+    const Folder folder;
+    const std::string design = folder / "z o.toml", recipe = folder / "recipe.md";
+    std::ofstream(design) << run_graze({"design", "mems-switch-device", "--show"}).out;
+    for (const bool broken : {false, true}) {
+        std::vector<std::string> words{"layout", design, "--set", "gap=14.5", "--set", "stop_gap=8.2"};
+        if (broken)
+            words.insert(words.end(), {"--set", "flexure_width=4.5", "--despite-rules"});
+        std::vector<std::string> with_recipe = words;
+        with_recipe.insert(with_recipe.end(), {"--recipe", recipe});
+        EXPECT_EQ(run_graze(with_recipe).code, broken ? 3 : 0);
+        const std::string text = contents(recipe);
+        for (const std::string mask : {"1", "2"}) {
+            const std::string end = " --wafer --mask " + mask + " --output mems-switch-device-mask" + mask + ".gds\n";
+            const std::string options = broken ? " --set flexure_width=4.5 --despite-rules" : "";
+            EXPECT_THAT(text, HasSubstr("      graze layout '" + design + "' --set gap=14.5 --set stop_gap=8.2" +
+                                        options + end));
+            std::vector<std::string> command = words;
+            const std::string file = folder / ("mask" + mask + ".gds");
+            command.insert(command.end(), {"--wafer", "--mask", mask, "--output", file});
+            EXPECT_EQ(run_graze(command).code, broken ? 3 : 0);
+        }
+    }
 }
 
 TEST(LayoutYield, MakesAFolderOfTablesAndMaps) {
