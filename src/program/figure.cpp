@@ -160,8 +160,12 @@ private:
             return fmt::format("with points pt 7 ps {:.3g} {}", 0.17 * symbol_, colour);
         case FigureSeries::Style::circles:
             return fmt::format("with points pt 6 ps {:.3g} lw 1.2 {}", circle_size(series.colour), colour);
-        case FigureSeries::Style::symbols:
-            return fmt::format("with points pt {} ps {:.3g} lw 1.2 {}", series.symbol, symbol_, colour);
+        case FigureSeries::Style::symbols: {
+            constexpr std::size_t many = 200; // beyond, thin small ones hide less of one another
+            const bool crowded = series.points.size() > many;
+            return fmt::format("with points pt {} ps {:.3g} lw {} {}", series.symbol, (crowded ? 0.6 : 1) * symbol_,
+                               crowded ? 0.7 : 1.2, colour);
+        }
         case FigureSeries::Style::impulses: {
             // Spectra may coincide: the first are drawn wide, so that each is seen beside those on it.
             const auto wider = static_cast<double>(over);

@@ -86,6 +86,14 @@ struct ShownPanel {
     std::string value, direction;
 };
 
+/// Seen on a band full of dots: black, then colours, upright and slanting in turn.
+void mark_by_crosses(FigureSeries& series, std::size_t index) {
+    series.style = FigureSeries::Style::symbols;
+    series.symbol = index % 2 == 0 ? 1 : 2; // gnuplot's crosses
+    if (index == 0)
+        series.colour = FigureSeries::black;
+}
+
 /// Adds a series for each sampling of a run.
 /// @param over named by the run, too, and seen over what is there
 void add_samples(FigurePanel& panel, const StudyPicture& picture, const StoredRun& run, const std::string& x,
@@ -97,7 +105,9 @@ void add_samples(FigurePanel& panel, const StudyPicture& picture, const StoredRu
         series[samplings[s]] = before + s;
         const std::string run_name = shown_name(picture, run.record.name);
         const std::string title = samplings.size() > 1 ? shown_name(picture, samplings[s]) : "";
-        panel.series.push_back({!over           ? title
+        // Where another run lies over it, both are named.
+        const bool named = over || (!title.empty() && !picture.over.empty());
+        panel.series.push_back({!named          ? title
                                 : title.empty() ? run_name
                                                 : fmt::format("{}: {}", run_name, title),
                                 over ? FigureSeries::Style::circles : FigureSeries::Style::dots,
@@ -118,7 +128,7 @@ void add_samples(FigurePanel& panel, const StudyPicture& picture, const StoredRu
             panel.series[at->second].points.push_back({rows.number(1), rows.number(2)});
     for (std::size_t s = before; over && s < panel.series.size(); ++s)
         if (panel.series[s].points.size() > most_circles)
-            panel.series[s].style = FigureSeries::Style::symbols, panel.series[s].symbol = 1; // gnuplot's cross
+            mark_by_crosses(panel.series[s], s - before);
 }
 
 /// Runs that are drawn over panels of the same values.

@@ -85,10 +85,7 @@ EstimateRecords estimates_of(const Fit& fit) {
     const std::size_t count = fit.numbers.size();
     for (const FittedNumber& number : fit.numbers) {
         const bool known = number.estimate.freedom > 0;
-        std::string name = number.name;
-        if (number.kind == FittedNumber::Kind::state && fit.records.size() > 1)
-            name += fmt::format(" of record {}", number.record + 1);
-        records.numbers.push_back({name, number.unit, number.estimate,
+        records.numbers.push_back({number.name, number.unit, number.estimate,
                                    number.at_bound ? "at its bound"
                                    : known         ? ""
                                                    : "not determined"});

@@ -170,6 +170,35 @@ std::vector<std::string> residual_names(const IdentifyRequest& request) {
     return names;
 }
 
+std::vector<std::string> names_of_estimates(What what) {
+    switch (what) {
+    case What::decrement:
+        return {"natural_frequency", "damping_ratio", "natural_frequency_of_pairs", "damping_ratio_of_pairs",
+                "rest_position"};
+    case What::restitution:
+        return {"restitution"};
+    case What::coupling:
+        return {"beta1", "beta2", "correlation", "beta1_of_regression", "beta2_of_regression"};
+    case What::impedance:
+        return {"resistance", "inductance", "leakage_inductance", "frequency"};
+    case What::fit:
+        break;
+    }
+    return {};
+}
+
+std::vector<std::string> names_found(const IdentifyRequest& request) {
+    std::vector<std::string> names = names_of_estimates(request.what);
+    for (const auto& [name, parameter] : request.gives) {
+        std::replace(names.begin(), names.end(), name, parameter);
+        if (std::find(names.begin(), names.end(), parameter) == names.end())
+            names.push_back(parameter);
+    }
+    for (const IdentifyRequest::Unknown& one : request.unknowns)
+        names.push_back(one.name);
+    return names;
+}
+
 std::vector<KeptRecord> kept_records(const StudyRun& run, const ResultFile& file) {
     std::vector<KeptRecord> records;
     for (const std::string& name : run.identify.records) {

@@ -13,6 +13,11 @@ namespace graze {
 /// What samples of a run of kind identify are: the number of the record, what is shown, and over what.
 std::vector<std::string> residual_names(const IdentifyRequest& request);
 
+/// What it finds besides fits, by its own names; of several records some numbers more.
+std::vector<std::string> names_of_estimates(IdentifyRequest::What what);
+/// All names of numbers that it may find under the names of parameters, as far as the study tells.
+std::vector<std::string> names_found(const IdentifyRequest& request);
+
 /// Records that other runs have kept.
 struct KeptRecord {
     std::string name;

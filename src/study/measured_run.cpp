@@ -1,6 +1,7 @@
 #include "study/measured_run.hpp"
 
 #include "study/identify_run.hpp"
+#include "study/identify_units.hpp"
 #include "study/record_run.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ namespace {
 std::vector<EstimateRecords> estimates_for(const StudyRun& run, const ResultFile& file) {
     std::vector<EstimateRecords> found;
     for (const std::string& name : run.parameters)
-        found.push_back(file.estimates(name));
+        convert_to_model(found.emplace_back(file.estimates(name)), run); // of a model in other units, maybe
     return found;
 }
 
@@ -72,7 +73,8 @@ bool run_identify(const StudyRun& run, SharedFile& file, const std::function<boo
 StudyRun with_parameters_found(const StudyRun& run, const ResultFile& file) {
     StudyRun result = run;
     for (const std::string& name : run.parameters) {
-        const EstimateRecords found = file.estimates(name);
+        EstimateRecords found = file.estimates(name);
+        convert_to_model(found, run);
         std::vector<std::string> names;
         std::size_t taken = 0;
         for (const EstimateRecord& number : found.numbers) {

@@ -55,7 +55,9 @@ std::vector<RecordInput> record_inputs(const std::string& study, const std::stri
     const fs::path relative(name);
     const bool leads_up = std::find(relative.begin(), relative.end(), "..") != relative.end();
     const std::string stay = "keep records in the study's folder or below it, and name them relative to it";
-    if (name.empty() || relative.is_absolute() || leads_up)
+    if (name.empty())
+        throw InputError(place, "a record has no name", "write it as \"run.csv\" or \"run*.csv\"");
+    if (relative.is_absolute() || leads_up)
         throw InputError(place, fmt::format("the record '{}' would be outside of the study's folder", name), stay);
     const fs::path folder = fs::path(study).parent_path().empty() ? fs::path(".") : fs::path(study).parent_path();
     std::vector<std::string> names;

@@ -1,4 +1,5 @@
 #include "graze/study/study.hpp"
+#include "study/identify_run.hpp"
 #include "study/run_schedule.hpp"
 #include "study/start_point.hpp"
 #include "study/study_reader.hpp"
@@ -40,6 +41,39 @@ std::vector<std::string> StudyRun::sampling_names() const {
     return names_of(samplings);
 }
 
+namespace {
+
+/// Whether a run goes on from what another one has found.
+bool refines(const StudyRun& run, const std::string& other, const Study& study) {
+    return std::any_of(run.parameters.begin(), run.parameters.end(), [&](const std::string& name) {
+        const StudyRun* one = study.find_run(name);
+        return name == other || (one && one->name != run.name && refines(*one, other, study));
+    });
+}
+
+/// Of two numbers for a parameter the later one counts, which must then be the better one.
+void check_found_once(const StudyRun& run, const Study& study) {
+    for (std::size_t j = 0; j < run.parameters.size(); ++j)
+        for (std::size_t i = 0; i < j; ++i) {
+            const StudyRun *first = study.find_run(run.parameters[i]), *second = study.find_run(run.parameters[j]);
+            if (run.parameters[i] == run.parameters[j])
+                throw InputError(run.parameters_place, fmt::format("run '{}' is named twice", run.parameters[i]),
+                                 "name it once");
+            if (!first || !second || refines(*second, first->name, study))
+                continue;
+            const std::vector<std::string> one = names_found(first->identify), two = names_found(second->identify);
+            for (const std::string& name : one)
+                if (run.model.find_independent_parameter(name) && std::find(two.begin(), two.end(), name) != two.end())
+                    throw InputError(run.parameters_place,
+                                     fmt::format("runs '{}' and '{}' both find '{}'", first->name, second->name, name),
+                                     fmt::format("name one of them, or let the second go on from the first: "
+                                                 "parameters = \"{}\" in '{}'",
+                                                 first->name, second->name));
+        }
+}
+
+} // namespace
+
 void check_needs(const StudyRun& run, const Study& study) {
     const auto require_kind = [&](const std::vector<std::string>& names, const Place& place, RunKind kind) {
         for (const std::string& name : names)
@@ -49,6 +83,7 @@ void check_needs(const StudyRun& run, const Study& study) {
     };
     require_kind(run.parameters, run.parameters_place, RunKind::identify);
     require_kind(run.identify.records, run.identify.records_place, RunKind::record);
+    check_found_once(run, study);
 }
 
 std::set<std::string> wanted_runs(const Study& study, const std::vector<std::string>& only) {

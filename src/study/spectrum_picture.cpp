@@ -78,7 +78,7 @@ ResultPicture spectrum_picture(const StudyPicture& picture, const ResultFile& fi
             const std::string words = words_of(run, value);
             const std::string subject = words.empty() ? shown_name(picture, value) : words;
             panel.y_label =
-                absolute ? fmt::format("amplitude of {}", subject) : fmt::format("amplitude of the {} / mean", subject);
+                absolute ? fmt::format("amplitude of {}", subject) : fmt::format("amplitude / mean of {}", subject);
             panel.y_unit = absolute ? run.unit(value) : "%";
             panel.x_unit = run.model.time_unit == "s" ? "Hz" : "";
         }

@@ -1,12 +1,35 @@
 #include "study/study_bench.hpp"
 
+#include "graze/flow/system.hpp"
+#include "graze/symbolic/function.hpp"
 #include "study/point_limits.hpp"
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace graze {
 
 namespace {
+
+/// What has no value at the first sample would end the run once it is done.
+void require_finite_at_start(const StudyReader& reader, const RecordBench& bench, const TomlEntry& entry) {
+    std::vector<Expression> values;
+    for (const BenchChannel& channel : bench.channels)
+        values.push_back(channel.value.value);
+    std::vector<double> inputs = bench.model.initial_state(), found(values.size());
+    const std::vector<double> parameters = bench.model.parameter_values();
+    inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+    const Function function = System(bench.model).function_of(values);
+    std::vector<double> work(function.workspace());
+    function.evaluate(inputs, found, work);
+    std::size_t next = 0;
+    reader.each_of(entry, {}, [&](const TomlEntry& item) {
+        if (!std::isfinite(found[next++]))
+            throw InputError(item.place, fmt::format("{} has no finite value where the motion begins", item.path),
+                             "measure something else, or begin elsewhere: from = { ... } or settle = SECONDS");
+    });
+}
 
 void read_bench_channels(const StudyReader& reader, const TomlEntry& entry, RecordBench& bench) {
     reader.each_of(entry, {}, [&](const TomlEntry& item) {
@@ -24,11 +47,14 @@ void read_bench_channels(const StudyReader& reader, const TomlEntry& entry, Reco
                     value(part);
                 else if (part.name == "unit")
                     unit = reader.toml().line(part), has_unit = true;
-                else
-                    (part.name == "noise"    ? channel.noise
-                     : part.name == "offset" ? channel.offset
-                     : part.name == "drift"  ? channel.drift
-                                             : channel.range) = reader.number(bench.model, part);
+                else if (part.name == "range")
+                    channel.range = reader.positive(bench.model, part);
+                else if (part.name == "noise") {
+                    channel.noise = reader.number(bench.model, part);
+                    if (!(channel.noise >= 0))
+                        reader.fail(part, fmt::format("{} is {}", part.path, channel.noise), "give 0 or more");
+                } else
+                    (part.name == "offset" ? channel.offset : channel.drift) = reader.number(bench.model, part);
             });
         if (channel.value.name.empty())
             value(item); // says that it is no expression
@@ -59,6 +85,11 @@ void read_bench(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
                             : item.name == "anti_alias" ? bench.anti_alias
                                                         : bench.time_unit) = reader.positive(bench.model, item);
                    });
+    if (!bench.channels.empty() && bench.settle == 0 && run.axes.empty())
+        reader.each_of(entry, {}, [&](const TomlEntry& item) {
+            if (item.name == "channels")
+                require_finite_at_start(reader, bench, item);
+        });
     if (bench.channels.empty())
         reader.fail(entry, fmt::format("{} measures nothing", entry.path), "give channels = { q = \"q\" }");
     if (!(bench.rate > 0) || !(bench.time > 0) || !(bench.rate * bench.time >= 2) || !(bench.settle >= 0) ||

@@ -3,6 +3,7 @@
 #include "study/study_reader.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -28,6 +29,18 @@ void read_gives(const StudyReader& reader, StudyRun& run, const TomlEntry& entry
         if (!run.model.find_independent_parameter(parameter))
             reader.fail(item, fmt::format("model '{}' has no parameter '{}'", run.model.name, parameter),
                         study_name_remedy(parameter, run.model.independent_parameters()));
+        const std::vector<std::string> known = names_of_estimates(run.identify.what);
+        // Of several records there are numbers of each, which their names tell.
+        const bool of_record =
+            item.name.find(" of ") != std::string::npos || item.name.find("spread_between") != std::string::npos;
+        if (!of_record && run.identify.what != What::fit &&
+            std::find(known.begin(), known.end(), item.name) == known.end())
+            throw InputError(item.place, fmt::format("nothing of the name '{}' is found", item.name),
+                             fmt::format("it finds {}", fmt::join(known, ", ")));
+        for (const auto& [name, other] : run.identify.gives)
+            if (other == parameter)
+                reader.fail(item, fmt::format("'{}' and '{}' cannot both be '{}'", name, item.name, parameter),
+                            "leave one of them out");
         run.identify.gives.emplace_back(item.name, parameter);
     });
 }

@@ -90,6 +90,9 @@ std::pair<double, double> StudyReader::range(const Model& model, const TomlEntry
 std::vector<std::string> StudyReader::strings(const TomlEntry& entry) const {
     if (entry.node->is_string())
         return {toml_.line(entry)};
+    if (!entry.node->is_array())
+        fail(entry, fmt::format("{} must be a name or a list of names", entry.path),
+             fmt::format("write it as {0} = \"NAME\" or {0} = [\"NAME\"]", entry.name));
     std::vector<std::string> result;
     each(toml_.elements(entry), [&](const TomlEntry& item) { result.push_back(toml_.line(item)); });
     return result;

@@ -27,6 +27,8 @@ void with_keys(const StudyReader& reader, const TomlEntry& table, std::initializ
 }
 
 void read_files(const StudyReader& reader, const TomlEntry& entry, std::size_t direction, RecordRequest& request) {
+    if (!entry.node->is_string() && !entry.node->is_array())
+        reader.fail(entry, fmt::format("{} must be a name or a list of names", entry.path), "write it as \"run*.csv\"");
     reader.each(reader.items(entry), [&](const TomlEntry& item) {
         for (RecordInput input : record_inputs(reader.file(), reader.toml().string(item), reader.inside(item))) {
             input.direction = direction;

@@ -23,6 +23,7 @@
 namespace graze {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr double w0 = 95.94, zeta = 0.016, mass = 0.6462, gap = 4.8e-3, beta1 = 1.9e-5, beta2 = 1.6e-3;
@@ -287,6 +288,20 @@ known = ["v"]
     EXPECT_EQ(k.estimate.error, fit.numbers[0].estimate.error);
     EXPECT_NEAR(k.estimate.value, 2.1 * 2.1, 1e-3); // what is alternating tells a cosine nothing
     EXPECT_NEAR(estimate("fit", "x(0)").estimate.value, 1, 1e-3);
+    run(R"(name = "s"
+model = "./swing.toml"
+[runs.record]
+kind = "record"
+files = ["swing.csv", "swing.csv"]
+[runs.fit]
+kind = "identify"
+what = "fit"
+records = "record"
+unknowns = { k = 4.2 }
+readings = ["x"]
+known = ["v"]
+)");
+    EXPECT_NEAR(estimate("fit", "x(0) of record 2").estimate.value, 1, 1e-3);
     // Alternating residuals are no noise, and the fit says so: it must not be gone on with.
     EXPECT_EQ(fit.ending == FitEnding::converged, reports.back().complete()) << reports.back().problem;
 }
@@ -323,6 +338,20 @@ TEST_F(IdentifyRunTest, what_cannot_be_found_fails_with_all_that_needs_it) {
     EXPECT_THAT(reports[2].problem, HasSubstr("'decay', which it needs, failed"));
 }
 
+TEST_F(IdentifyRunTest, a_parameter_is_found_once_or_refined) {
+    write_release("r1.csv");
+    const auto study = [&](const std::string& second, const std::string& taken) {
+        return std::string(head) + "[runs.again]\nkind = \"identify\"\nwhat = \"decrement\"\nrecords = \"releases\"\n" +
+               "gives = { damping_ratio = \"zeta\" }\n" + second + "[runs.motion]\nkind = \"simulate\"\ntime = 0.1\n" +
+               "parameters = " + taken + "\n";
+    };
+    EXPECT_THAT(refusal(study("", R"(["decay", "again"])")),
+                HasSubstr("s.toml:19:1: runs 'decay' and 'again' both find 'zeta'; name one of them"));
+    EXPECT_THAT(refusal(study("", R"(["decay", "decay"])")), HasSubstr("s.toml:19:1: run 'decay' is named twice"));
+    EXPECT_THAT(refusal(study("parameters = \"decay\"\n", R"(["again", "decay"])")), HasSubstr("both find 'zeta'"));
+    EXPECT_EQ(refusal(study("parameters = \"decay\"\n", R"(["decay", "again"])")), "");
+}
+
 TEST_F(IdentifyRunTest, studies_without_sense_are_refused) {
     write_release("r1.csv");
     const std::string records = "name = \"s\"\nmodel = \"electromagnetic-testbed\"\n[runs.a]\nkind = \"record\"\n"
@@ -343,7 +372,12 @@ TEST_F(IdentifyRunTest, studies_without_sense_are_refused) {
     EXPECT_THAT(refusal(decrement + "records = \"a\"\ngives = { damping_ratio = \"zzeta\" }\n"),
                 HasSubstr("has no parameter 'zzeta'; did you mean 'zeta'?"));
     EXPECT_THAT(refusal(decrement + "records = \"a\"\ngives = { damping = \"zeta\" }\n"),
-                HasSubstr("nothing of the name 'damping' is found; it finds natural_frequency"));
+                HasSubstr("s.toml:10:11: nothing of the name 'damping' is found; it finds natural_frequency"));
+    EXPECT_THAT(
+        refusal(decrement + "records = \"a\"\ngives = { damping_ratio = \"zeta\", natural_frequency = \"zeta\" }\n"),
+        AllOf(HasSubstr("s.toml:10:55:"), HasSubstr("cannot both be 'zeta'")));
+    EXPECT_THAT(refusal(decrement + "records = 3\n"),
+                HasSubstr("s.toml:9:11: runs.b.records must be a name or a list"));
     EXPECT_THAT(refusal(records + "what = \"coupling\"\nrecords = \"a\"\n"), HasSubstr("gap or stiffness"));
     EXPECT_THAT(refusal(records + "what = \"fit\"\nrecords = \"a\"\n"), HasSubstr("what is to be found"));
     EXPECT_THAT(refusal(records + "what = \"fit\"\nrecords = \"a\"\nunknowns = [\"w1\"]\nreadings = [\"v\"]\n"),

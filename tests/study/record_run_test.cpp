@@ -381,7 +381,7 @@ TEST_F(RecordRunTest, records_stay_in_the_folder_of_the_study) {
     EXPECT_THAT(told("pipe.csv"), HasSubstr("is no plain file")); // reading it would wait for ever
     EXPECT_THAT(told("none.csv"), HasSubstr("there is no record 'none.csv'"));
     EXPECT_THAT(told("*.dat"), HasSubstr("there is no record '*.dat'"));
-    EXPECT_THAT(told(""), HasSubstr("outside of the study's folder"));
+    EXPECT_THAT(told(""), HasSubstr("a record has no name"));
     EXPECT_THAT(told("a\\u0007.csv"), HasSubstr("s.toml:4"));
     // A link that stays inside is as good as the file.
     folder_.write("a.csv", waves(2, 1));
@@ -536,6 +536,12 @@ TEST_F(RecordRunTest, benches_without_sense_are_refused) {
     EXPECT_THAT(
         told("vary = { amplitude = { from = 1, to = 2, points = 1000 } }\ncarry = false\n", fine + "repeats = 10000\n"),
         HasSubstr("more than 1000000 records"));
+    const auto channel = [&](const std::string& text) {
+        return told("", "channels = { x = " + text + " }\nrate = 20\ntime = 20\n");
+    };
+    EXPECT_THAT(channel(R"({ value = "x", noise = -1 })"), HasSubstr("s.toml:6:41: "));
+    EXPECT_THAT(channel(R"({ value = "x", range = 0 })"), HasSubstr("s.toml:6:41: "));
+    EXPECT_THAT(channel("\"sqrt(-1 - x^2)\""), HasSubstr("s.toml:6:14: runs.r.bench.channels.x has no finite value"));
     // What would settle for ever can be broken off.
     const Study study =
         read_study(study_file("name = \"s\"\nmodel = \"impact-oscillator\"\n[runs.r]\nkind = \"record\"\n"
