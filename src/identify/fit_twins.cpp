@@ -48,7 +48,7 @@ public:
     std::vector<FoundTwin> run() {
         std::vector<FoundTwin> twins;
         const std::size_t count = changes_.size();
-        const auto attempt = [&](std::vector<const Change*> all) {
+        const auto attempt = [&](const std::vector<const Change*>& all) {
             constexpr std::size_t enough = 3;
             Beginning there = here_;
             for (const Change* change : all)
@@ -88,7 +88,7 @@ private:
         const FitLayout& layout = rows_->layout;
         for (std::size_t j = 0; j < here_.shared.size(); ++j)
             if (is_sure(fit_->numbers[j]) && fit_->numbers[j].kind != FittedNumber::Kind::offset)
-                changes_.push_back([j](Beginning& to) { to.shared[j] = -to.shared[j]; });
+                changes_.emplace_back([j](Beginning& to) { to.shared[j] = -to.shared[j]; });
         for (std::size_t k = 0; k < layout.gains.size(); ++k)
             gains_.push_back(layout.parameters + k);
         std::vector<std::size_t> mirrored;
@@ -96,7 +96,7 @@ private:
             if (!is_unknown(i))
                 continue;
             if (const double period = known_->front().periods[i]; period > 0) {
-                changes_.push_back([i, period](Beginning& to) {
+                changes_.emplace_back([i, period](Beginning& to) {
                     for (std::vector<double>& start : to.starts)
                         start[i] += start[i] < period / 2 ? period / 2 : -period / 2;
                 });
@@ -113,7 +113,7 @@ private:
                 changes_.emplace_back(flip);
         }
         if (mirrored.size() > 1)
-            changes_.push_back([mirrored](Beginning& to) {
+            changes_.emplace_back([mirrored](Beginning& to) {
                 for (std::vector<double>& start : to.starts)
                     for (const std::size_t i : mirrored)
                         start[i] = -start[i];
@@ -132,7 +132,7 @@ private:
         for (const Symmetry& symmetry : model.symmetries) {
             const Function map = model.function_of(model.expand(symmetry.map));
             const std::vector<std::size_t> modes = symmetry.modes;
-            symmetries_.push_back([this, map, modes](Beginning& to) {
+            symmetries_.emplace_back([this, map, modes](Beginning& to) {
                 for (std::size_t r = 0; r < to.starts.size(); ++r) {
                     std::vector<double> inputs = to.starts[r];
                     const std::vector<double> values = rows_->parameters(r, point_->shared);

@@ -232,7 +232,11 @@ Identification identify_coupling(const EachRecord& records, const Identification
     known.displacement_noise = settings.displacement_noise;
     known.current_noise = settings.current_noise;
     const Coupling constants = coupling(loads, known);
-    const std::string length = displacement.unit, product = length == "m" && current.unit == "A" ? "H m" : "";
+    const std::string &length = displacement.unit, &ampere = current.unit;
+    // Of stiffness in N/m, as it is where lengths are in m.
+    const std::string product = length != "m" || ampere.empty() ? ""
+                                : ampere == "A"                 ? "H m"
+                                                                : fmt::format("N m^2/{0} {0}", ampere);
     Identification found;
     found.values = {{"beta1", product, constants.beta1},
                     {"beta2", length, constants.beta2},
@@ -329,9 +333,11 @@ Identification identify_impedance(const EachRecord& records, const Identificatio
                 leakage_inductance(one.inductance, *settings.beta1, *settings.beta2, *settings.gap, settings.clamped));
         const std::string& time = header.time.unit;
         hertz = time == "s" ? "Hz" : time.empty() ? "" : "1/" + time;
-        if (header.channels[v].unit == "V" && header.channels[c].unit == "A") {
-            ohm = "ohm";
-            henry = time == "s" ? "H" : "";
+        const std::string &volt = header.channels[v].unit, &ampere = header.channels[c].unit;
+        if (!volt.empty() && !ampere.empty()) {
+            const bool plain = volt == "V" && ampere == "A";
+            ohm = plain ? "ohm" : fmt::format("{}/{}", volt, ampere);
+            henry = time.empty() ? "" : plain && time == "s" ? "H" : fmt::format("{} {}/{}", volt, time, ampere);
         }
         if (names.size() == 1) {
             found.x = header.time;

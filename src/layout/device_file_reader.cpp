@@ -116,10 +116,24 @@ void DeviceFileReader::read_process(const TomlEntry& entry) {
     });
 }
 
+bool DeviceFileReader::read_rule(const TomlEntry& item) {
+    if (item.node->is_boolean() && !item.node->ref<bool>())
+        for (const QuantityField<RuleLimits>& field : rule_fields())
+            if (item.name == field.name) {
+                result_.rules.*field.member = no_limit(field);
+                return true;
+            }
+    try {
+        return read_quantity_field(reader_, rule_fields(), item, result_.rules);
+    } catch (const InputError& error) {
+        throw InputError(error.place(), error.problem(), error.remedy() + ", or false for no such rule");
+    }
+}
+
 void DeviceFileReader::read_rules(const TomlEntry& entry) {
     reader_.each_of(entry, {}, [&](const TomlEntry& item) {
         result_.places.emplace(item.path, reader_.toml().place(*item.node));
-        if (read_quantity_field(reader_, rule_fields(), item, result_.rules))
+        if (read_rule(item))
             return;
         std::vector<std::string> known;
         for (const QuantityField<RuleLimits>& field : rule_fields())

@@ -22,6 +22,7 @@ private:
     bool read_length(std::span<const LengthField<Section>> fields, const TomlEntry& entry, Section& section);
     void read_device(const TomlEntry& entry);
     void read_process(const TomlEntry& entry);
+    bool read_rule(const TomlEntry& item);
     void read_rules(const TomlEntry& entry);
     void read_wafer(const TomlEntry& entry);
     void read_wafer_item(const TomlEntry& entry);

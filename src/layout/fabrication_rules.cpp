@@ -1,6 +1,7 @@
 #include "graze/layout/fabrication_rules.hpp"
 
 #include "graze/symbolic/input_errors.hpp"
+#include "layout/free_way.hpp"
 #include "layout/mask_edges.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@ namespace graze {
 
 namespace {
 
-constexpr std::size_t most_places = 20; // of one rule
+constexpr std::size_t most_places = 5; // of one rule: further ones are counted
 
 double micrometres(std::int64_t nanometres) {
     return static_cast<double>(nanometres) / grid_per_micrometre;
@@ -37,10 +38,13 @@ public:
         back_places_ = facing_edges(mask_edges(back_));
         add_widths("smallest_line", limits_->smallest_line, false);
         add_widths("smallest_gap", limits_->smallest_gap, true);
+        add_etched_widths("smallest_etched_line", limits_->smallest_etched_line, false);
+        add_etched_widths("smallest_etched_gap", limits_->smallest_etched_gap, true);
         add_aspects();
         add_overlap();
         add_undercut();
         add_motion();
+        add_free_ways();
         return std::move(findings_);
     }
 
@@ -52,21 +56,32 @@ private:
         GridPoint at;
     };
 
-    bool is_given(const std::string& rule) const { return file_->places.contains("rules." + rule); }
-
     void add(const std::string& rule, double limit, const char* unit, bool at_least, std::vector<Measured> places) {
-        if (!is_given(rule))
+        if (!std::isfinite(limit))
             return;
         std::stable_sort(places.begin(), places.end(), [&](const Measured& a, const Measured& b) {
             return at_least ? a.value < b.value : a.value > b.value;
         });
-        for (std::size_t i = 0; i < std::min(places.size(), most_places); ++i) {
-            const Measured& one = places[i];
-            RuleFinding finding{rule, one.value, limit, unit, at_least, one.part, one.at, device_};
-            if (i > 0 && finding.holds())
+        std::size_t count = 0;
+        for (const Measured& one : places) {
+            RuleFinding finding{rule,   one.value, limit, unit,         at_least, one.part,
+                                one.at, device_,   false, key_of(rule), "",       0};
+            if (count > 0 && finding.holds())
                 break;
-            findings_.push_back(std::move(finding));
+            if (++count > most_places)
+                ++findings_.back().more;
+            else
+                findings_.push_back(std::move(finding));
         }
+    }
+
+    /// What there is to blame: a rule, or what the process does to all widths.
+    std::string key_of(const std::string& rule) const {
+        if (!rule.starts_with("smallest_etched"))
+            return "rules." + rule;
+        const ProcessConditions& conditions = file_->conditions;
+        const double by_taper = conditions.wall().slope * file_->process.layer_thickness();
+        return std::abs(by_taper) > std::abs(conditions.bias) ? "process.taper" : "process.bias";
     }
 
     static bool within_any(const std::vector<GridPolygon>& polygons, GridPoint point) {
@@ -117,16 +132,35 @@ private:
         add(rule, limit, "um", true, std::move(places));
     }
 
+    double depth_of(const FacingEdges& place, bool on_front) const {
+        const ProcessData& process = file_->process;
+        if (!on_front)
+            return process.chamber_depth;
+        return within_any(back_, place.middle()) ? process.layer_thickness() : process.wafer_thickness;
+    }
+
+    /// Of what is etched from the front, whose walls the process tells.
+    void add_etched_widths(const char* rule, double limit, bool etched) {
+        std::vector<Measured> places;
+        const EtchedWall wall = file_->conditions.wall();
+        for (const FacingEdges& place : front_places_)
+            if (place.etched == etched) {
+                const double drawn = micrometres(place.distance), depth = depth_of(place, true);
+                const EtchedWidth width = etched ? etched_trench(wall, drawn, depth) : etched_line(wall, drawn, depth);
+                const char* end = width.top < width.bottom ? " at its top" : " at its bottom";
+                places.push_back(
+                    {width.least(), part_of(place, true) + (width.top == width.bottom ? "" : end), place.middle()});
+            }
+        add(rule, limit, "um", true, std::move(places));
+    }
+
     void add_aspects() {
         std::vector<Measured> places;
-        const ProcessData& process = file_->process;
         for (const bool on_front : {true, false})
             for (const FacingEdges& place : on_front ? front_places_ : back_places_)
                 if (place.etched) {
-                    const double depth = !on_front                           ? process.chamber_depth
-                                         : within_any(back_, place.middle()) ? process.layer_thickness()
-                                                                             : process.wafer_thickness;
-                    places.push_back({depth / micrometres(place.distance), part_of(place, on_front), place.middle()});
+                    places.push_back({depth_of(place, on_front) / micrometres(place.distance), part_of(place, on_front),
+                                      place.middle()});
                 }
         add("largest_aspect", limits_->largest_aspect, "", false, std::move(places));
     }
@@ -180,8 +214,15 @@ private:
             margins(drawing_->base, {drawing_->electrode}, "the fixed electrode's base"));
     }
 
+    /// Of a part of which nothing is left there is no model; its rule says so.
+    bool is_etched_away() const {
+        return std::any_of(findings_.begin(), findings_.end(), [](const RuleFinding& one) {
+            return one.rule.starts_with("smallest_etched") && one.value <= 0 && !one.holds();
+        });
+    }
+
     void add_motion() {
-        if (!is_given("largest_stop_share") && !is_given("largest_stress") && !is_given("largest_squeeze"))
+        if (is_etched_away())
             return;
         const LumpedModel lumped = lumped_model_of(*drawing_, *file_);
         const GridPoint stop = bounding_middle(drawing_->stops.front());
@@ -195,6 +236,42 @@ private:
              {lumped.stress_per_travel * lumped.closure / mega, "a beam, when the electrodes touch", at_beam}});
         add("largest_squeeze", limits_->largest_squeeze, "", false,
             {{lumped.squeeze, "the gas between the electrodes", bounding_middle(drawing_->electrode)}});
+    }
+
+    /// To either side the worst place, and all others where the mass is held up.
+    void add_free_ways() {
+        std::vector<FreeWay> ways =
+            free_ways(*drawing_, front_, file_->conditions.wall(), file_->process.layer_thickness());
+        std::stable_sort(ways.begin(), ways.end(), [](const FreeWay& a, const FreeWay& b) { return a.way < b.way; });
+        for (const bool to_stops : {true, false}) {
+            const char* aim = to_stops ? "the stops" : "the fixed electrode";
+            std::size_t count = 0;
+            for (const FreeWay& one : ways) {
+                if (one.to_stops != to_stops)
+                    continue;
+                RuleFinding finding{
+                    .rule = "free_way",
+                    .value = one.way,
+                    .limit = one.needed,
+                    .unit = "um",
+                    .at_least = true,
+                    .part = fmt::format("the mass on its way to {}, until {}", aim, one.part),
+                    .at = one.at,
+                    .device = device_,
+                    .beyond = true,
+                    .key = "device." + one.key,
+                    .remedy = fmt::format("give a greater {}, or a smaller {}: what else it meets, the model does not "
+                                          "know",
+                                          one.key, to_stops ? "stop_gap" : "gap"),
+                    .more = 0};
+                if (count > 0 && finding.holds())
+                    break;
+                if (++count > most_places)
+                    ++findings_.back().more;
+                else
+                    findings_.push_back(std::move(finding));
+            }
+        }
     }
 
     static GridPoint bounding_middle(const GridPolygon& polygon) {
@@ -215,9 +292,11 @@ private:
 
 std::string RuleFinding::text() const {
     const std::string in = unit.empty() ? "" : " " + unit;
-    return fmt::format("{} is {:.6g}{} for {}, at ({:.3f}, {:.3f}) um of {}, where {} {:.6g}{} is allowed", rule, value,
-                       in, part, micrometres(at.x), micrometres(at.y), device, at_least ? "at least" : "at most", limit,
-                       in);
+    const char* bound = beyond ? "more than" : at_least ? "at least" : "at most";
+    return fmt::format("{} is {:.6g}{} for {}, at ({:.3f}, {:.3f}) um of {}, where {} {:.6g}{} is {}{}", rule, value,
+                       in, part, micrometres(at.x), micrometres(at.y), device, bound, limit, in,
+                       beyond ? "needed" : "allowed",
+                       more == 0 ? std::string() : fmt::format(" (and at {} more places)", more));
 }
 
 std::vector<RuleFinding> rule_findings(const DeviceFile& file, const Layout& layout, const DrawnDevice& device) {
@@ -237,8 +316,13 @@ void require_rules(const DeviceFile& file, const std::vector<RuleFinding>& findi
     for (const RuleFinding& one : findings)
         mistakes.attempt([&] {
             if (!one.holds())
-                throw InputError(file.place("rules." + one.rule), "rule " + one.text(),
-                                 "change the dimension or the rule, or draw it all the same by --despite-rules");
+                throw InputError(
+                    file.place(one.key), "rule " + one.text(),
+                    one.remedy.empty()
+                        ? fmt::format("change the dimension, or {} in [rules] (false: none), or draw it all "
+                                      "the same by --despite-rules",
+                                      one.rule)
+                        : one.remedy);
         });
     mistakes.throw_noted();
 }

@@ -13,7 +13,7 @@ namespace graze {
 
 namespace {
 
-/// Force in x and y and moment at the mass's end, force in y in the middle; x is the direction of motion, y that of the
+/// Force in x and y and moment at the guided end, force in y in the middle; x is the direction of motion, y that of the
 /// beams.
 using Load = Eigen::Vector4d;
 
@@ -83,6 +83,11 @@ private:
     double x_ = 0, y_ = 0, middle_x_ = 0;
 };
 
+EtchedWidth finger_of(const FoldedSpring& spring) {
+    return {.top = 2 * (spring.half_middle + spring.beam_width.top),
+            .bottom = 2 * (spring.half_middle + spring.beam_width.bottom)};
+}
+
 Chain chain_of(const FoldedSpring& spring) {
     const double length = spring.beam_length, width = spring.beam_width.mean();
     const double gyration = spring.beam_width.mean_cube() / 12 / width / (length * length);
@@ -90,6 +95,9 @@ Chain chain_of(const FoldedSpring& spring) {
     const double stretching = gyration * width / spring.truss_width.mean();
     const double half_truss = 0.5 * spring.truss_width.mean() / length, half_beam = 0.5 * width / length;
     Chain chain;
+    if (spring.finger_length > 0) // half of it is this half's
+        chain.add(0, spring.finger_length / length, 2 * spring.beam_width.mean_cube() / finger_of(spring).mean_cube());
+    chain.add(spring.half_middle / length + half_beam, 0);
     double direction = 1;
     for (std::size_t i = 0; i < spring.beams; ++i) {
         chain.add_beam(direction, gyration);
@@ -103,6 +111,13 @@ Chain chain_of(const FoldedSpring& spring) {
             chain.add(0, -direction * half_truss);
         }
         direction = -direction;
+    }
+    if (spring.bar_length > 0) {
+        const double bar = spring.bar_width.mean();
+        chain.add(0.5 * bar / length, 0);
+        chain.add(0, direction * half_truss);
+        chain.add(0, direction * spring.bar_length / length,
+                  spring.beam_width.mean_cube() / spring.bar_width.mean_cube(), gyration * width / bar);
     }
     return chain;
 }
@@ -145,6 +160,10 @@ SpringProperties properties_of(const FoldedSpring& spring) {
     require_positive(spring.half_middle, "distance of the flexures from the middle after the etch");
     require_positive(spring.height, "height of the flexures");
     require_positive(spring.modulus, "Young's modulus", "Pa");
+    require_not_negative(spring.finger_length, "length of the frame's finger");
+    require_not_negative(spring.bar_length, "length of the mass's bars after the etch");
+    if (spring.bar_length > 0)
+        require_positive(spring.bar_width.least(), "width of the mass's bars after the etch");
     const Chain chain = chain_of(spring);
     const Load loads = chain.compliance().ldlt().solve(Load::UnitX());
     const double length = spring.beam_length, inertia = spring.beam_width.mean_cube() / 12;

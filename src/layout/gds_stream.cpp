@@ -154,7 +154,8 @@ std::uint64_t gds_real(double value) {
         ++exponent;
     }
     const auto digits = static_cast<std::uint64_t>(std::ldexp(fraction, fraction_bits));
-    const auto power = static_cast<std::uint64_t>(exponent / digit_bits + excess);
+    const int excess_power = exponent / digit_bits + excess;
+    const auto power = static_cast<std::uint64_t>(excess_power);
     return (value < 0 ? std::uint64_t{1} << 63U : 0) | (power << static_cast<unsigned>(fraction_bits)) | digits;
 }
 

@@ -1,7 +1,7 @@
 #include "graze/layout/lumped_model.hpp"
 
 #include "graze/layout/folded_spring.hpp"
-#include "graze/layout/physical_unit.hpp"
+#include "graze/symbolic/physical_unit.hpp"
 #include "graze/layout/plate_attraction.hpp"
 #include "graze/layout/squeeze_film.hpp"
 #include "graze/model/catalogue.hpp"
@@ -68,8 +68,14 @@ private:
         spring.truss_width = in_metres(line(flexure.trusses.front().height()));
         spring.height = depth_ * micrometre;
         spring.modulus = conditions_->modulus * 1e9;
+        const DeviceDimensions& d = drawing_->dimensions;
+        spring.finger_length = (micrometres(flexure.finger.height()) + d.clearance) * micrometre;
+        const double rigid_mass = properties_of(spring).stiffness;
+        spring.bar_length = (micrometres(flexure.lugs.front().bottom) + 2 * recess()) * micrometre;
+        spring.bar_width = in_metres(etched_line(wall_, d.bar_width, depth_));
         const SpringProperties half = properties_of(spring);
         constexpr double halves = 4;
+        result.rigid_mass = halves * rigid_mass;
         result.stiffness = halves * half.stiffness;
         result.stiff_trusses = halves * half.stiff_trusses;
         result.stress_per_travel = half.stress_per_travel;

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string_view>
 
 namespace graze {
 
@@ -27,20 +29,27 @@ using Rule = QuantityField<RuleLimits>;
 constexpr std::array rules{
     Rule{"smallest_line", &RuleLimits::smallest_line, "um", 0, 1e6, "of silicon between two trenches"},
     Rule{"smallest_gap", &RuleLimits::smallest_gap, "um", 0, 1e6, "of a trench"},
+    Rule{"smallest_etched_line", &RuleLimits::smallest_etched_line, "um", 0, 1e6, "of a line after the etch"},
+    Rule{"smallest_etched_gap", &RuleLimits::smallest_etched_gap, "um", 0, 1e6, "of a trench after the etch"},
     Rule{"largest_aspect", &RuleLimits::largest_aspect, "", 1e-3, 1e6, "depth of a trench by its width"},
     Rule{"chamber_overlap", &RuleLimits::chamber_overlap, "um", 0, 1e6, "of a chamber around what moves above it"},
     Rule{"undercut", &RuleLimits::undercut, "um", 0, 1e6, "of the fixed electrode beyond its base"},
-    Rule{"largest_stop_share", &RuleLimits::largest_stop_share, "", 0, 1e3,
+    Rule{"largest_stop_share", &RuleLimits::largest_stop_share, "", 1e-6, 1e3,
          "way to the stops by the way until the electrodes touch"},
-    Rule{"largest_stress", &RuleLimits::largest_stress, "MPa", 0, 1e6,
+    Rule{"largest_stress", &RuleLimits::largest_stress, "MPa", 1e-6, 1e6,
          "in a beam, at the stops and where the electrodes touch"},
-    Rule{"largest_squeeze", &RuleLimits::largest_squeeze, "", 0, 1e6, "squeeze number of the gas in the gap"},
+    Rule{"largest_squeeze", &RuleLimits::largest_squeeze, "", 1e-9, 1e6, "squeeze number of the gas in the gap"},
 };
 
 } // namespace
 
 std::span<const Rule> rule_fields() {
     return rules;
+}
+
+double no_limit(const Rule& rule) {
+    const double infinite = std::numeric_limits<double>::infinity();
+    return std::string_view(rule.name).starts_with("largest") ? infinite : -infinite;
 }
 
 EtchedWall ProcessConditions::wall() const {

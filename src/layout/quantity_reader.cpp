@@ -1,6 +1,6 @@
 #include "layout/quantity_reader.hpp"
 
-#include "graze/layout/physical_unit.hpp"
+#include "graze/symbolic/physical_unit.hpp"
 
 #include <fmt/format.h>
 

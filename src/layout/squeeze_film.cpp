@@ -82,7 +82,8 @@ double squeeze_number(const GasFilm& film, const Gas& gas, double angular_freque
 
 double sliding_film_damping(double area, double gap, const Gas& gas) {
     require_positive(area, "area of the plate", "m^2");
-    return effective_viscosity(gas, gap) * (area / gap);
+    require_positive(gap, "gap of the film");
+    return gas.viscosity * (area / (gap + 2 * mean_free_path_of(gas)));
 }
 
 } // namespace graze

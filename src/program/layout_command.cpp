@@ -108,7 +108,9 @@ int layout_command(const LayoutArguments& arguments, const Console& console) {
     require_places(arguments);
     const DeviceFile file = load_device_file(arguments.design, parameter_values(arguments.set));
     Layout layout = arguments.wafer ? draw_wafer_layout(file) : draw_device_layout(file);
-    const bool ruled = check_rules(file, layout, arguments.despite_rules, console);
+    const bool all_devices = arguments.yield && !arguments.wafer; // of which the wafer may have several
+    const bool ruled =
+        check_rules(file, all_devices ? draw_wafer_layout(file) : layout, arguments.despite_rules, console);
     const Table table = table_of(layout, file);
     if (!arguments.parameters.empty())
         write_device_parameters(file, arguments.parameters);

@@ -19,7 +19,8 @@ void add_lumped_rows(Table& table, const DeviceFile& file, const DrawnDevice& de
     constexpr double micro = 1e-6, nano = 1e-9, mega = 1e6;
     add("model: mass", lumped.mass / nano, "ug");
     add("model: stiffness", lumped.stiffness, "N/m");
-    add("model: stiffness, were trusses stiff", lumped.stiff_trusses, "N/m");
+    add("model: stiffness, were the mass rigid", lumped.rigid_mass, "N/m");
+    add("model: stiffness, were all but beams rigid", lumped.stiff_trusses, "N/m");
     add("model: natural frequency", lumped.frequency(), "Hz");
     add("model: damping ratio", lumped.damping_ratio(), "");
     add("model: damping by the electrodes' gas", lumped.electrode_film / micro, "uN s/m");

@@ -4,6 +4,7 @@
 #include "graze/model/named_value.hpp"
 #include "graze/study/stored_study.hpp"
 #include "study/identify_fit.hpp"
+#include "study/identify_units.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -135,6 +136,7 @@ void add_curve(SampleSet& samples, std::size_t sampling, std::size_t record, con
 FoundByRun found_from(const Identification& found, const StudyRun& run) {
     FoundByRun result;
     result.estimates = estimates_of(found, run.identify, run.place);
+    convert_to_model(result.estimates, run);
     SampleSet& samples = result.point.result.samples;
     samples.width = 3;
     for (std::size_t r = 0; r < found.shown.size(); ++r) {
@@ -227,6 +229,7 @@ std::optional<FoundByRun> identify(const StudyRun& run, const std::vector<KeptRe
                 throw InputError(run.place, fmt::format("{}: {}", record.name, error.problem()), error.remedy());
             }
     };
+    check_record_units(run, records);
     const IdentificationSettings settings = settings_of(run, found, records);
     switch (run.identify.what) {
     case What::decrement:

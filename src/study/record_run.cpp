@@ -9,6 +9,7 @@
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "study/bench_records.hpp"
+#include "study/impact_sides.hpp"
 #include "study/record_inputs.hpp"
 
 #include <fmt/format.h>
@@ -231,7 +232,7 @@ private:
         return first_ + static_cast<std::size_t>(found - run_->value_names.begin());
     }
 
-    /// Values between two rows that an impact is between: those before it and those after.
+    /// Values at impacts, from the rows before each and from those after it.
     void read_impacts(const RecordSampling& sampling, std::size_t index) {
         ImpactSettings settings;
         settings.velocity = channel(sampling.channel);
@@ -243,32 +244,18 @@ private:
         const auto source = open_();
         const std::vector<RecordedImpact> impacts = find_impacts(*source, settings);
         const auto again = open_();
-        Samples samples;
-        std::vector<double> last, now;
-        std::size_t next = 0;
-        while (next < impacts.size() && again->read(samples))
-            for (std::size_t i = 0; i < samples.rows() && next < impacts.size(); ++i) {
-                now.clear();
-                for (std::size_t c = 0; c < header_.channels.size(); ++c)
-                    now.push_back(samples.values[c][i]);
-                for (; next < impacts.size() && samples.times[i] >= impacts[next].time; ++next) {
-                    std::vector<double> before = last.empty() ? now : last, after = now;
-                    before[settings.velocity] = impacts[next].before;
-                    after[settings.velocity] = impacts[next].after;
-                    add_side(sampling, index, impacts[next].time, before, impacts[next].before);
-                    add_side(sampling, index + 1, impacts[next].time, after, impacts[next].after);
-                }
-                last = now;
-            }
-    }
-    /// Values that are the velocity itself are as precise as it is; others those of the row beside.
-    void add_side(const RecordSampling& sampling, std::size_t index, double time, const std::vector<double>& row,
-                  double velocity) {
-        std::vector<double> values(row.begin() + static_cast<std::ptrdiff_t>(first_), row.end());
-        for (std::size_t v = 0; v < values.size(); ++v)
-            if (to_string(run_->values[v]) == sampling.channel || run_->value_names[v] == sampling.channel)
-                values[v] = velocity;
-        add(index, time, values);
+        const auto of_values = [&](const std::vector<double>& row, double velocity) {
+            std::vector<double> values(row.begin() + static_cast<std::ptrdiff_t>(first_), row.end());
+            for (std::size_t v = 0; v < values.size(); ++v) // what is the velocity itself is as precise as it is
+                if (to_string(run_->values[v]) == sampling.channel || run_->value_names[v] == sampling.channel)
+                    values[v] = velocity;
+            return values;
+        };
+        for (const ImpactSides& sides : impact_sides(*again, impacts, sampling.transition)) {
+            const RecordedImpact& impact = impacts[sides.impact];
+            add(index, impact.time, of_values(sides.before, impact.before));
+            add(index + 1, impact.time, of_values(sides.after, impact.after));
+        }
     }
 
     /// In the order of time.

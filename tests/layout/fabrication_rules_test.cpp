@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace graze {
@@ -37,9 +38,10 @@ std::string message(const DeviceFile& file) {
 TEST(FabricationRules, MeasureTheShippedDevice) {
     const DeviceFile file = shipped();
     const std::vector<RuleFinding> findings = found(file);
-    ASSERT_EQ(findings.size(), rule_fields().size());
+    const std::size_t given = rule_fields().size();
+    ASSERT_EQ(findings.size(), given + 2);
     for (std::size_t i = 0; i < findings.size(); ++i) {
-        EXPECT_EQ(findings[i].rule, rule_fields()[i].name);
+        EXPECT_EQ(findings[i].rule, i < given ? rule_fields()[i].name : "free_way");
         EXPECT_TRUE(findings[i].holds()) << findings[i].text();
     }
     EXPECT_EQ(of(findings, "smallest_line").value, 7);
@@ -68,7 +70,7 @@ TEST(FabricationRules, AreBrokenByDimensions) {
     EXPECT_THAT(broken([](DeviceFile& f) { f.device.base_inset = 28; }), HasSubstr("undercut is 28 um"));
     EXPECT_THAT(broken([](DeviceFile& f) { f.device.stop_gap = 14; }), HasSubstr("largest_stop_share is"));
     EXPECT_THAT(broken([](DeviceFile& f) { f.rules.largest_stress = 15; }),
-                HasSubstr("largest_stress is 18.1155 MPa for a beam, when the electrodes touch"));
+                HasSubstr("largest_stress is 18.1085 MPa for a beam, when the electrodes touch"));
     EXPECT_THAT(broken([](DeviceFile& f) { f.rules.largest_squeeze = 0.05; }), HasSubstr("largest_squeeze is"));
     // Without a margin the chamber ends with the trench around the mass.
     EXPECT_THAT(broken([](DeviceFile& f) {
@@ -76,6 +78,46 @@ TEST(FabricationRules, AreBrokenByDimensions) {
                     f.rules.chamber_overlap = 45;
                 }),
                 HasSubstr("chamber_overlap is 40 um for the mass"));
+}
+
+TEST(FabricationRules, KnowWhatTheEtchLeaves) {
+    DeviceFile file = shipped();
+    const double slope = std::tan(0.05 * M_PI / 180); // of the design's walls
+    const std::vector<RuleFinding> findings = found(file);
+    // Trenches widen with depth: lines are narrowest at the bottom, 250 um deep, and trenches at the top.
+    EXPECT_NEAR(of(findings, "smallest_etched_line").value, 7 - 2 * (0.3 + 250 * slope), 1e-9);
+    EXPECT_EQ(of(findings, "smallest_etched_line").part, "a beam at its bottom");
+    EXPECT_NEAR(of(findings, "smallest_etched_gap").value, 8.4 + 0.6, 1e-9);
+    EXPECT_EQ(of(findings, "smallest_etched_gap").part, "the trench between the mass and a stop at its top");
+    file.conditions.bias = 3.2;
+    EXPECT_THAT(message(file), HasSubstr("rule smallest_etched_line is 0.163"));
+    EXPECT_EQ(of(found(file), "smallest_etched_line").key, "process.bias");
+    file.conditions.bias = 0;
+    file.conditions.taper = -1; // trenches narrow with depth
+    EXPECT_THAT(message(file), HasSubstr("rule smallest_etched_gap is -0.32"));
+    EXPECT_THAT(message(file), HasSubstr("the trench between the mass and a stop at its bottom"));
+}
+
+TEST(FabricationRules, ApplyUnlessSwitchedOff) {
+    const auto said = [](const std::string& sections) {
+        return message(parse_device_file("name = \"one\"\n[device]\nflexure_width = 3.5\n" + sections, "one.toml"));
+    };
+    for (const char* none : {"", "[rules]\n", "[rules]\nsmallest_gap = 5\n"})
+        EXPECT_THAT(said(none), HasSubstr("rule smallest_line is 3.5 um for a beam, at (")) << none;
+    EXPECT_THAT(said(""), HasSubstr("at least 4 um is allowed; change the dimension, or smallest_line in [rules]"));
+    EXPECT_EQ(said("[rules]\nsmallest_line = false\n"), "");
+    EXPECT_EQ(said("[rules]\nsmallest_line = 3.5\n"), "");
+    EXPECT_THROW(said("[rules]\nsmallest_line = true\n"), InputError);
+    for (const QuantityField<RuleLimits>& rule : rule_fields()) {
+        const DeviceFile file = parse_device_file(
+            std::string("name = \"one\"\n[device]\n[rules]\n") + rule.name + " = false\n", "one.toml");
+        const std::vector<RuleFinding> findings = found(file);
+        EXPECT_EQ(findings.size(), rule_fields().size() + 1) << rule.name;
+        EXPECT_TRUE(std::none_of(findings.begin(), findings.end(),
+                                 [&](const RuleFinding& one) { return one.rule == rule.name; }));
+    }
+    EXPECT_THROW(parse_device_file("name = \"one\"\n[device]\n[rules]\nlargest_stress = 0\n", "one.toml"), InputError)
+        << "no device has none";
 }
 
 TEST(FabricationRules, TellEachBrokenOneWithItsPlaceInTheFile) {
@@ -90,6 +132,19 @@ TEST(FabricationRules, TellEachBrokenOneWithItsPlaceInTheFile) {
         for (const InputError& error : errors.all())
             EXPECT_GT(error.place().line, 1U);
     }
+}
+
+TEST(FabricationRules, CountFurtherPlaces) {
+    DeviceFile file = shipped();
+    file.device.flexure_width = 4;
+    const std::vector<RuleFinding> findings = found(file);
+    std::vector<RuleFinding> lines;
+    std::copy_if(findings.begin(), findings.end(), std::back_inserter(lines),
+                 [](const RuleFinding& one) { return one.rule == "smallest_line"; });
+    ASSERT_EQ(lines.size(), 5U);
+    EXPECT_EQ(lines.front().more, 0U);
+    EXPECT_EQ(lines.back().more, 3U) << "of eight beams";
+    EXPECT_THAT(lines.back().text(), HasSubstr("at least 5 um is allowed (and at 3 more places)"));
 }
 
 TEST(FabricationRules, KnowWhatReachesOutOfItsChamber) {

@@ -1,5 +1,6 @@
 #include "graze/layout/lumped_model.hpp"
 
+#include "drawn_frame.hpp"
 #include "graze/model/catalogue.hpp"
 #include "graze/symbolic/input_error.hpp"
 
@@ -63,6 +64,33 @@ TEST(LumpedModel, ShippedDeviceIsThatOfChapterSix) {
     EXPECT_GT(lumped.pull_in(), 51);
     EXPECT_LT(lumped.pull_in(), 54);
     EXPECT_NEAR(lumped.frequency(), 964, 1);
+}
+
+TEST(LumpedModel, IsAsStiffAsTheFrameThatIsDrawn) {
+    DeviceFile file = ideal();
+    const auto compare = [&](const std::string& what) {
+        const DeviceDrawing drawing = draw_device(file);
+        const DrawnFrame frame(drawing);
+        const LumpedModel lumped = lumped_model_of(drawing, file);
+        const double height = 250e-6, by = file.conditions.modulus * 1e9 * height;
+        // What is rigid in the one is stiffer by a factor in the other.
+        EXPECT_NEAR(lumped.stiffness, by * frame.stiffness(), 5e-5 * lumped.stiffness) << what;
+        EXPECT_NEAR(lumped.rigid_mass, by * frame.with_rigid_mass(), 5e-5 * lumped.rigid_mass) << what;
+    };
+    compare("as shipped");
+    file.device.truss_width = 15;
+    for (const std::size_t folds : {1U, 2U, 3U, 6U}) {
+        file.device.folds = folds;
+        compare(std::to_string(folds) + " folds");
+    }
+    file = ideal();
+    for (const double bar : {6.0, 20.0, 50.0}) {
+        file.device.bar_width = bar;
+        compare("bars of " + std::to_string(bar));
+    }
+    file = ideal();
+    file.device.bridge_width = 6; // by symmetry it does not bend
+    compare("a thin bridge");
 }
 
 TEST(LumpedModel, OfTheShippedDeviceIsTheShippedModel) {

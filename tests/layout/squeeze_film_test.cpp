@@ -98,6 +98,15 @@ TEST(SqueezeFilm, FeelsARarefiedGasLess) {
     EXPECT_NEAR(squeeze_number(film, dense, 6283) * 1e12, 12 * 1.82e-5 * 6283 * 6.25e-8 / 2.25e-10, 1e-6);
 }
 
+TEST(SqueezeFilm, ThatIsShearedSlipsAtBothWalls) {
+    // The speed falls from u by 2 lambda du/dz at the walls: 1 + 2 K, with K = 1 a third.
+    Gas thin = air;
+    thin.pressure = air.pressure / 100;
+    EXPECT_NEAR(sliding_film_damping(1e-6, 6.7e-6, thin), air.viscosity * 1e-6 / 6.7e-6 / 3, 1e-20);
+    EXPECT_NEAR(sliding_film_damping(1e-6, 1e-5, dense), 1.82e-6, 1e-14);
+    EXPECT_THROW(sliding_film_damping(1, 0, air), InputError);
+}
+
 TEST(SqueezeFilm, RefusesWhatIsNoFilm) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THROW(squeeze_film_damping({.length = 0, .height = 1, .gap = straight(1)}, air), InputError);

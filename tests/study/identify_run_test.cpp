@@ -144,6 +144,67 @@ TEST_F(IdentifyRunTest, decrement_and_coupling_find_what_the_records_were_made_w
                     figure.panels[0].series[0].points[i].y - figure.panels[0].series[1].points[i].y, 1e-15);
 }
 
+// The same release and loads as above, written in other units: the same parameters of the model come out.
+TEST_F(IdentifyRunTest, what_is_found_gets_the_units_of_the_model) {
+    const double wd = w0 * std::sqrt(1 - zeta * zeta);
+    std::string release = "t [ms], v [um/s]\n", loads = "n, q [m], I [mA]\n", held = "t [us], V [uV], I [MA]\n";
+    for (int i = 0; i < 1500; ++i)
+        release += fmt::format("{},{:.17g}\n", i, 7e4 * std::exp(-zeta * w0 * i * 1e-3) * std::sin(wd * i * 1e-3));
+    for (int i = 1; i <= 12; ++i) {
+        const double q = 1e-4 * i * (1 + (i % 2 == 0 ? 1e-3 : -1e-3));
+        loads += fmt::format("{},{:.17g},{:.17g}\n", i, q,
+                             1e3 * (gap + beta2 - q) * std::sqrt(2 * mass * w0 * w0 * q / beta1));
+    }
+    const double reactance = 2 * M_PI * 4 * 0.01; // 1.66 V at 4 Hz over 1.4 ohm and 10 mH
+    for (int i = 0; i < 2000; ++i) {
+        const double angle = 2 * M_PI * 4 * i * 1e-3;
+        const double amperes = 1.66 * std::sin(angle - std::atan2(reactance, 1.4)) / std::hypot(reactance, 1.4);
+        held += fmt::format("{},{:.17g},{:.17g}\n", 1000 * i, 1.66e6 * std::sin(angle), 1e-6 * amperes);
+    }
+    folder_.write("r1.csv", release);
+    folder_.write("loads.csv", loads);
+    folder_.write("held.csv", held);
+    const std::string more = R"([runs.held]
+kind = "record"
+files = "held.csv"
+channels = ["V", "I"]
+[runs.coil]
+kind = "identify"
+what = "impedance"
+records = "held"
+gives = { resistance = "R", inductance = "Ll", frequency = "f" }
+)";
+    for (const RunReport& report : run(std::string(head) + loads_text + more))
+        EXPECT_TRUE(report.complete()) << report.name << ": " << report.problem;
+    EXPECT_NEAR(estimate("decay", "w0").estimate.value, w0, 1e-5 * w0);
+    EXPECT_EQ(estimate("decay", "w0").unit, "rad/s");
+    EXPECT_NEAR(estimate("coupling", "beta1").estimate.value, beta1, 0.02 * beta1); // displacements are off by 1e-3
+    EXPECT_EQ(estimate("coupling", "beta1").unit, "H m");
+    EXPECT_NEAR(estimate("coil", "R").estimate.value, 1.4, 1e-9); // the records are exact
+    EXPECT_EQ(estimate("coil", "R").unit, "ohm");
+    EXPECT_NEAR(estimate("coil", "Ll").estimate.value, 0.01, 1e-9);
+    EXPECT_EQ(estimate("coil", "Ll").unit, "H");
+    EXPECT_NEAR(estimate("coil", "f").estimate.value, 4, 1e-9);
+    const ResultFile file(folder_ / "results.sqlite", ResultFile::Access::read);
+    const EstimateRecords decay = file.estimates("decay");
+    for (std::size_t i = 0; i < decay.numbers.size(); ++i)
+        if (decay.numbers[i].name == "w0") {
+            EXPECT_NEAR(decay.covariance[i * (decay.numbers.size() + 1)], std::pow(decay.numbers[i].estimate.error, 2),
+                        1e-12 * decay.covariance[i * (decay.numbers.size() + 1)]);
+        }
+}
+
+TEST_F(IdentifyRunTest, units_that_do_not_agree_are_refused) {
+    write_release("r1.csv");
+    folder_.write("loads.csv", "n, q [mm], I [A]\n1, 0.1, 1\n2, 0.2, 1.4\n3, 0.3, 1.7\n4, 0.4, 2\n");
+    EXPECT_THAT(refusal(std::string(head) + loads_text),
+                HasSubstr("channel 'q' is in mm, and what the model has of that kind in m; convert it in the run that "
+                          "has the record: scale = { q = { factor = 0.001, unit = \"m\" } }"));
+    std::string other = head;
+    other.replace(other.find("\"w0\""), 4, "\"m\"");
+    EXPECT_THAT(refusal(other), HasSubstr("what is found for 'm' is in rad/s, and the parameter in kg"));
+}
+
 TEST_F(IdentifyRunTest, other_runs_take_what_was_found) {
     write_release("r1.csv");
     const std::string later = R"([runs.motion]

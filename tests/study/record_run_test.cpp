@@ -176,6 +176,41 @@ TEST_F(RecordRunTest, impacts_have_velocities_before_and_after) {
     }
 }
 
+TEST_F(RecordRunTest, other_channels_at_impacts_are_those_of_the_impact_itself) {
+    // A ball that loses speed, e = 0.7, with rows at other times than impacts are: it lies at the ground at each.
+    const double gravity = 9.81, e = 0.7;
+    std::string text = "t [s],q [m],v [m/s],i [A]\n";
+    double begin = -0.3, speed = 4; // of the flight that is on
+    for (int i = 0; i < 1500; ++i) {
+        const double t = 0.001 * i;
+        while (t - begin > 2 * speed / gravity)
+            begin += 2 * speed / gravity, speed *= e;
+        const double s = t - begin;
+        text += fmt::format("{:.17g},{:.17g},{:.17g},{:.17g}\n", t, speed * s - 0.5 * gravity * s * s,
+                            speed - gravity * s, 1 + t);
+    }
+    folder_.write("a.csv", text);
+    run(std::string(head) + "files = \"a.csv\"\nvalues = [\"q\", \"v\", \"i\", \"v^2\"]\n"
+                            "sample = { imp = { impacts = \"v\", displacement = \"q\" } }\n");
+    const auto before = samples("imp"), after = samples("imp_after");
+    ASSERT_GE(before.size(), 2);
+    ASSERT_EQ(before.size(), after.size());
+    double touch = -0.3 + 2 * 4 / gravity, fall = 4;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        EXPECT_NEAR(before[i][0], touch, 1e-9); // parabolas and lines are continued as they are: rounding is left
+        for (const auto* side : {&before, &after}) {
+            EXPECT_NEAR((*side)[i][1], 0, 1e-8);
+            EXPECT_NEAR((*side)[i][3], 1 + touch, 1e-8);
+        }
+        EXPECT_NEAR(before[i][2], -fall, 1e-8);
+        EXPECT_NEAR(before[i][4], fall * fall, 1e-7);
+        fall *= e;
+        EXPECT_NEAR(after[i][2], fall, 1e-8);
+        EXPECT_NEAR(after[i][4], fall * fall, 1e-7);
+        touch += 2 * fall / gravity;
+    }
+}
+
 TEST_F(RecordRunTest, processing_comes_first) {
     folder_.write("a.csv", waves(2, 1));
     run(std::string(head) + R"(files = "a.csv"

@@ -9,7 +9,7 @@ namespace graze {
 /// What remains of a drawn and etched device when its mass is a point: the numbers of Eq. (6.1), in units of the SI.
 struct LumpedModel {
     double mass = 0;      ///< kg, with what moves of flexures
-    double stiffness = 0; ///< N/m
+    double stiffness = 0; ///< N/m, of the bridge of the H
     double damping = 0;   ///< N s/m
     double area = 0;      ///< m^2, of plates without a fringe that attract as much (EquivalentPlates)
     double gap = 0;       ///< m, of these
@@ -18,6 +18,7 @@ struct LumpedModel {
     // What they are made of.
     double plate_mass = 0;                                       ///< kg, of the H
     double stiff_trusses = 0;                                    ///< N/m, if nothing but beams would bend
+    double rigid_mass = 0;                                       ///< N/m, if the bars of the H would not bend
     double electrode_film = 0, stop_films = 0, chamber_film = 0; ///< N s/m
     double closure = 0;                                          ///< m, until the electrodes touch
     double stress_per_travel = 0;                                ///< Pa/m, the greatest in a beam

@@ -36,10 +36,12 @@ struct QuantityField {
 
 std::span<const QuantityField<ProcessConditions>> condition_fields();
 
-/// Limits of what can be made, and of what the device may do.
+/// Limits of what can be made, and of what the device may do. Infinite ones are not applied.
 struct RuleLimits {
     double smallest_line = 4;        ///< um, of silicon between two trenches
     double smallest_gap = 4;         ///< um, of a trench
+    double smallest_etched_line = 2; ///< um, of what an etch of the front leaves of a line, where it is narrowest
+    double smallest_etched_gap = 2;  ///< um, of a trench from the front after the etch, where it is narrowest
     double largest_aspect = 40;      ///< depth of a trench by its width
     double chamber_overlap = 20;     ///< um, by which a chamber reaches at least beyond what moves above it
     double undercut = 10;            ///< um, by which the fixed electrode reaches at least beyond its base
@@ -48,5 +50,7 @@ struct RuleLimits {
     double largest_squeeze = 0.5;    ///< squeeze number, up to which the gas is taken not to be compressed
 };
 std::span<const QuantityField<RuleLimits>> rule_fields();
+/// The limit of a rule that is not applied.
+double no_limit(const QuantityField<RuleLimits>& rule);
 
 } // namespace graze

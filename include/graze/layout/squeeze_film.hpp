@@ -46,7 +46,9 @@ double squeeze_film_damping(const GasFilm& film, const Gas& gas);
 /// when it is not small. @param angular_frequency in rad/s
 double squeeze_number(const GasFilm& film, const Gas& gas, double angular_frequency);
 
-/// A plate that moves along a wall: mu A/g, in N s/m. @param area in m^2 @param gap in m
+/// A plate that moves along a wall: mu A/(g + 2 lambda), in N s/m. The gas slips at either wall by the mean free path
+/// lambda times the shear (J. C. Maxwell, Phil. Trans. R. Soc. 170 (1879)), so that the shear is lower by 1 + 2 K.
+/// @param area in m^2 @param gap in m
 double sliding_film_damping(double area, double gap, const Gas& gas);
 
 } // namespace graze

@@ -1,4 +1,4 @@
-#include "graze/layout/physical_unit.hpp"
+#include "graze/symbolic/physical_unit.hpp"
 
 #include "graze/symbolic/input_error.hpp"
 

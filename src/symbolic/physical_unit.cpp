@@ -1,4 +1,4 @@
-#include "graze/layout/physical_unit.hpp"
+#include "graze/symbolic/physical_unit.hpp"
 
 #include "graze/symbolic/input_error.hpp"
 
@@ -25,7 +25,9 @@ constexpr std::array units{
     NamedUnit{"Pa", {0, {-1, 1, -2, 0, 0}}}, NamedUnit{"J", {0, {2, 1, -2, 0, 0}}},
     NamedUnit{"W", {0, {2, 1, -3, 0, 0}}},   NamedUnit{"V", {0, {2, 1, -3, -1, 0}}},
     NamedUnit{"F", {0, {-2, -1, 4, 2, 0}}},  NamedUnit{"rad", {0, {0, 0, 0, 0, 0}}},
-    NamedUnit{"deg", {0, {0, 0, 0, 0, 1}}},
+    NamedUnit{"deg", {0, {0, 0, 0, 0, 1}}},  NamedUnit{"ohm", {0, {2, 1, -3, -2, 0}}},
+    NamedUnit{"H", {0, {2, 1, -2, -2, 0}}},  NamedUnit{"Wb", {0, {2, 1, -2, -1, 0}}},
+    NamedUnit{"T", {0, {0, 1, -2, -1, 0}}},
 };
 
 struct Prefix {

@@ -13,9 +13,9 @@ struct PhysicalUnit {
     bool operator==(const PhysicalUnit&) const = default;
 };
 
-/// Units m, g, s, A, Hz, N, Pa, J, W, V, F, rad (which is 1) and deg, with the prefixes f, p, n, u (or the Greek
-/// letter), m, c, k, M and G and whole powers, as factors between blanks or stars; behind a slash all that follow
-/// divide.
+/// Units m, g, s, A, Hz, N, Pa, J, W, V, F, ohm, H, Wb, T, rad (which is 1) and deg, with the prefixes f, p, n, u (or
+/// the Greek letter), m, c, k, M and G and whole powers, as factors between blanks or stars; behind a slash all that
+/// follow divide.
 /// @throws InputError (without a place) for anything else
 PhysicalUnit physical_unit(std::string_view text);
 

@@ -1,0 +1,129 @@
+#include "study/identify_units.hpp"
+
+#include "graze/symbolic/physical_unit.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+
+namespace graze {
+
+namespace {
+
+using What = IdentifyRequest::What;
+
+/// Nothing for what says none, or is none that is known.
+std::optional<PhysicalUnit> known_unit(const std::string& text) {
+    if (text.empty())
+        return std::nullopt;
+    try {
+        return physical_unit(text);
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
+/// Units of the model's parameters and states, and of its time, that measure what this one does.
+std::vector<std::string> units_alike(const Model& model, const PhysicalUnit& unit) {
+    std::vector<std::string> found;
+    const auto add = [&](const std::string& text) {
+        const auto one = known_unit(text);
+        if (one && one->dimension == unit.dimension && std::find(found.begin(), found.end(), text) == found.end())
+            found.push_back(text);
+    };
+    add(model.time_unit);
+    for (const Parameter& one : model.parameters)
+        add(one.unit);
+    for (const State& one : model.states)
+        add(one.unit);
+    return found;
+}
+
+/// @param wanted units, of which each would do
+bool agrees(const PhysicalUnit& unit, const std::vector<std::string>& wanted) {
+    return wanted.empty() ||
+           std::any_of(wanted.begin(), wanted.end(), [&](const std::string& text) { return known_unit(text) == unit; });
+}
+
+void check_channel(const StudyRun& run, const KeptRecord& record, const std::string& name) {
+    const Channel& channel = record.header.channels[record.header.channel(name, "records")];
+    const auto unit = known_unit(channel.unit);
+    if (!unit)
+        return;
+    const std::vector<std::string> wanted = units_alike(run.model, *unit);
+    if (agrees(*unit, wanted))
+        return;
+    throw InputError(run.place,
+                     fmt::format("{}: channel '{}' is in {}, and what the model has of that kind in {}", record.name,
+                                 name, channel.unit, fmt::join(wanted, " and ")),
+                     fmt::format("convert it in the run that has the record: scale = {{ {} = {{ factor = {:g}, "
+                                 "unit = \"{}\" }} }}",
+                                 name, converted(1, *unit, *known_unit(wanted.front())), wanted.front()));
+}
+
+void check_time(const StudyRun& run, const KeptRecord& record) {
+    const auto unit = known_unit(record.header.time.unit), wanted = known_unit(run.model.time_unit);
+    if (unit && wanted && *unit != *wanted)
+        throw InputError(run.place,
+                         fmt::format("{}: its time is in {}, and that of the model in {}", record.name,
+                                     record.header.time.unit, run.model.time_unit),
+                         "convert the times of the record");
+}
+
+/// By what a number is multiplied to be in another unit. Where cycles and radians are told apart, they are here, too.
+double factor_between(const std::string& from, const std::string& to) {
+    const auto is = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
+    const double factor = converted(1, *known_unit(from), *known_unit(to));
+    if (is(from, "Hz") && is(to, "rad"))
+        return factor * 2 * std::numbers::pi;
+    return is(from, "rad") && is(to, "Hz") ? factor / (2 * std::numbers::pi) : factor;
+}
+
+} // namespace
+
+void check_record_units(const StudyRun& run, const std::vector<KeptRecord>& records) {
+    const IdentifyRequest& request = run.identify;
+    for (const KeptRecord& record : records) {
+        if (request.what == What::coupling)
+            check_channel(run, record, request.displacement.empty() ? "q" : request.displacement);
+        if (request.what != What::impedance)
+            continue;
+        if (!request.frequency.empty() || !request.beta1.empty())
+            check_time(run, record);
+        if (!request.beta1.empty())
+            for (const std::string& name : {request.voltage, request.current})
+                check_channel(run, record, name);
+    }
+}
+
+void convert_to_model(EstimateRecords& estimates, const StudyRun& run) {
+    const std::size_t count = estimates.numbers.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        EstimateRecord& number = estimates.numbers[i];
+        const auto parameter = run.model.find_independent_parameter(number.name);
+        if (!parameter)
+            continue;
+        const std::string& unit = run.model.parameters[*run.model.find_parameter(number.name)].unit;
+        const auto from = known_unit(number.unit), to = known_unit(unit);
+        if (!from || !to)
+            continue;
+        if (from->dimension != to->dimension)
+            throw InputError(
+                run.place,
+                fmt::format("what is found for '{}' is in {}, and the parameter in {}", number.name, number.unit, unit),
+                "name another parameter in `gives`, or correct the units of the record by `scale`");
+        const double factor = factor_between(number.unit, unit);
+        number.unit = unit;
+        number.estimate.value *= factor;
+        number.estimate.error *= factor;
+        for (std::size_t j = 0; j < count && !estimates.covariance.empty(); ++j) {
+            estimates.covariance[i * count + j] *= factor; // the diagonal twice
+            estimates.covariance[j * count + i] *= factor;
+        }
+    }
+}
+
+} // namespace graze

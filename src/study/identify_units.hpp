@@ -1,0 +1,22 @@
+#pragma once
+
+#include "graze/results/result_file.hpp"
+#include "study/identify_run.hpp"
+
+#include <vector>
+
+namespace graze {
+
+/// Numbers that a calculation takes from a model and from records at once must be in the same units: displacements of
+/// couplings, all channels and times of leakage inductances, times where a frequency is given. What the model or the
+/// record does not say is taken to agree.
+/// @throws InputError naming the record, with the scale that makes it agree
+void check_record_units(const StudyRun& run, const std::vector<KeptRecord>& records);
+
+/// Gives estimates of parameters of the run's model the units of these, their covariances as well: 0.1 rad/ms is
+/// 100 rad/s, and a frequency of 1 Hz is 2 pi rad/s. Other estimates stay as they are, and units that one of both does
+/// not say, or that are none of the SI, are taken to agree.
+/// @throws InputError for units that measure different things
+void convert_to_model(EstimateRecords& estimates, const StudyRun& run);
+
+} // namespace graze

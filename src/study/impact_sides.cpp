@@ -1,0 +1,112 @@
+#include "study/impact_sides.hpp"
+
+#include "record/local_polynomial.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+namespace graze {
+
+namespace {
+
+constexpr std::size_t rows_of_side = 5; ///< noise grows little by them, and what is curved stays so
+
+/// Rows between two impacts that are nearest to one of them.
+struct NearRows {
+    std::deque<double> times;
+    std::deque<std::vector<double>> rows;
+
+    void add(double time, const std::vector<double>& row) {
+        times.push_back(time);
+        rows.push_back(row);
+    }
+    void drop_first() {
+        times.pop_front();
+        rows.pop_front();
+    }
+};
+
+std::vector<double> continued(const NearRows& near, std::size_t first, std::size_t last, double time) {
+    if (first >= last)
+        return {};
+    std::vector<double> places, samples(last - first);
+    for (std::size_t i = first; i < last; ++i)
+        places.push_back(near.times[i] - time);
+    const double scale = std::max(std::abs(places.front()), std::abs(places.back()));
+    for (double& place : places)
+        place /= scale;
+    const LocalPolynomial parabola(places, std::min<std::size_t>(2, places.size() - 1));
+    std::vector<double> values(near.rows[first].size(), 0);
+    for (std::size_t c = 0; c < values.size(); ++c) {
+        for (std::size_t i = first; i < last; ++i)
+            samples[i - first] = near.rows[i][c];
+        for (std::size_t k = 0; k <= parabola.degree(); ++k)
+            values[c] += parabola.coefficient(k, samples.data()) * parabola.at_zero(k);
+    }
+    return values;
+}
+
+/// What lies between two impacts, of which only its ends count.
+struct Stretch {
+    NearRows head, tail;
+};
+
+std::vector<double> at_end(const Stretch& stretch, std::size_t transition, double time) {
+    const std::size_t count = stretch.tail.rows.size(), last = count > transition ? count - transition : 0;
+    return continued(stretch.tail, last > rows_of_side ? last - rows_of_side : 0, last, time);
+}
+
+std::vector<double> at_begin(const Stretch& stretch, std::size_t transition, double time) {
+    const std::size_t count = stretch.head.rows.size();
+    return continued(stretch.head, transition, std::min(count, transition + rows_of_side), time);
+}
+
+} // namespace
+
+std::vector<ImpactSides> impact_sides(SampleSource& record, const std::vector<RecordedImpact>& impacts,
+                                      std::size_t transition) {
+    std::vector<Stretch> stretches(impacts.size() + 1);
+    std::size_t next = 0; // stretch, and the impact at its end
+    Samples samples;
+    double before = 0, spacing = 0;
+    std::vector<double> row;
+    while (record.read(samples))
+        for (std::size_t i = 0; i < samples.rows(); ++i) {
+            const double time = samples.times[i];
+            spacing = spacing > 0 || i == 0 ? spacing : time - before;
+            before = time;
+            while (next < impacts.size() && time >= impacts[next].time)
+                ++next;
+            const auto unsure = [&](std::size_t impact) {
+                // Twice its error, but never the rows between which an impact is without a displacement.
+                const double margin = std::min(2 * impacts[impact].time_error, 0.4 * spacing) + 1e-6 * spacing;
+                return std::abs(time - impacts[impact].time) <= margin;
+            };
+            if ((next < impacts.size() && unsure(next)) || (next > 0 && unsure(next - 1)))
+                continue;
+            row.clear();
+            for (const std::vector<double>& values : samples.values)
+                row.push_back(values[i]);
+            Stretch& stretch = stretches[next];
+            if (next > 0 && stretch.head.rows.size() < transition + rows_of_side)
+                stretch.head.add(time, row);
+            stretch.tail.add(time, row);
+            if (stretch.tail.rows.size() > transition + rows_of_side)
+                stretch.tail.drop_first();
+        }
+    std::vector<ImpactSides> result;
+    for (std::size_t k = 0; k < impacts.size(); ++k) {
+        ImpactSides sides{k, at_end(stretches[k], transition, impacts[k].time),
+                          at_begin(stretches[k + 1], transition, impacts[k].time)};
+        if (sides.before.empty())
+            sides.before = sides.after;
+        if (sides.after.empty())
+            sides.after = sides.before;
+        if (!sides.before.empty())
+            result.push_back(std::move(sides));
+    }
+    return result;
+}
+
+} // namespace graze
