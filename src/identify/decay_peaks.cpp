@@ -67,17 +67,14 @@ std::vector<double> smoothed(const Samples& samples, std::size_t channel, double
 }
 
 /// Periods as they were recorded, from one rising crossing of the level to the next.
-std::vector<Period> periods_of(const Samples& samples, const RecordHeader& header, std::size_t channel, double level,
-                               std::size_t most) {
-    Samples seen = samples;
-    const auto [least, greatest] = std::minmax_element(samples.values[channel].begin(), samples.values[channel].end());
-    constexpr double noisy = 0.02; // of the range: a fifth of what a crossing needs
-    if (noise_of(samples.values[channel]) > noisy * (*greatest - *least))
-        seen.values[channel] = smoothed(samples, channel, level);
+/// @param seen the same, smoothed where that is needed
+std::vector<Period> periods_above(double hysteresis, const Samples& seen, const Samples& samples,
+                                  const RecordHeader& header, std::size_t channel, double level, std::size_t most) {
     StoredSamples source(header, seen);
     PeriodSettings settings;
     settings.reference = channel;
     settings.level = level;
+    settings.hysteresis = hysteresis;
     PeriodSplitter splitter(source, settings);
     std::vector<Period> periods;
     for (Period period; periods.size() < most && splitter.next(period);) {
@@ -90,6 +87,32 @@ std::vector<Period> periods_of(const Samples& samples, const RecordHeader& heade
         period.samples.clear(samples.values.size());
         period.samples.append(samples, first - std::min(first, margin), std::min(samples.rows(), last + margin));
         periods.push_back(std::move(period));
+    }
+    return periods;
+}
+
+/// Those that stand out by a tenth of the range, as far as noise is not in the way. Where damping is strong there are
+/// too few of them: what is asked for then falls, down to the noise.
+std::vector<Period> periods_of(const Samples& samples, const RecordHeader& header, std::size_t channel, double level,
+                               std::size_t most) {
+    Samples seen = samples;
+    const auto range_of = [&](const Samples& some) {
+        const auto [least, greatest] = std::minmax_element(some.values[channel].begin(), some.values[channel].end());
+        return *greatest - *least;
+    };
+    constexpr double noisy = 0.02; // of the range: a fifth of what a crossing needs
+    const double noise = noise_of(samples.values[channel]);
+    if (noise > noisy * range_of(samples))
+        seen.values[channel] = smoothed(samples, channel, level);
+    const double range = range_of(seen);
+    constexpr double usual = 0.1, smaller = 0.25, stands_out = 5, resolved = 1e-9;
+    constexpr std::size_t enough = 3; // peaks that tell their error
+    const double lowest = std::max(stands_out * noise, resolved * range);
+    std::vector<Period> periods;
+    for (double hysteresis = usual * range; hysteresis > 0; hysteresis *= smaller) {
+        periods = periods_above(hysteresis, seen, samples, header, channel, level, most);
+        if (periods.size() >= std::min(most, enough) || smaller * hysteresis < lowest)
+            break;
     }
     return periods;
 }
@@ -324,12 +347,17 @@ DecayPeaks decay_peaks(SampleSource& source, std::size_t channel, std::size_t mo
     require_index(channel, header.channels.size(), "channel");
     const std::string& name = header.channels[channel].name;
     const Samples samples = read_all(source, most_samples);
-    const double level = samples.rows() > 0 ? level_of(samples.values[channel]) : 0;
+    if (samples.rows() == 0)
+        throw InputError("the record has no rows", "give one with rows, or a larger part of it");
+    const double level = level_of(samples.values[channel]);
     const std::vector<Period> periods = periods_of(samples, header, channel, level, most);
     if (periods.size() < 2)
         throw InputError(
-            fmt::format("'{}' has fewer than two periods about {:.4g}, where it is in the end", name, level),
-            "give the record of an oscillation that dies out");
+            fmt::format(
+                "'{}' has {} from one rise through {:.4g}, its mean over the second half, to the next, of those "
+                "that stand out from noise; two are needed",
+                name, periods.size() == 1 ? "one period" : "no period", level),
+            "give the record of an oscillation that dies out, and all of it; damping may be too strong for this");
     const std::optional<Rest> found = DampedSine(periods, samples, channel, level).fit();
     if (!found)
         throw InputError(fmt::format("'{}' is no oscillation that dies out", name),

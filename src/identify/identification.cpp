@@ -36,17 +36,76 @@ double mean_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
+/// Passes samples on, and refuses those that nothing can be found from: none, and numbers whose squares and ratios
+/// would overflow or vanish.
+class UsableSource : public SampleSource {
+public:
+    UsableSource(SampleSource& source, std::vector<std::size_t> channels)
+        : source_(&source), channels_(std::move(channels)), greatest_(channels_.size()) {}
+    const RecordHeader& header() const override { return source_->header(); }
+    bool read(Samples& samples) override {
+        const bool more = source_->read(samples);
+        if (samples.rows() > 0 && !has_rows_)
+            first_ = samples.times.front();
+        has_rows_ = has_rows_ || samples.rows() > 0;
+        if (!has_rows_)
+            throw InputError("the record has no rows", "give one with rows, and look at what part of it is wanted");
+        for (std::size_t c = 0; c < channels_.size(); ++c)
+            for (const double value : samples.values[channels_[c]])
+                greatest_[c] = std::max(greatest_[c], std::abs(value));
+        if (samples.rows() > 0)
+            last_ = samples.times.back();
+        constexpr double largest = 1e100, smallest = 1e-100;
+        for (std::size_t c = 0; c < channels_.size(); ++c)
+            if (greatest_[c] > largest || (!more && greatest_[c] > 0 && greatest_[c] < smallest))
+                refuse(header().channels[channels_[c]].name, greatest_[c]);
+        const double time = std::max(std::abs(first_), std::abs(last_));
+        if (time > largest || (!more && time > 0 && time < smallest))
+            refuse(header().time.name, time);
+        return more;
+    }
+
+private:
+    [[noreturn]] static void refuse(const std::string& name, double value) {
+        throw InputError(
+            fmt::format("the values of '{}' go up to {:.3g}: numbers of that size are not handled", name, value),
+            fmt::format("use another unit (graze identify ... --scale {}={:.0e})", name, std::min(1 / value, 1e300)));
+    }
+
+    SampleSource* source_;
+    std::vector<std::size_t> channels_;
+    std::vector<double> greatest_; ///< magnitudes so far
+    double first_ = 0, last_ = 0;
+    bool has_rows_ = false;
+};
+
+/// Records of which none has more peaks than two tell no errors.
+void require_three_peaks(const std::vector<DecayPeaks>& releases, const std::vector<std::string>& names) {
+    constexpr std::size_t fewest = 3;
+    if (names.empty() ||
+        std::any_of(releases.begin(), releases.end(), [](const DecayPeaks& one) { return one.times.size() >= fewest; }))
+        return;
+    throw InputError(fmt::format("{}{}: there are too few peaks to tell their errors: two stand out from the noise, "
+                                 "three are needed",
+                                 names.front(), names.size() > 1 ? " and others" : ""),
+                     "give a longer record or one with less damping, and let --peaks be three or more");
+}
+
 } // namespace
 
 Identification identify_decrement(const EachRecord& records, const IdentificationSettings& settings) {
     std::vector<DecayPeaks> releases;
     RecordHeader header;
     std::size_t channel = 0;
-    records([&](const std::string&, SampleSource& record) {
+    std::vector<std::string> names;
+    records([&](const std::string& name, SampleSource& record) {
         header = record.header();
         channel = header.channel(settings.channel, settings.asked_as + "channel");
-        releases.push_back(decay_peaks(record, channel, settings.peaks));
+        UsableSource usable(record, {channel});
+        releases.push_back(decay_peaks(usable, channel, settings.peaks));
+        names.push_back(name);
     });
+    require_three_peaks(releases, names);
     const Decrement decrement = logarithmic_decrement(releases);
     const Channel &time = header.time, &velocity = header.channels[channel];
     const std::string per_time = time.unit.empty() ? "" : "rad/" + time.unit;
@@ -95,7 +154,10 @@ Identification identify_restitution(const EachRecord& records, const Identificat
         impact_settings.transition = settings.transition;
         impact_settings.least_jump = settings.least_jump;
         std::vector<ImpactSpeeds> impacts;
-        for (const RecordedImpact& impact : find_impacts(record, impact_settings))
+        UsableSource usable(record, impact_settings.displacement
+                                        ? std::vector{impact_settings.velocity, *impact_settings.displacement}
+                                        : std::vector{impact_settings.velocity});
+        for (const RecordedImpact& impact : find_impacts(usable, impact_settings))
             impacts.push_back({impact.before, impact.after, impact.before_error, impact.after_error});
         if (impacts.size() < 3) { // a sweep begins before there are any
             few = impacts;
@@ -155,8 +217,9 @@ Identification identify_coupling(const EachRecord& records, const Identification
                           i = header.channel(settings.current, settings.asked_as + "current");
         displacement = header.channels[q];
         current = header.channels[i];
-        const Samples all = read_all(record, most_samples);
-        if (settings.one_load_a_record && all.rows() > 0)
+        UsableSource usable(record, {q, i});
+        const Samples all = read_all(usable, most_samples);
+        if (settings.one_load_a_record)
             loads.push_back({mean_of(all.values[q]), mean_of(all.values[i])});
         for (std::size_t row = 0; row < all.rows() && !settings.one_load_a_record; ++row)
             loads.push_back({all.values[q][row], all.values[i][row]});
@@ -256,7 +319,8 @@ Identification identify_impedance(const EachRecord& records, const Identificatio
         const RecordHeader header = record.header();
         const std::size_t v = header.channel(settings.voltage, asked + "voltage"),
                           c = header.channel(settings.current, asked + "current");
-        const Samples all = read_all(record, most_samples);
+        UsableSource usable(record, {v, c});
+        const Samples all = read_all(usable, most_samples);
         const Impedance one = impedance(all.times, all.values[v], all.values[c],
                                         settings.frequency ? 2 * std::numbers::pi * *settings.frequency : 0);
         names.push_back(name);

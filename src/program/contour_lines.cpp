@@ -33,9 +33,11 @@ std::vector<double> contour_levels(const ContourGrid& grid, std::size_t about) {
     const double step = round_step((greatest - least) / static_cast<double>(about));
     // Multiples of the step, so that levels are as round as it is; values far from zero may leave no room for any.
     const double first = std::ceil(least / step), last = std::floor(greatest / step);
-    for (double i = first; i <= last && levels.size() <= 2 * about; i += 1)
-        if (const double level = i * step; level > least && level < greatest)
-            levels.push_back(level);
+    // As many rounds as levels may be: one is not always more than nothing.
+    for (std::size_t k = 0; k <= 2 * about + 2 && first + static_cast<double>(k) <= last; ++k)
+        if (const double level = (first + static_cast<double>(k)) * step; level > least && level < greatest)
+            if (levels.empty() || level > levels.back())
+                levels.push_back(level);
     return levels;
 }
 

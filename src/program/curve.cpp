@@ -1,5 +1,9 @@
 #include "program/curve.hpp"
 
+#include "graze/symbolic/input_error.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -134,6 +138,14 @@ Polyline smoothed(std::span<const PlanePoint> line, std::span<const double> alon
         first = last;
     }
     return result;
+}
+
+void require_drawable(double low, double high, const std::string& name) {
+    const double size = std::max(std::abs(low), std::abs(high));
+    constexpr double largest = 1e280, smallest = 1e-280; // squares of their ratios are numbers still
+    if (!(size >= smallest && size <= largest && high > low))
+        throw InputError(fmt::format("the axis '{}' from {:.3g} to {:.3g} cannot be drawn", name, low, high),
+                         fmt::format("draw numbers between {:g} and {:g}, in another unit", smallest, largest));
 }
 
 Axis axis_for(double least, double greatest, int tics, double margin) {

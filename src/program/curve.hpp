@@ -3,6 +3,7 @@
 #include "graze/study/figure.hpp"
 
 #include <span>
+#include <string>
 #include <vector>
 
 namespace graze {
@@ -20,6 +21,10 @@ Polyline simplified(std::span<const PlanePoint> line, double width, double heigh
 /// @param along how far along the curve each point is; @param corners indices of points
 Polyline smoothed(std::span<const PlanePoint> line, std::span<const double> along,
                   std::span<const std::size_t> corners);
+
+/// @param name of the axis, for the message
+/// @throws InputError unless numbers from `low` to `high` can be told apart on an axis
+void require_drawable(double low, double high, const std::string& name);
 
 /// Limits and tic distance of an axis.
 struct Axis {

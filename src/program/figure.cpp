@@ -263,11 +263,14 @@ private:
         for (const PlacedText& placed : layout.texts)
             text += text_command(placed);
         text += legend_commands(layout.legend);
-        for (const double mark : panel.marks)
+        for (const double mark : panel.marks) {
+            if (!(layout.x.share(mark) >= 0 && layout.x.share(mark) <= 1)) // gnuplot would draw it beside the panel
+                continue;
             text += fmt::format(
                 "set arrow from first {0:.10g},graph 0 to first {0:.10g},graph 1 nohead lw 0.5 dt (2,3.5) lc "
                 "rgb '#808080'\n",
                 mark);
+        }
         text += label_commands(layout.labels);
         const std::string plots = plot_commands(panel, layout);
         if (!plots.empty())

@@ -45,8 +45,10 @@ std::string lines(const std::string& text) {
 
 std::size_t letters_of_tics(const Axis& axis) {
     std::size_t letters = 0;
-    for (double tic = std::ceil(axis.low / axis.tic); tic * axis.tic <= axis.high; ++tic)
-        letters = std::max(letters, fmt::format("{:.6g}", tic * axis.tic).size());
+    const double first = std::ceil(axis.low / axis.tic);
+    constexpr int most = 100; // far more than there is room for
+    for (int i = 0; i < most && (first + i) * axis.tic <= axis.high; ++i)
+        letters = std::max(letters, fmt::format("{:.6g}", (first + i) * axis.tic).size());
     return letters;
 }
 
@@ -149,7 +151,9 @@ Axis GnuplotScript::axis_of(const Coordinate& coordinate, int tics, double margi
                 greatest = std::max(greatest, value);
             }
         }
-    return axis_for(least, greatest, tics, margin);
+    Axis axis = axis_for(least, greatest, tics, margin);
+    require_drawable(axis.low, axis.high, recorder_->contents().columns[coordinate.column].name);
+    return axis;
 }
 
 /// Words where they fit everywhere, otherwise names.

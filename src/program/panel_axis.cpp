@@ -102,8 +102,10 @@ void write_linear(PanelAxis& axis, int wanted) {
     constexpr double slack = 1e-6; // by which a tic may lie outside for rounding
     const double tic = axis_for(axis.low, axis.high, wanted, 0).tic;
     axis.tics.clear();
-    for (double count = std::ceil(axis.low / tic - slack); count * tic <= axis.high + slack * tic; ++count)
-        axis.tics.push_back({count * tic + 0.0, number(count * tic, tic, axis.power)});
+    const double first = std::ceil(axis.low / tic - slack);
+    constexpr int most = 4 * most_tics; // whatever a range does to the arithmetic, the loop ends
+    for (int i = 0; i < most && (first + i) * tic <= axis.high + slack * tic; ++i)
+        axis.tics.push_back({(first + i) * tic + 0.0, number((first + i) * tic, tic, axis.power)});
 }
 
 /// Every so many decades.
@@ -147,6 +149,9 @@ PanelAxis panel_axis(const FigurePanel& panel, bool horizontal, double length, d
     PanelAxis axis;
     axis.logarithmic = horizontal ? panel.logarithmic_x : panel.logarithmic_y;
     choose_range(axis, panel, horizontal);
+    require_drawable(axis.low, axis.high, horizontal ? panel.x_label : panel.y_label);
+    if (axis.logarithmic)
+        require_drawable(0, axis.low, horizontal ? panel.x_label : panel.y_label);
     if (axis.logarithmic && axis.high / axis.low >= 10) {
         for (int step = 1; step < 100; ++step) {
             write_decades(axis, step);

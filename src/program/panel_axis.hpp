@@ -30,6 +30,7 @@ bool is_drawn(const PlanePoint& point, const FigurePanel& panel);
 
 /// The axis as asked for, or such that all is seen, with as many tics as go beside one another.
 /// @param length of the axis and @param font size of its numbers, both in points
+/// @throws InputError for numbers that are too large, too small or too near one another to be drawn
 PanelAxis panel_axis(const FigurePanel& panel, bool horizontal, double length, double font);
 
 } // namespace graze

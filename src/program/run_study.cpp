@@ -316,9 +316,9 @@ int run_command(const RunArguments& arguments, const Console& console) {
     check_names(study, split_list(arguments.only));
     const std::string& folder = request.folder;
     make_folder(folder, "--output");
+    const InterruptGuard guard;
     ResultFile file(request.file, ResultFile::Access::write);
     require_same_values(study, file);
-    const InterruptGuard guard;
     std::vector<RunReport> reports;
     {
         ProgressLine progress(console, (arguments.progress || console.terminal) && !arguments.steps);

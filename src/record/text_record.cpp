@@ -247,7 +247,10 @@ bool TextRecord::next_line(std::string_view& line) {
 
 void TextRecord::find_header(const RecordLayout& layout) {
     std::string_view line;
-    if (!next_line(line))
+    const bool has_line = next_line(line);
+    if (has_line && (line.starts_with("\xff\xfe") || line.starts_with("\xfe\xff"))) // marks of UTF-16
+        throw InputError(Place{path_, line_, 1}, "this is text of two bytes a letter (UTF-16)", "save it as UTF-8");
+    if (!has_line)
         throw InputError(Place{path_, 0, 0}, "the record is empty", "give a table of channels against time");
     const std::string_view text = trimmed(line);
     double number = 0;

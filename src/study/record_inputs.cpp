@@ -3,6 +3,7 @@
 #include "graze/model/model_file.hpp"
 #include "graze/symbolic/file_name.hpp"
 #include "graze/symbolic/parser.hpp"
+#include "graze/symbolic/printable.hpp"
 #include "symbolic/random_number.hpp"
 
 #include <fmt/format.h>
@@ -58,7 +59,8 @@ std::vector<RecordInput> record_inputs(const std::string& study, const std::stri
     if (name.empty())
         throw InputError(place, "a record has no name", "write it as \"run.csv\" or \"run*.csv\"");
     if (relative.is_absolute() || leads_up)
-        throw InputError(place, fmt::format("the record '{}' would be outside of the study's folder", name), stay);
+        throw InputError(
+            place, fmt::format("the record '{}' would be outside of the study's folder", shortened(name, 100)), stay);
     const fs::path folder = fs::path(study).parent_path().empty() ? fs::path(".") : fs::path(study).parent_path();
     std::vector<std::string> names;
     const std::string pattern = relative.filename().string();
@@ -78,7 +80,7 @@ std::vector<RecordInput> record_inputs(const std::string& study, const std::stri
                                  "make several runs");
         }
         if (names.empty())
-            throw InputError(place, fmt::format("there is no record '{}'", name),
+            throw InputError(place, fmt::format("there is no record '{}'", shortened(name, 100)),
                              "records are looked for relative to the study");
         std::sort(names.begin(), names.end());
     }
@@ -87,8 +89,11 @@ std::vector<RecordInput> record_inputs(const std::string& study, const std::stri
         require_plain_line(one, "name of a record", place);
         const fs::path path = folder / one;
         std::error_code error;
+        if (fs::is_symlink(path, error) && !fs::exists(path, error))
+            throw InputError(place, fmt::format("'{}' is a link that leads to no file", shortened(one, 100)),
+                             "let it lead to a record, or name the record itself");
         if (!fs::exists(path, error))
-            throw InputError(place, fmt::format("there is no record '{}'", one),
+            throw InputError(place, fmt::format("there is no record '{}'", shortened(one, 100)),
                              "records are looked for relative to the study");
         if (!is_within(path, folder))
             throw InputError(place, fmt::format("'{}' leads out of the study's folder", one), stay);

@@ -114,6 +114,7 @@ private:
 void work(Execution& execution, std::size_t slots) {
     try {
         Ensemble ensemble(execution.searches.simulation(), execution.options.instruction_set);
+        ensemble.stop_when([&] { return execution.must_stop(); });
         std::vector<std::unique_ptr<Worker>> workers;
         std::vector<Trajectory*> first;
         for (std::size_t i = 0; i < slots; ++i) {

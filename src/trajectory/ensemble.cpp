@@ -1,5 +1,7 @@
 #include "graze/trajectory/ensemble.hpp"
 
+#include "trajectory/stoppable_run.hpp"
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -28,6 +30,12 @@ void Ensemble::run(std::span<Trajectory> trajectories) {
     for (Trajectory& trajectory : trajectories)
         all.push_back(&trajectory);
     run(all, [](std::size_t) { return nullptr; });
+}
+
+/// Asked after each step.
+bool Ensemble::must_stop() {
+    constexpr std::size_t seldom = 256; // steps
+    return ++steps_ % seldom == 0 && is_stopped_ && is_stopped_();
 }
 
 /// Notes that a trajectory is in a slot.
@@ -62,12 +70,16 @@ void Ensemble::run(std::span<Trajectory* const> slots, const Again& again) {
     fill_up();
     while (!waiting_.empty()) {
         if (waiting_.size() < std::max(fewest, lanes_ / least_share)) {
-            graze::run(*slots_[waiting_.front()], single_);
+            if (!run_until(*slots_[waiting_.front()], single_, [this] { return must_stop(); }))
+                return;
         } else {
             const std::size_t mode = fullest_mode();
             take_seats(mode);
-            while (step_lanes(mode)) {
-            }
+            while (step_lanes(mode))
+                if (must_stop())
+                    return;
+            if (must_stop())
+                return;
         }
         std::erase_if(waiting_, [&](std::size_t slot) { return slots_[slot]->finished() && !refill(slot, again); });
         fill_up();

@@ -1,10 +1,10 @@
-#include "graze/trajectory/trajectory.hpp"
+#include "trajectory/stoppable_run.hpp"
 
 #include <stdexcept>
 
 namespace graze {
 
-void run(Trajectory& trajectory, JetSet& jets) {
+bool run_until(Trajectory& trajectory, JetSet& jets, const std::function<bool()>& stopped) {
     if (!(trajectory.simulation() == jets.simulation()))
         throw std::invalid_argument("a trajectory of one simulation cannot run on the jets of another");
     if (jets.width() != 1)
@@ -20,7 +20,14 @@ void run(Trajectory& trajectory, JetSet& jets) {
         outlook.lengths()[0] = trajectory.propose(jet, outlook.length(0));
         outlook.look(jet, jets.next(trajectory.mode()), trajectory.mode());
         trajectory.advance(outlook);
+        if (stopped && stopped())
+            break;
     }
+    return trajectory.finished();
+}
+
+void run(Trajectory& trajectory, JetSet& jets) {
+    run_until(trajectory, jets, nullptr);
 }
 
 } // namespace graze

@@ -124,7 +124,30 @@ TEST(Decrement, OfNoisyRecordsUsesThePeaksThatStandOut) {
     }
 }
 
+// Each peak is at most a thirtieth of the one before for the strongest damping: later ones are far below a tenth of the
+// record's range. Without noise what is left is how well polynomials follow the peaks, and the rest position.
+TEST(Decrement, FindsStrongDamping) {
+    for (const double zeta : {0.1, 0.2, 0.3, 0.5}) {
+        constexpr double omega = 3, length = 20;
+        constexpr int rows = 3000;
+        Samples samples;
+        samples.clear(1);
+        for (int i = 0; i < rows; ++i) {
+            const double t = length * i / rows;
+            samples.times.push_back(t);
+            samples.values[0].push_back(-std::exp(-zeta * omega * t) *
+                                        std::sin(omega * std::sqrt(1 - zeta * zeta) * t));
+        }
+        StoredSamples source({{"t", "s"}, {{"v", "m/s"}}}, std::move(samples));
+        const Decrement found = logarithmic_decrement(std::vector{decay_peaks(source, 0, 10)});
+        EXPECT_NEAR(found.frequency.value, omega, 1e-8) << zeta;
+        EXPECT_NEAR(found.damping.value, zeta, 1e-9) << zeta;
+    }
+}
+
 TEST(Decrement, RefusesWhatIsNone) {
+    StoredSamples empty({{"t", "s"}, {{"v", ""}}}, {{}, {{}}});
+    EXPECT_THROW(decay_peaks(empty, 0, 10), InputError);
     const auto refused = [](const std::vector<DecayPeaks>& releases) {
         EXPECT_THROW(logarithmic_decrement(releases), InputError);
     };

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace graze::testing {
 
@@ -35,6 +36,15 @@ TEST(ContourLines, OfAPlaneAreStraight) {
             EXPECT_FALSE(std::isfinite(line[i].x));
         else
             EXPECT_NEAR(3 * line[i].x + line[i].y, 20.05, 1e-12);
+}
+
+// Steps between values that are large or lie far from zero are no numbers, or too small to go on by.
+TEST(ContourLines, OfAnyRangeHaveAnEnd) {
+    for (const auto& [low, high] : {std::pair{-1.7e308, 1.7e308}, std::pair{-9e307, 9e307}, std::pair{0.0, 1e-310},
+                                    std::pair{1.0, 1.0 + 1e-15}, std::pair{1e17, 1e17 + 64}}) {
+        ContourGrid grid{{0, 1}, {0, 1}, {low, high, low, high}};
+        EXPECT_LE(contour_levels(grid, 5).size(), 12U) << low << ' ' << high;
+    }
 }
 
 TEST(ContourLines, HaveRoundLevelsBetweenTheEnds) {

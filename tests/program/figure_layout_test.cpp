@@ -6,6 +6,7 @@
 #include "graze/study/runner.hpp"
 #include "graze/study/study_catalogue.hpp"
 #include "layout_overlaps.hpp"
+#include "program/figure.hpp"
 #include "run_graze.hpp"
 
 #include <gmock/gmock.h>
@@ -79,6 +80,19 @@ TEST(FigureLayout, NothingLiesOnAnythingElse) {
                         << style.width << ' ' << points << ' ' << panels;
                 }
             }
+}
+
+// gnuplot draws lines beside a panel, too, and into the next one.
+TEST(FigureLayout, LinesOfChangesStayWithinTheirPanel) {
+    Figure figure;
+    figure.panels.push_back(panel_with(50));
+    figure.panels[0].x_range = std::pair(0.2, 0.6);
+    figure.panels[0].marks = {0.1, 0.2, 0.4125, 0.7125};
+    const std::string script = figure_script(figure, "svg", "picture.svg");
+    EXPECT_THAT(script, HasSubstr("set arrow from first 0.4125,graph 0"));
+    EXPECT_THAT(script, HasSubstr("set arrow from first 0.2,graph 0"));
+    for (const char* outside : {"first 0.1,", "first 0.7125,"})
+        EXPECT_THAT(script, ::testing::Not(HasSubstr(outside)));
 }
 
 TEST(FigureLayout, HasTheSizeThatWasAskedFor) {

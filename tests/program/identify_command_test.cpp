@@ -129,7 +129,7 @@ TEST_F(IdentifyCommand, FindsTheRestitution) {
 }
 
 TEST_F(IdentifyCommand, MistakesAreOneLineWithARemedy) {
-    const std::string a = release("a.csv", 1);
+    const std::string a = release("a.csv", 1), empty = written("none_there.csv", "t [s], v [m/s]\n");
     const std::vector<std::pair<std::string, std::string>> mistakes{
         {"", "what to find is missing"},
         {"decrement", "write graze identify WHAT FILE"},
@@ -141,6 +141,15 @@ TEST_F(IdentifyCommand, MistakesAreOneLineWithARemedy) {
         {"impedance " + clamped(20) + " --beta1 1", "give --beta1, --beta2 and --gap, or none"},
         {"impedance " + clamped(20) + " --beta1 x --beta2 1 --gap 1", "'x' is no number"},
         {"restitution " + a, "too few impacts"},
+        {"decrement " + empty, "none_there.csv: the record has no rows"},
+        {"decrement " + a + " " + empty, "none_there.csv: the record has no rows"},
+        {"decrement " + a + " --from 1e9", "a.csv: the record has no rows"},
+        {"restitution " + empty, "none_there.csv: the record has no rows"},
+        {"coupling " + empty + " --gap 1 --stiffness 1 --displacement v --current v", "none_there.csv: the record has"},
+        {"impedance " + empty + " --voltage v --current v", "none_there.csv: the record has no rows"},
+        {"decrement " + a + " --scale v=1e306", "a.csv: the values of 'v' go up to"},
+        {"decrement " + a + " --scale v=1e-310", "numbers of that size are not handled"},
+        {"decrement " + a + " --peaks 2", "two stand out from the noise, three are needed"},
         {"decrement " + a + " --data d", "--data has no effect without --plot"},
     };
     for (const auto& [line, message] : mistakes) {

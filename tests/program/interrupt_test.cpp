@@ -80,6 +80,42 @@ TEST_P(Interrupt, LeavesNoPartOfARecord) {
     EXPECT_EQ(folder.files(), 2U);
 }
 
+/// One motion of a study that would take years: it is left as soon as that is asked for.
+TEST_P(Interrupt, LeavesALongMotionOfAStudy) {
+    const Folder folder;
+    const std::string study = folder / "stiff.toml", results = folder / "results", messages = folder / "messages";
+    std::ofstream(study) << "name = \"stiff\"\nmodel = \"electromagnetic-testbed\"\nset = { R = 1.41e12 }\n"
+                            "[runs.a]\nkind = \"simulate\"\ntime = 0.01\n";
+    std::vector<std::string> words{GRAZE_PROGRAM, "run", study, "--output", results};
+    std::vector<char*> pointers;
+    for (std::string& word : words)
+        pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0666);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, messages.c_str(), O_WRONLY | O_CREAT, 0666);
+    pid_t child = 0;
+    ASSERT_EQ(posix_spawn(&child, GRAZE_PROGRAM, &actions, nullptr, pointers.data(), environ), 0);
+    posix_spawn_file_actions_destroy(&actions);
+    for (int i = 0; i < 60'000 && !std::filesystem::exists(results + "/results.sqlite"); ++i)
+        usleep(1000);
+    usleep(300'000); // so that the motion has begun; where it has not, the study is left all the same
+    kill(child, GetParam());
+    int status = 0;
+    pid_t ended = 0;
+    for (int i = 0; i < 60'000 && (ended = waitpid(child, &status, WNOHANG)) == 0; ++i)
+        usleep(1000);
+    if (ended == 0) {
+        kill(child, SIGKILL);
+        waitpid(child, &status, 0);
+    }
+    ASSERT_EQ(ended, child) << "a minute later it still runs";
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), GetParam() == SIGINT ? exit_interrupted : exit_terminated);
+    EXPECT_THAT(contents(messages), ::testing::HasSubstr("graze: interrupted"));
+}
+
 INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values(SIGINT, SIGTERM));
 
 } // namespace graze::testing

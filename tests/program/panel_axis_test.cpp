@@ -1,8 +1,12 @@
 #include "program/panel_axis.hpp"
 
+#include "graze/symbolic/input_error.hpp"
+
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace graze::testing {
 
@@ -34,6 +38,18 @@ TEST(PanelAxis, VerySmallAndLargeNumbersAreInPowersOfTen) {
     EXPECT_EQ(small.power, -6);
     EXPECT_EQ(texts_of(small), "0.0 0.5 1.0 1.5 2.0 2.5 3.0 3.5 4.0 ");
     EXPECT_EQ(panel_axis(panel_between(0, 2e7), true, 300, 9).power, 7);
+}
+
+TEST(PanelAxis, RefusesWhatHasNoPlaceOnOne) {
+    const double infinite = std::numeric_limits<double>::infinity();
+    for (const auto& [low, high] :
+         {std::pair{-9e307, 9e307}, std::pair{-1.7e308, 1.7e308}, std::pair{0.0, 1e-310}, std::pair{-1e-310, 1.7e308},
+          std::pair{0.0, infinite}, std::pair{1.0, 1.0}, std::pair{std::nan(""), 1.0}})
+        EXPECT_THROW(panel_axis(panel_between(low, high), true, 300, 9), InputError) << low << ' ' << high;
+    for (const auto& [low, high] : {std::pair{-1e200, 1e200}, std::pair{0.0, 1e-200}, std::pair{1.0, 1.0 + 4e-16}}) {
+        const PanelAxis axis = panel_axis(panel_between(low, high), true, 300, 9);
+        EXPECT_LE(axis.tics.size(), 30U) << low << ' ' << high;
+    }
 }
 
 TEST(PanelAxis, NumbersKeepClearOfOneAnother) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <fmt/format.h>
 
 namespace graze::testing {
 
@@ -110,8 +111,33 @@ TEST_F(RecordCommand, DrawsWhatItTells) {
     }
 }
 
+// Differences of such values overflow, and their ratios vanish: what cannot be drawn is said, at once.
+TEST_F(RecordCommand, SaysWhichNumbersCannotBeDrawn) {
+    if (std::system("command -v gnuplot > /dev/null") != 0)
+        GTEST_SKIP() << "no gnuplot";
+    const std::string picture = folder / "picture.svg";
+    for (const std::string_view values : {"9e307,-9e307,9e307", "1.7e308,-1.7e308,0", "1e-310,2e-310,0",
+                                          "1e-310,1.7e308,-1e-310", "1e300,1e300,1e300"}) {
+        std::string text = "t [s], v [m/s]\n";
+        int row = 0;
+        for (std::size_t at = 0; at < values.size(); ++row) {
+            const std::size_t end = std::min(values.find(',', at), values.size());
+            text += fmt::format("{},{}\n", row, values.substr(at, end - at));
+            at = end + 1;
+        }
+        std::ofstream(folder / "large.csv") << text;
+        const Printed printed = run_graze("record " + (folder / "large.csv") + " --what samples --plot " + picture);
+        EXPECT_EQ(printed.code, 2) << values;
+        EXPECT_THAT(printed.err, HasSubstr("the axis 'v' from")) << values;
+        EXPECT_FALSE(std::filesystem::exists(picture));
+    }
+    EXPECT_EQ(folder.files(), 1U) << "parts of pictures are left";
+}
+
 TEST_F(RecordCommand, MistakesAreOneLineWithARemedy) {
     const std::string run = file("run.csv");
+    std::ofstream(folder / "header.csv") << "t [s], V [V]\n";
+    std::ofstream(folder / "two.csv") << std::string("\xff\xfet\0,\0v\0\n\0", 10);
     std::ofstream(folder / "wrong.csv") << "t [s], V [V], v [mm/s]\n0,1,2\n1,nan,2\n";
     const std::vector<std::pair<std::string, std::string>> mistakes{
         {folder / "none.csv", "none.csv: the record cannot be read"},
@@ -130,6 +156,12 @@ TEST_F(RecordCommand, MistakesAreOneLineWithARemedy) {
         {run + " --pass 1e9", "cannot be seen in samples"},
         {run + " --what samples --from 2 --to 1", "give the earlier one first"},
         {run + " --write " + (folder / "no/such.csv"), "cannot be written"},
+        {folder / "header.csv", "header.csv: the record has no rows"},
+        {(folder / "header.csv") + " --what samples --plot " + (folder / "none.svg"),
+         "header.csv: the record has no rows"},
+        {(folder / "header.csv") + " --write " + (folder / "none.csv"), "header.csv: the record has no rows"},
+        {run + " --what samples --from 1e9", "run.csv: the record has no rows"},
+        {folder / "two.csv", "two.csv:1:1: this is text of two bytes a letter"},
         {run + " --columns t,v", "the file has a header of its own"},
     };
     for (const auto& [line, message] : mistakes) {

@@ -375,6 +375,9 @@ TEST_F(RecordRunTest, records_stay_in_the_folder_of_the_study) {
     EXPECT_THAT(told("inside/../../a.csv"), HasSubstr("outside of the study's folder"));
     EXPECT_THAT(told(elsewhere / "a.csv"), HasSubstr("outside of the study's folder"));
     EXPECT_THAT(told("link.csv"), HasSubstr("leads out of the study's folder"));
+    std::filesystem::create_symlink("loop.csv", folder_ / "loop.csv");
+    EXPECT_THAT(told("loop.csv"), HasSubstr("is a link that leads to no file"));
+    EXPECT_LT(told(std::string(5000, 'a') + ".csv").size(), 600U);
     EXPECT_THAT(told("out/a.csv"), HasSubstr("leads out of the study's folder"));
     EXPECT_THAT(told("out/*.csv"), HasSubstr("leads out of the study's folder"));
     EXPECT_THAT(told("inside"), HasSubstr("is no plain file"));

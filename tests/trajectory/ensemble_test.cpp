@@ -250,6 +250,27 @@ TEST(Ensemble, MayBeCarriedOnAndUsedAgain) {
     ensemble.run({});
 }
 
+// One motion may take longer than anybody waits: alone and in lanes it is left when that is wanted.
+TEST(Ensemble, LeavesMotionsUnfinishedWhenAsked) {
+    const Simulation simulation(load_model("impact-oscillator"));
+    Observer observer;
+    for (const std::size_t count : {std::size_t{1}, std::size_t{9}}) {
+        std::vector<Trajectory> trajectories;
+        for (std::size_t i = 0; i < count; ++i) {
+            trajectories.emplace_back(simulation, simulation.model().parameter_values(), observer);
+            trajectories.back().start(simulation.model().initial_state(), 0, 0, 1e12);
+        }
+        Ensemble ensemble(simulation);
+        int asked = 0;
+        ensemble.stop_when([&] { return ++asked == 3; });
+        ensemble.run(trajectories);
+        EXPECT_EQ(asked, 3);
+        for (const Trajectory& trajectory : trajectories)
+            EXPECT_FALSE(trajectory.finished());
+        EXPECT_GT(trajectories.front().time(), 0);
+    }
+}
+
 TEST(Ensemble, RefusesTrajectoriesOfOtherSimulations) {
     const Simulation one(load_model("bouncing-ball")), other(load_model("mems-switch"));
     Observer observer;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <span>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 namespace graze {
@@ -31,9 +32,13 @@ public:
     /// @throws std::invalid_argument for a trajectory of another simulation
     void run(std::span<Trajectory* const> slots, const Again& again);
 
+    /// Leaves trajectories unfinished as soon as this is true, which is asked every some hundred steps; null for never.
+    void stop_when(std::function<bool()> wanted) { is_stopped_ = std::move(wanted); }
+
     int lanes() const { return static_cast<int>(lanes_); }
 
 private:
+    bool must_stop();
     void admit(const Trajectory& trajectory);
     bool refill(std::size_t slot, const Again& again);
     bool step_lanes(std::size_t mode);
@@ -52,6 +57,8 @@ private:
     std::vector<std::vector<std::size_t>> seated_;  ///< for each mode, whose parameters its jet's lanes have
     std::vector<std::size_t> crowd_;                ///< waiting trajectories in each mode
     std::vector<double> states_, parameters_;
+    std::function<bool()> is_stopped_;
+    std::size_t steps_ = 0;
 };
 
 } // namespace graze
