@@ -110,7 +110,9 @@ int export_command(const ExportArguments& arguments, const Console& console) {
     output.all = output.all || !arguments.sql.empty(); // which names its columns
     JsonObject heading;
     heading.add("file", file.path());
-    deliver(table_of(table), output, heading, console);
+    deliver(table_of(table), output, heading, console,
+            arguments.what == "estimates" ? std::vector<std::string>{"name", "unit", "value", "error", "low", "high"}
+                                          : std::vector<std::string>{});
     return exit_success;
 }
 
