@@ -103,14 +103,14 @@ private:
 };
 
 /// Labels of one place.
-struct Wanted {
+struct WantedLabel {
     std::vector<std::string> texts;
     std::size_t colour = 0;
     int rank = 0;
     PlanePoint point{};
 };
 
-std::string text_of(const Wanted& wanted) {
+std::string text_of(const WantedLabel& wanted) {
     std::string text = wanted.texts.front();
     for (std::size_t i = 1; i < std::min(most_in_one, wanted.texts.size()); ++i)
         text += ", " + wanted.texts[i];
@@ -130,12 +130,12 @@ public:
     }
 
     LabelPlaces find(const FigurePanel& panel) {
-        std::vector<Wanted> wanted = wanted_of(panel);
+        std::vector<WantedLabel> wanted = wanted_of(panel);
         std::stable_sort(wanted.begin(), wanted.end(),
-                         [](const Wanted& a, const Wanted& b) { return a.rank < b.rank; });
+                         [](const WantedLabel& a, const WantedLabel& b) { return a.rank < b.rank; });
         const double room = frame_.width() * frame_.height() / (room_of_label * 2.8 * font_ * height_);
         const std::size_t most = std::min(most_labels, static_cast<std::size_t>(room));
-        for (const Wanted& one : wanted)
+        for (const WantedLabel& one : wanted)
             if (found_.labels.size() >= most || !place(one))
                 ++found_.omitted;
         return std::move(found_);
@@ -167,15 +167,15 @@ private:
         }
     }
 
-    std::vector<Wanted> wanted_of(const FigurePanel& panel) const {
-        std::vector<Wanted> wanted;
+    std::vector<WantedLabel> wanted_of(const FigurePanel& panel) const {
+        std::vector<WantedLabel> wanted;
         for (const FigureLabel& label : panel.labels) {
             if (!is_drawn(label.at, panel) || label.text.empty())
                 continue;
             const PlanePoint here = place_of(label.at);
             if (!frame_.holds(here))
                 continue;
-            const auto same = std::find_if(wanted.begin(), wanted.end(), [&](const Wanted& one) {
+            const auto same = std::find_if(wanted.begin(), wanted.end(), [&](const WantedLabel& one) {
                 return length_of({one.point.x - here.x, one.point.y - here.y}) < mark_ / 4;
             });
             if (same == wanted.end()) {
@@ -190,7 +190,7 @@ private:
     }
 
     /// @return whether there is room
-    bool place(const Wanted& wanted) {
+    bool place(const WantedLabel& wanted) {
         PlacedLabel label;
         label.text = text_of(wanted);
         label.colour = wanted.colour;
