@@ -346,7 +346,8 @@ run = "r"
     run_study(study, file, {});
     const auto peak = [&](std::size_t picture) {
         PlanePoint highest;
-        for (const PlanePoint& point : make_picture(study.pictures[picture], file).figure.panels[0].series[0].points)
+        const Figure figure = make_picture(study.pictures[picture], file).figure;
+        for (const PlanePoint& point : figure.panels[0].series[0].points)
             highest = point.y > highest.y ? point : highest;
         return highest;
     };
