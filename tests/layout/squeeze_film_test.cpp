@@ -26,7 +26,10 @@ double damping_on_grid(double length, double top, double bottom, int n) {
     const int m = static_cast<int>(std::lround(n * length));
     const double h = 1.0 / n;
     std::vector<double> p(static_cast<std::size_t>((n + 1) * (m + 1)));
-    const auto at = [&](int i, int j) -> double& { return p[static_cast<std::size_t>(i * (m + 1) + j)]; };
+    const auto at = [&](int i, int j) -> double& {
+        const int place = i * (m + 1) + j;
+        return p[static_cast<std::size_t>(place)];
+    };
     const auto cube = [&](double z) { return std::pow(top + (bottom - top) * z, 3); };
     const double over = 2 / (1 + std::sin(std::numbers::pi / n));
     for (int sweep = 0; sweep < 40 * n; ++sweep)
