@@ -66,13 +66,20 @@ private:
         for (const Measured& one : places) {
             RuleFinding finding{rule,   one.value, limit, unit,         at_least, one.part,
                                 one.at, device_,   false, key_of(rule), "",       0};
-            if (count > 0 && finding.holds())
+            if (!tell(std::move(finding), count))
                 break;
-            if (++count > most_places)
-                ++findings_.back().more;
-            else
-                findings_.push_back(std::move(finding));
         }
+    }
+    /// The worst place of a rule is told in any case, others where the rule is broken; many are only counted.
+    /// @param count how many of the rule there were @return whether there may be more
+    bool tell(RuleFinding finding, std::size_t& count) {
+        if (count > 0 && finding.holds())
+            return false;
+        if (++count > most_places)
+            ++findings_.back().more;
+        else
+            findings_.push_back(std::move(finding));
+        return true;
     }
 
     /// What there is to blame: a rule, or what the process does to all widths.
@@ -264,12 +271,8 @@ private:
                                           "know",
                                           one.key, to_stops ? "stop_gap" : "gap"),
                     .more = 0};
-                if (count > 0 && finding.holds())
+                if (!tell(std::move(finding), count))
                     break;
-                if (++count > most_places)
-                    ++findings_.back().more;
-                else
-                    findings_.push_back(std::move(finding));
             }
         }
     }

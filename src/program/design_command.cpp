@@ -8,7 +8,6 @@
 #include "program/json_rows.hpp"
 #include "program/output_file.hpp"
 #include "program/process.hpp"
-#include "program/status_line.hpp"
 #include "program/trip_location.hpp"
 
 #include <fmt/format.h>
@@ -199,13 +198,7 @@ int design_command(const DesignArguments& arguments, const Console& console) {
     Workplace place(first, folder);
     const InterruptGuard guard;
     StatusLine line(console, console.terminal);
-    DesignReportOptions options;
-    options.jobs = threads_for(arguments.jobs);
-    options.interrupted = [] { return InterruptGuard::requested(); };
-    options.progress = [&](const std::string& what) {
-        if (line.is_due())
-            line.show(what);
-    };
+    const DesignReportOptions options = interactive_options(arguments.jobs, line);
     std::optional<TripPoint> trip = locate_trip(first, place.path("results.sqlite"), options);
     if (!trip)
         return interrupted(console);

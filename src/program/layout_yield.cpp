@@ -7,7 +7,6 @@
 #include "program/json_rows.hpp"
 #include "program/output_file.hpp"
 #include "program/process.hpp"
-#include "program/status_line.hpp"
 #include "program/trip_location.hpp"
 #include "program/wafer_map.hpp"
 
@@ -189,13 +188,7 @@ int layout_yield(const LayoutArguments& arguments, const DeviceFile& file, const
     const auto path = [&](const char* name) { return (std::filesystem::path(folder) / name).string(); };
     const InterruptGuard guard;
     StatusLine line(console, console.terminal);
-    DesignReportOptions options;
-    options.jobs = threads_for(arguments.jobs);
-    options.interrupted = [] { return InterruptGuard::requested(); };
-    options.progress = [&](const std::string& what) {
-        if (line.is_due())
-            line.show(what);
-    };
+    const DesignReportOptions options = interactive_options(arguments.jobs, line);
     const std::optional<TripPoint> trip = locate_trip(design, path("results.sqlite"), options);
     WaferYieldSettings settings;
     settings.wafers = *arguments.yield;

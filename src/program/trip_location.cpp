@@ -1,6 +1,8 @@
 #include "program/trip_location.hpp"
 
 #include "graze/study/runner.hpp"
+#include "program/arguments.hpp"
+#include "program/interrupt.hpp"
 
 #include <fmt/format.h>
 
@@ -25,6 +27,17 @@ bool follow(const Study& study, ResultFile& file, const DesignReportOptions& opt
 }
 
 } // namespace
+
+DesignReportOptions interactive_options(int jobs, StatusLine& line) {
+    DesignReportOptions options;
+    options.jobs = threads_for(jobs);
+    options.interrupted = [] { return InterruptGuard::requested(); };
+    options.progress = [&line](const std::string& what) {
+        if (line.is_due())
+            line.show(what);
+    };
+    return options;
+}
 
 std::optional<TripPoint> locate_trip(const Design& design, const std::string& path,
                                      const DesignReportOptions& options) {

@@ -240,6 +240,18 @@ private:
         return all;
     }
 
+    /// Whether a run is there as it is asked for; otherwise its time begins.
+    bool is_there_or_begins(const StudyRun& run, std::size_t points, Work& work) {
+        return file_.with([&](ResultFile& file) {
+            const RunRecord record = record_of(run, parent_fingerprint(run), points);
+            fingerprints_[run.name] = record.fingerprint;
+            const bool is_there = is_done(record, file);
+            if (!is_there)
+                begin_times(run, work, file);
+            return is_there;
+        });
+    }
+
     /// A run with the parameters that others have found.
     StudyRun with_found(const StudyRun& run) {
         return file_.with([&](const ResultFile& file) { return with_parameters_found(run, file); });
@@ -249,14 +261,7 @@ private:
     void do_measured(const StudyRun& wanted, Work& work) {
         const StudyRun run = file_.with([&](const ResultFile& file) { return measured_run(wanted, file); });
         work.report.points = planned_points(run);
-        const bool done = file_.with([&](ResultFile& file) {
-            const RunRecord record = record_of(run, parent_fingerprint(run), work.report.points);
-            fingerprints_[run.name] = record.fingerprint;
-            const bool is_there = is_done(record, file);
-            if (!is_there)
-                begin_times(run, work, file);
-            return is_there;
-        });
+        const bool done = is_there_or_begins(run, work.report.points, work);
         if (done)
             return;
         const bool complete = run_measured(run, file_, options_.interrupted, [&](bool computed) {
@@ -270,19 +275,12 @@ private:
     }
 
     void do_branch(const StudyRun& run, Work& work) {
-        const bool done = file_.with([&](ResultFile& file) {
-            const RunRecord record = record_of(run, parent_fingerprint(run), 0);
-            fingerprints_[run.name] = record.fingerprint;
-            const bool is_there = is_done(record, file);
-            if (is_there)
-                work.report.points = file.point_count(run.name);
-            else
-                begin_times(run, work, file);
-            return is_there;
-        });
+        const bool done = is_there_or_begins(run, 0, work);
         const bool complete = done || run_branch(*study_, run, file_, options_, work.report);
         file_.with([&](ResultFile& file) {
-            if (!done)
+            if (done)
+                work.report.points = file.point_count(run.name);
+            else
                 complete ? file.complete_run(run.name) : file.flush();
             work.report.outcome = complete ? RunOutcome::complete : RunOutcome::interrupted;
             if (complete)
@@ -315,14 +313,7 @@ private:
         });
         const StudyRun run = start ? at_start(wanted, *start) : wanted;
         work.report.points = points_of(run);
-        const bool done = file_.with([&](ResultFile& file) {
-            const RunRecord record = record_of(run, parent_fingerprint(run), work.report.points);
-            fingerprints_[run.name] = record.fingerprint;
-            const bool is_there = is_done(record, file);
-            if (!is_there)
-                begin_times(run, work, file);
-            return is_there;
-        });
+        const bool done = is_there_or_begins(run, work.report.points, work);
         if (!done)
             compute_points(run, start ? &start->point : nullptr, work);
     }
