@@ -14,6 +14,26 @@ extern char** environ;
 
 namespace graze::testing {
 
+namespace {
+
+/// Starts a program; what it says of itself goes into a file. @return 0: it cannot be started
+pid_t started(std::vector<std::string> words, const std::string& messages) {
+    std::vector<char*> pointers;
+    for (std::string& word : words)
+        pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0666);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, messages.c_str(), O_WRONLY | O_CREAT, 0666);
+    pid_t child = 0;
+    const int problem = posix_spawn(&child, pointers[0], &actions, nullptr, pointers.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    return problem == 0 ? child : 0;
+}
+
+} // namespace
+
 class Interrupt : public ::testing::TestWithParam<int> {};
 
 TEST_P(Interrupt, WritesWhatWasComputed) {
@@ -23,16 +43,8 @@ TEST_P(Interrupt, WritesWhatWasComputed) {
                                    "--periods",   "100000000", "--section",
                                    "phase0",      "--format",  "csv",
                                    "--output",    file,        "--progress"};
-    std::vector<char*> pointers;
-    for (std::string& word : words)
-        pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, messages.c_str(), O_WRONLY | O_CREAT, 0666);
-    pid_t child = 0;
-    ASSERT_EQ(posix_spawn(&child, GRAZE_PROGRAM, &actions, nullptr, pointers.data(), environ), 0);
-    posix_spawn_file_actions_destroy(&actions);
+    const pid_t child = started(words, messages);
+    ASSERT_GT(child, 0);
     // Progress appears after two seconds: then it is certainly running.
     for (int i = 0; i < 600 && contents(messages).empty(); ++i)
         usleep(100'000);
@@ -58,16 +70,8 @@ TEST_P(Interrupt, LeavesNoPartOfARecord) {
             rows << i << ',' << i % 1000 << '\n';
     }
     std::vector<std::string> words{GRAZE_PROGRAM, "record", record, "--derivative", "q", "--write", file};
-    std::vector<char*> pointers;
-    for (std::string& word : words)
-        pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, messages.c_str(), O_WRONLY | O_CREAT, 0666);
-    pid_t child = 0;
-    ASSERT_EQ(posix_spawn(&child, GRAZE_PROGRAM, &actions, nullptr, pointers.data(), environ), 0);
-    posix_spawn_file_actions_destroy(&actions);
+    const pid_t child = started(words, messages);
+    ASSERT_GT(child, 0);
     constexpr std::size_t with_its_own = 3; // the record, the messages, and what is being written
     for (int i = 0; i < 10'000 && folder.files() < with_its_own; ++i)
         usleep(1000);
@@ -87,17 +91,8 @@ TEST_P(Interrupt, LeavesALongMotionOfAStudy) {
     std::ofstream(study) << "name = \"stiff\"\nmodel = \"electromagnetic-testbed\"\nset = { R = 1.41e12 }\n"
                             "[runs.a]\nkind = \"simulate\"\ntime = 0.01\n";
     std::vector<std::string> words{GRAZE_PROGRAM, "run", study, "--output", results};
-    std::vector<char*> pointers;
-    for (std::string& word : words)
-        pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0666);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, messages.c_str(), O_WRONLY | O_CREAT, 0666);
-    pid_t child = 0;
-    ASSERT_EQ(posix_spawn(&child, GRAZE_PROGRAM, &actions, nullptr, pointers.data(), environ), 0);
-    posix_spawn_file_actions_destroy(&actions);
+    const pid_t child = started(words, messages);
+    ASSERT_GT(child, 0);
     for (int i = 0; i < 60'000 && !std::filesystem::exists(results + "/results.sqlite"); ++i)
         usleep(1000);
     usleep(300'000); // so that the motion has begun; where it has not, the study is left all the same

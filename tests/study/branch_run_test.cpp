@@ -2,6 +2,8 @@
 #include "graze/study/runner.hpp"
 #include "graze/symbolic/input_error.hpp"
 
+#include "refusal.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -75,14 +77,7 @@ protected:
     }
     /// What is wrong with a study, or with the first run that failed.
     std::string refusal(const std::string& text) {
-        try {
-            for (const RunReport& report : run(text))
-                if (!report.problem.empty())
-                    return report.problem + "; " + report.remedy;
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
+        return testing::refusal_of([&] { return run(text); });
     }
 
     std::filesystem::path folder_;

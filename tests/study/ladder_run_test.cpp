@@ -2,6 +2,8 @@
 #include "graze/study/runner.hpp"
 #include "graze/symbolic/input_error.hpp"
 
+#include "refusal.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -55,14 +57,7 @@ protected:
         return run_study(parse_study(text, "s.toml"), file, {});
     }
     std::string refusal(const std::string& text) {
-        try {
-            for (const RunReport& report : run(text))
-                if (!report.problem.empty())
-                    return report.problem + "; " + report.remedy;
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
+        return testing::refusal_of([&] { return run(text); });
     }
     std::string path_;
 };

@@ -11,6 +11,8 @@
 
 #include "../symbolic/temporary_folder.hpp"
 
+#include "refusal.hpp"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -53,14 +55,7 @@ protected:
     }
     /// What refuses a study, or fails its last run.
     std::string refusal(const std::string& text) const {
-        try {
-            for (const RunReport& report : run(text))
-                if (!report.problem.empty())
-                    return report.problem + "; " + report.remedy;
-        } catch (const InputError& error) {
-            return error.what();
-        }
-        return "";
+        return testing::refusal_of([&] { return run(text); });
     }
     /// Times and values of one sampling of a point: time, values, time, ...
     std::vector<std::vector<double>> samples(const std::string& sampling, std::size_t number = 0) const {
