@@ -77,7 +77,7 @@ protected:
     }
     /// What is wrong with a study, or with the first run that failed.
     std::string refusal(const std::string& text) {
-        return testing::refusal_of([&] { return run(text); });
+        return refusal_of([&] { return run(text); });
     }
 
     std::filesystem::path folder_;

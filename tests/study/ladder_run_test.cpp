@@ -57,7 +57,7 @@ protected:
         return run_study(parse_study(text, "s.toml"), file, {});
     }
     std::string refusal(const std::string& text) {
-        return testing::refusal_of([&] { return run(text); });
+        return refusal_of([&] { return run(text); });
     }
     std::string path_;
 };

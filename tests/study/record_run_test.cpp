@@ -55,7 +55,7 @@ protected:
     }
     /// What refuses a study, or fails its last run.
     std::string refusal(const std::string& text) const {
-        return testing::refusal_of([&] { return run(text); });
+        return refusal_of([&] { return run(text); });
     }
     /// Times and values of one sampling of a point: time, values, time, ...
     std::vector<std::vector<double>> samples(const std::string& sampling, std::size_t number = 0) const {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace graze::testing {
+namespace graze {
 
 /// What refuses a study, or fails the first of its runs that does; empty: nothing.
 /// @param run what does the study and gives its reports
@@ -21,4 +21,4 @@ std::string refusal_of(const Run& run) {
     return "";
 }
 
-} // namespace graze::testing
+} // namespace graze
