@@ -162,25 +162,13 @@ bool sweep(std::span<const Pull> pulls, double* sizes, std::size_t lanes) {
     return grown;
 }
 
-/// Puts ones where the directions of the colours from one on are.
-void seed(std::span<double> seeds, std::size_t width, std::span<const std::size_t> colours, std::size_t first) {
-    std::fill(seeds.begin(), seeds.end(), 0.0);
-    for (std::size_t k = 0; k < colours.size(); ++k)
-        if (colours[k] >= first && colours[k] - first + 1 < width)
-            seeds[k * width + 1 + colours[k] - first] = 1;
-}
-
 } // namespace
 
 Couplings::Couplings(const System& system, std::size_t mode)
-    : states_(system.states()), jet_(make_jet(system.mode(mode).tape, 1, LaneKind::tangent)) {
-    width_ = static_cast<std::size_t>(jet_->width());
-    units_.resize(states_);
-    seeds_.resize(states_ * width_);
-    parameter_lanes_.assign(system.parameters() * width_, 0.0);
+    : states_(system.states()), equations_(system.linear(mode).equations), system_(system),
+      jet_(make_jet(system.linear(mode).tape, 1, LaneKind::single)), units_(states_), row_(states_),
+      intermediates_(equations_.intermediates) {
     find_entries(system.mode(mode).tape);
-    find_colours();
-    seed(seeds_, width_, colours_, 0);
 }
 
 void Couplings::find_entries(const Tape& tape) {
@@ -237,44 +225,49 @@ void Couplings::find_constants(const Tape& tape) {
     }
 }
 
-/// Columns of one colour have no row in common. Each takes the first colour that is free.
-void Couplings::find_colours() {
-    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-    colours_.assign(states_, none);
-    std::vector<std::size_t> taken_by;
-    for (std::size_t k = 0; k < states_; ++k) {
-        taken_by.resize(colour_count_, none);
-        for (const std::size_t entry : columns_[k])
-            for (std::size_t e = row_starts_[entries_[entry].row]; e < row_starts_[entries_[entry].row + 1]; ++e)
-                if (const std::size_t colour = colours_[entries_[e].column]; colour != none)
-                    taken_by[colour] = k;
-        const auto free = std::find_if(taken_by.begin(), taken_by.end(), [k](std::size_t by) { return by != k; });
-        colours_[k] = static_cast<std::size_t>(free - taken_by.begin());
-        colour_count_ = std::max(colour_count_, colours_[k] + 1);
-    }
+void Couplings::set_parameters(std::span<const double> parameters) {
+    jet_->set_parameters(parameters);
 }
 
-void Couplings::set_parameters(std::span<const double> parameters) {
-    require_size(parameters.size() * width_, parameter_lanes_.size(), "independent parameters");
-    for (std::size_t j = 0; j < parameters.size(); ++j)
-        parameter_lanes_[j * width_] = parameters[j];
-    jet_->set_parameters(parameter_lanes_);
+/// Row by row, intermediate quantities first.
+void Couplings::find_strengths() {
+    std::vector<std::size_t> columns; // in which there is something
+    auto entry = equations_.entries.begin();
+    const auto add = [&](std::size_t column, double value) {
+        row_[column] += value;
+        columns.push_back(column);
+    };
+    for (std::size_t row = 0; row < intermediates_.size() + states_; ++row) {
+        for (; entry != equations_.entries.end() && entry->row == row; ++entry) {
+            const double value = *jet_->follower(entry->follower);
+            if (entry->source < states_)
+                add(entry->source, value);
+            else if (entry->source >= states_ + equations_.parameters)
+                for (const Part& part : intermediates_[entry->source - states_ - equations_.parameters])
+                    add(part.column, value * part.value);
+        }
+        if (row < intermediates_.size()) {
+            intermediates_[row].clear();
+            for (const std::size_t column : columns)
+                if (const double value = std::exchange(row_[column], 0.0); value != 0)
+                    intermediates_[row].push_back({column, value});
+        } else {
+            const std::size_t state = row - intermediates_.size();
+            for (std::size_t e = row_starts_[state]; e < row_starts_[state + 1]; ++e)
+                entries_[e].strength = std::abs(row_[entries_[e].column]);
+            for (const std::size_t column : columns)
+                row_[column] = 0;
+        }
+        columns.clear();
+    }
 }
 
 void Couplings::measure(std::span<const double> states) {
     require_size(states.size(), states_, "states");
-    const std::size_t lanes = width_ - 1;
-    for (std::size_t first = 0; first < colour_count_; first += lanes) {
-        if (colour_count_ > lanes)
-            seed(seeds_, width_, colours_, first);
-        for (std::size_t k = 0; k < states_; ++k)
-            seeds_[k * width_] = states[k];
-        jet_->begin(seeds_);
-        const std::span<const Series> series = jet_->series();
-        for (Entry& entry : entries_)
-            if (const std::size_t colour = colours_[entry.column]; colour >= first && colour < first + lanes)
-                entry.strength = std::abs(series[entry.row].first[width_ + 1 + colour - first]);
-    }
+    constexpr std::uint32_t groups[] = {LinearMode::by_states};
+    jet_->begin(states);
+    jet_->begin_followers(groups);
+    find_strengths();
     const bool finite =
         std::all_of(entries_.begin(), entries_.end(), [](const Entry& e) { return std::isfinite(e.strength); });
     if (!finite) {

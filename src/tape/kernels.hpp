@@ -124,9 +124,8 @@ private:
     V b_; ///< the last one loaded
 };
 
-/// Derivatives gain from pairs only where one register holds them all.
 template <class V>
-inline constexpr bool has_pairs = std::is_same_v<V, Ensemble> || (std::is_same_v<V, Tangent> && Tangent::parts == 1);
+inline constexpr bool has_pairs = std::is_same_v<V, Ensemble>;
 /// From this order on, the convolutions of an even and the next odd order are computed together. What is known of the
 /// odd one waits where its coefficient will be.
 inline constexpr int first_pair = 4;
@@ -421,11 +420,6 @@ struct OneOrder {
     GRAZE_INLINE static V zero() { return Numbers<V>::of(0); }
     GRAZE_INLINE static V coefficient(const double* from) { return at<V>(from, 0); }
     GRAZE_INLINE static V term(const double* series, Order k) { return at<V>(series, k); }
-};
-/// ... the same with coefficients that have no derivatives ...
-template <class V>
-struct FixedCoefficients : OneOrder<V> {
-    GRAZE_INLINE static Factor coefficient(const double* from) { return {splat(*from)}; }
 };
 /// ... and those of one lane at as many orders as a register has room for.
 struct ManyOrders {

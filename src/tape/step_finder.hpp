@@ -21,7 +21,6 @@ struct JetLayout {
 struct KernelStep {
     Kernel kernel;
     KernelOperands operands;
-    Kernel fixed = nullptr; ///< instead, where no coefficient of a linear combination has derivatives; null: none
 };
 
 /// Finds the kernels and operands of the steps to be taken at each order, from orders 0 and 1 on; and of what can be
@@ -29,7 +28,11 @@ struct KernelStep {
 /// them, for nothing depends on it.
 class StepFinder {
 public:
+    /// Of states and outputs.
     StepFinder(const Tape& tape, const KernelTable& table, const JetLayout& layout, double* memory,
+               const std::vector<TermOperands>& terms);
+    /// Of one part of what follows them. @param part index in Tape::follower_code
+    StepFinder(const Tape& tape, std::size_t part, const KernelTable& table, const JetLayout& layout, double* memory,
                const std::vector<TermOperands>& terms);
 
     std::vector<KernelStep> steps(int order) const;
@@ -67,6 +70,9 @@ private:
     Kernel kernel_of(const Instruction& instruction, int order, KernelOperands& operands) const;
 
     const Tape& tape_;
+    const std::vector<Instruction>& code_;
+    bool has_states_;               ///< they are computed with it
+    std::uint32_t reciprocals_ = 0; ///< kept by the code before
     const KernelTable& table_;
     const JetLayout& layout_;
     double* memory_;

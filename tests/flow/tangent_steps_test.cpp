@@ -186,10 +186,11 @@ TEST(TangentSteps, AreHardlyMoreThanThoseOfTheMotion) {
     }
 }
 
-/// Directions that are faster than the motion and than the first ones, which make its steps: they take parts of these.
-TEST(TangentSteps, AreDividedForDirectionsThatAreFaster) {
+/// Directions that are faster than the motion, and come after others: all take their steps.
+TEST(TangentSteps, AreShortenedForDirectionsThatAreFaster) {
     std::string states, rates;
-    constexpr std::size_t slow = 15; // as many as two jets have lanes, at least
+    constexpr std::size_t slow = 33; // more than are computed side by side
+    ASSERT_LT(TangentSteps::together(slow), slow);
     for (std::size_t i = 0; i < slow; ++i) {
         states += fmt::format("x{} = {}\n", i, 1 + i);
         rates += fmt::format("x{0} = \"-x{0}\"\n", i);
@@ -203,7 +204,7 @@ TEST(TangentSteps, AreDividedForDirectionsThatAreFaster) {
     const std::size_t n = model.states.size();
     std::vector<double> state = model.initial_state(), derivatives(n * n);
     ASSERT_EQ(flow.run(0, state, time, derivatives), ModeFlow::Ending::done);
-    EXPECT_LE(flow.steps(), 5u);
+    EXPECT_LE(flow.steps(), 200u); // a radian is no long step
     for (std::size_t i = 0; i < slow; ++i)
         EXPECT_NEAR(derivatives[i * n + i], std::exp(-time), 10 * tolerance);
     // Two hundred radians, each as good as a tolerance.
@@ -216,18 +217,25 @@ TEST(TangentSteps, AreDividedForDirectionsThatAreFaster) {
 
 TEST(TangentSteps, RefuseWhatDoesNotFit) {
     const Model model = parse_model(chain_of(1, 1, 1, 1).model(), "chain.toml");
-    TangentSteps steps(model, 10, 1e-9, 2);
+    TangentSteps steps(model, 1e-9, 2);
+    ModeJets jets(model, 10, LaneKind::single), without(model, 10, LaneKind::single);
+    jets.add_tangents();
     EXPECT_THROW(steps.set_parameters({}, {}), InputError);
     EXPECT_THROW(steps.set_parameters(std::vector{1.0}, std::vector{1.0}), InputError);
     steps.set_parameters(std::vector{1.0}, std::vector{1.0, 0.0});
     std::vector<double> state(3, 0.1), matrix(6, 1.0), after(6), few(5);
-    EXPECT_THROW(steps.begin(1, state, matrix), InputError);
-    EXPECT_THROW(steps.begin(0, few, matrix), InputError);
-    EXPECT_THROW(steps.begin(0, state, few), InputError);
-    EXPECT_THROW(steps.begin(0, state, matrix, 2), InputError);
-    steps.begin(0, state, matrix);
-    EXPECT_THROW(steps.carry(0, state, matrix, 0.1, few), InputError);
-    EXPECT_EQ(steps.carry(0, state, matrix, 0.01, after), 0.01);
+    for (ModeJets* all : {&jets, &without})
+        all->set_parameters(std::vector{1.0});
+    Jet &jet = jets.computed(0, state), &next = jets.next(0);
+    EXPECT_THROW(steps.carry(next, 0.1, after), std::logic_error);
+    EXPECT_THROW(steps.begin(jet, 1, state, matrix), InputError);
+    EXPECT_THROW(steps.begin(jet, 0, few, matrix), InputError);
+    EXPECT_THROW(steps.begin(jet, 0, state, few), InputError);
+    EXPECT_THROW(steps.begin(without.computed(0, state), 0, state, matrix), InputError);
+    EXPECT_THROW(steps.begin(next, 0, state, matrix), std::logic_error); // nothing is computed there
+    steps.begin(jet, 0, state, matrix);
+    EXPECT_THROW(steps.carry(next, 0.1, few), InputError);
+    EXPECT_EQ(steps.carry(next, 0.01, after), 0.01);
 }
 
 } // namespace

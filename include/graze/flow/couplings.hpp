@@ -21,8 +21,7 @@ public:
     Couplings(const System& system, std::size_t mode);
     /// @param parameters as many as the system has
     void set_parameters(std::span<const double> parameters);
-    /// Finds the Jacobian at a place: columns that share no row at once (Curtis, Powell and Reid 1974), side by side in
-    /// tangent lanes.
+    /// Finds the Jacobian at a place, from the coefficients of the first variational equations.
     void measure(std::span<const double> states);
 
     /// The reciprocal of a bound on the eigenvalues: of the largest sum of a row's entries among states that depend on
@@ -54,19 +53,19 @@ private:
 
     void find_entries(const Tape& tape);
     void find_constants(const Tape& tape);
-    void find_colours();
+    void find_strengths();
     void find_cycles();
     void sort_cycles();
     void balance();
     double largest_row() const;
 
-    std::size_t states_, width_;
+    std::size_t states_;
+    const TangentEquations& equations_; ///< of the system, which it keeps
+    System system_;
     std::unique_ptr<Jet> jet_;
     std::vector<Entry> entries_;                    ///< row by row
     std::vector<std::size_t> row_starts_;           ///< in `entries_`
     std::vector<std::vector<std::size_t>> columns_; ///< entries of each
-    std::vector<std::size_t> colours_;              ///< of columns
-    std::size_t colour_count_ = 0;
     /// Entries between states that act on each other, sorted by one of the two: `starts` has where those of each begin.
     struct Sorted {
         std::vector<std::size_t> starts, entries, others;
@@ -77,7 +76,13 @@ private:
     std::vector<bool> steady_;    ///< states
     std::vector<bool> vanishing_; ///< entries that were zero when cycles were found
     std::vector<double> units_;   ///< in which rows and columns are about as large
-    std::vector<double> seeds_, parameter_lanes_;
+    std::vector<double> row_; ///< of the Jacobian, one number for each state
+    /// Derivatives of intermediate quantities by states.
+    struct Part {
+        std::size_t column;
+        double value;
+    };
+    std::vector<std::vector<Part>> intermediates_;
     double response_time_ = 0;
     bool fresh_ = true;
 };
