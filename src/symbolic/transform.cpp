@@ -1,6 +1,6 @@
 #include "graze/symbolic/transform.hpp"
 
-#include "symbolic/function_table.hpp"
+#include "symbolic/slope.hpp"
 #include "symbolic/subgraph.hpp"
 
 #include <algorithm>
@@ -28,28 +28,6 @@ Expression derivative_of_power(const Expression& value, const Expression& base, 
     if (!exponent_rate.empty())
         result = sum(result, value * log(base) * exponent_rate);
     return result;
-}
-
-Expression square(const Expression& x) {
-    return pow(x, 2);
-}
-Expression one_minus_square(const Expression& x) {
-    return 1 - square(x);
-}
-
-/// d/da of an operation of one operand a, in terms of it and of the value y.
-Expression slope_of(Operation operation, const Expression& y, const Expression& a) {
-    switch (operation) {
-    case Operation::negate:
-        return a.graph()->number(-1);
-#define GRAZE_ROW(name, recurrence, slope)                                                                             \
-    case Operation::name:                                                                                              \
-        return slope;
-        GRAZE_FUNCTIONS(GRAZE_ROW)
-#undef GRAZE_ROW
-    default:
-        throw std::invalid_argument("an operation of one operand was expected");
-    }
 }
 
 /// Derivative of a node from those of its operands, which are empty where they are zero (but not all).
