@@ -10,8 +10,11 @@ namespace graze {
 
 namespace {
 
-std::size_t cost_of(bool varies) {
-    return varies ? Linearisation::varying_cost : Linearisation::constant_cost;
+/// Of a product of coefficients, which is formed once.
+std::size_t cost_of_product(bool one_varies, bool other_varies) {
+    if (one_varies && other_varies)
+        return Linearisation::varying_cost;
+    return one_varies || other_varies ? Linearisation::constant_cost : 0;
 }
 
 /// Whether the derivatives of an operation by its operands vary, given which of these do.
@@ -32,8 +35,10 @@ std::pair<bool, bool> derivatives_vary(Operation operation, bool left_moves, boo
 
 } // namespace
 
-LinearGraph::LinearGraph(const Subgraph& part, const std::vector<bool>& moves)
-    : nodes_(part.items.size()), part_(part) {
+LinearGraph::LinearGraph(const Subgraph& part, const std::vector<bool>& moves, std::size_t directions)
+    : cost_of_intermediate_(directions * Linearisation::intermediate_cost),
+      cost_of_constant_(directions * Linearisation::constant_cost),
+      cost_of_varying_(directions * Linearisation::varying_cost), nodes_(part.items.size()), part_(part) {
     const std::size_t vertices = nodes_ + part.roots.size();
     operands_.resize(vertices);
     users_.resize(vertices);
@@ -94,7 +99,7 @@ std::vector<LinearGraph::Neighbour> LinearGraph::users_of(Vertex vertex) {
 }
 
 bool LinearGraph::pays(const std::vector<Neighbour>& operands, const std::vector<Neighbour>& users) const {
-    std::size_t saved = Linearisation::intermediate_cost;
+    std::size_t saved = cost_of_intermediate_;
     for (const auto* neighbours : {&operands, &users})
         for (const Neighbour& neighbour : *neighbours)
             saved += cost_of(neighbour.varies);
@@ -102,11 +107,12 @@ bool LinearGraph::pays(const std::vector<Neighbour>& operands, const std::vector
     for (const Neighbour& operand : operands)
         for (const Neighbour& user : users) {
             const bool varies = operand.varies || user.varies;
+            spent += cost_of_product(operand.varies, user.varies);
             const auto found = varies_.find(key(operand.vertex, user.vertex));
             if (found == varies_.end())
                 spent += cost_of(varies);
             else if (varies && !found->second)
-                spent += cost_of(true) - cost_of(false);
+                spent += cost_of_varying_ - cost_of_constant_;
             if (spent > saved)
                 return false;
         }
@@ -184,7 +190,7 @@ std::vector<LinearGraph::Group> LinearGraph::groups(std::vector<std::uint32_t>& 
         for (const Neighbour& operand : operands_of(vertex))
             group.cost += cost_of(operand.varies);
         if (vertex < nodes_)
-            group.cost += Linearisation::intermediate_cost;
+            group.cost += cost_of_intermediate_;
         else
             group.functions.push_back(vertex);
     }
@@ -194,6 +200,7 @@ std::vector<LinearGraph::Group> LinearGraph::groups(std::vector<std::uint32_t>& 
 std::size_t LinearGraph::plain_cost(Vertex function, std::size_t& work) {
     std::priority_queue<Vertex> pending; // users before their operands
     std::vector<Vertex> states;
+    std::size_t cost = 0;
     pending.push(function);
     reached_[function] = Reached::constantly;
     while (!pending.empty()) {
@@ -206,12 +213,12 @@ std::size_t LinearGraph::plain_cost(Vertex function, std::size_t& work) {
                 pending.push(operand.vertex);
             else if (reached == Reached::no)
                 states.push_back(operand.vertex);
-            const bool varies = operand.varies || reached_[vertex] == Reached::varying;
-            reached = std::max(reached, varies ? Reached::varying : Reached::constantly);
+            const bool so_far = reached_[vertex] == Reached::varying;
+            cost += cost_of_product(so_far, operand.varies);
+            reached = std::max(reached, so_far || operand.varies ? Reached::varying : Reached::constantly);
         }
         reached_[vertex] = Reached::no;
     }
-    std::size_t cost = 0;
     for (const Vertex state : states)
         cost += cost_of(std::exchange(reached_[state], Reached::no) == Reached::varying);
     return cost;

@@ -20,7 +20,8 @@ namespace graze {
 class LinearGraph {
 public:
     /// @param moves whether a state is in the node at each position of the subgraph
-    LinearGraph(const Subgraph& part, const std::vector<bool>& moves);
+    /// @param directions of which costs are counted
+    LinearGraph(const Subgraph& part, const std::vector<bool>& moves, std::size_t directions);
 
     void reduce();
     /// Eliminates those too that belong together and, taken together, save nothing.
@@ -51,6 +52,7 @@ private:
         std::size_t cost = 0;
     };
 
+    std::size_t cost_of(bool varies) const { return varies ? cost_of_varying_ : cost_of_constant_; }
     void connect_operands(Vertex vertex, const std::vector<bool>& moves);
     void connect(Vertex from, Vertex to, bool varies);
     bool is_intermediate(Vertex vertex) const { return !eliminated_[vertex] && !fixed_[vertex]; }
@@ -68,6 +70,7 @@ private:
 
     static constexpr std::uint64_t key(Vertex from, Vertex to) { return (std::uint64_t{from} << 32) | to; }
 
+    std::size_t cost_of_intermediate_, cost_of_constant_, cost_of_varying_;
     std::size_t nodes_;
     const Subgraph& part_;
     std::vector<std::vector<Vertex>> operands_, users_; ///< those that are eliminated may still be among them

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <queue>
 #include <stdexcept>
+#include <unordered_set>
 #include <utility>
 
 namespace graze {
@@ -161,12 +162,16 @@ void remove_idle(Linearisation& result) {
     result.intermediates = left;
 }
 
-void mark_varying(std::vector<LinearEntry>& entries, const SymbolIndex& variables, std::size_t states) {
+std::vector<Expression> coefficients_of(std::span<const LinearEntry> entries) {
     std::vector<Expression> coefficients;
     coefficients.reserve(entries.size());
     for (const LinearEntry& entry : entries)
         coefficients.push_back(entry.coefficient);
-    const Subgraph part = subgraph_of(coefficients);
+    return coefficients;
+}
+
+void mark_varying(std::vector<LinearEntry>& entries, const SymbolIndex& variables, std::size_t states) {
+    const Subgraph part = subgraph_of(coefficients_of(entries));
     const std::vector<bool> moves = nodes_with(part, variables, states);
     for (std::size_t i = 0; i < entries.size(); ++i)
         entries[i].varies = moves[part.roots[i]];
@@ -185,11 +190,40 @@ Linearisation with_intermediates(const Subgraph& part, const SymbolIndex& variab
     return result;
 }
 
-/// Of a direction in which no parameter changes.
-std::size_t cost_in_states(Linearisation linear, std::size_t states) {
+/// Of an operation on series, given which of its operands move.
+std::size_t cost_of(Operation operation, bool left_moves, bool right_moves) {
+    switch (operation) {
+    case Operation::add:
+    case Operation::subtract:
+    case Operation::negate:
+        return Linearisation::constant_cost;
+    case Operation::multiply:
+        return left_moves && right_moves ? Linearisation::varying_cost : Linearisation::constant_cost;
+    case Operation::divide:
+        return right_moves ? Linearisation::varying_cost : Linearisation::constant_cost;
+    default:
+        return Linearisation::varying_cost;
+    }
+}
+
+/// Of directions in which no parameter changes, with what coefficients take besides functions.
+std::size_t cost_in_states(Linearisation linear, const Subgraph& functions, const SymbolIndex& variables,
+                           std::size_t states, std::size_t directions) {
     std::erase_if(linear.entries,
                   [&](const LinearEntry& entry) { return entry.source >= states && entry.source < linear.variables; });
-    return linear.cost();
+    std::unordered_set<NodeIndex> known;
+    for (const Subgraph::Item& item : functions.items)
+        known.insert(item.index);
+    const Subgraph part = subgraph_of(coefficients_of(linear.entries));
+    const std::vector<bool> moves = nodes_with(part, variables, states);
+    std::size_t cost = directions * linear.cost();
+    for (std::size_t position = 0; position < part.items.size(); ++position) {
+        const Subgraph::Item& item = part.items[position];
+        const Operation operation = part.node(item).operation;
+        if (moves[position] && arity(operation) > 0 && !known.contains(item.index))
+            cost += cost_of(operation, moves[item.left], arity(operation) == 2 && moves[item.right]);
+    }
+    return cost;
 }
 
 } // namespace
@@ -203,16 +237,20 @@ std::size_t Linearisation::cost() const {
     return varying * varying_cost + (entries.size() - varying) * constant_cost + intermediates * intermediate_cost;
 }
 
-Linearisation linearise(std::span<const Expression> functions, const SymbolIndex& variables, std::size_t states) {
+Linearisation linearise(std::span<const Expression> functions, const SymbolIndex& variables, std::size_t states,
+                        std::size_t directions) {
     if (states > variables.size())
         throw std::invalid_argument("there are more states than variables");
+    constexpr std::size_t most_directions = 1000000;
+    if (directions == 0 || directions > most_directions)
+        throw std::invalid_argument("the number of directions is not between 1 and a million");
     Linearisation result{variables.size(), functions.size(), 0, {}};
     const Subgraph part = subgraph_of(functions);
     if (!part.graph)
         return result;
     if (!variables.are_of(part.graph))
         throw std::invalid_argument("a variable belongs to another graph than the functions");
-    LinearGraph graph(part, nodes_with(part, variables, states));
+    LinearGraph graph(part, nodes_with(part, variables, states), directions);
     graph.reduce();
     const bool may_be_too_many = graph.drop_useless();
     result = with_intermediates(part, variables, states, graph.remaining());
@@ -220,7 +258,10 @@ Linearisation linearise(std::span<const Expression> functions, const SymbolIndex
         return result;
     // Derivatives that cancel are not foreseen, and leave fewer products where nothing is between them.
     Linearisation plain = with_intermediates(part, variables, states, {});
-    return cost_in_states(plain, states) <= cost_in_states(result, states) ? plain : result;
+    const auto cost = [&](const Linearisation& one) {
+        return cost_in_states(one, part, variables, states, directions);
+    };
+    return cost(plain) <= cost(result) ? plain : result;
 }
 
 } // namespace graze

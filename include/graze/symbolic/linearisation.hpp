@@ -34,13 +34,16 @@ struct Linearisation {
 };
 
 /// Derivatives of functions with respect to variables, in terms of variables. Quantities that many states enter, and
-/// that enter many functions, become intermediates where that makes the cost of a direction in states less: n functions
-/// of a mean of n states take 2n products then, not n^2. Elsewhere entries are those of the sparse Jacobian. Time and
-/// room go by the size of the functions where few of their parts are shared.
+/// that enter many functions, become intermediates where directions in states then cost less, coefficients counted in:
+/// n functions of a mean of n states take 2n products then, not n^2. Elsewhere entries are those of the sparse
+/// Jacobian. Time and room go by the size of the functions where few of their parts are shared.
 /// @param functions rates of states, say
 /// @param variables states, then parameters
 /// @param states    number of states among them. Parameters decide nothing about intermediates
-/// @throws std::invalid_argument for functions of several graphs, a variable of another, or more states than variables
-Linearisation linearise(std::span<const Expression> functions, const SymbolIndex& variables, std::size_t states);
+/// @param directions that share coefficients, which take products of series to be formed, fewer with intermediates
+/// @throws std::invalid_argument for functions of several graphs, a variable of another, more states than variables, or
+///         no directions, or more than a million
+Linearisation linearise(std::span<const Expression> functions, const SymbolIndex& variables, std::size_t states,
+                        std::size_t directions = 8);
 
 } // namespace graze
