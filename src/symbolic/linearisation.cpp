@@ -1,11 +1,10 @@
 #include "graze/symbolic/linearisation.hpp"
 
 #include "symbolic/linear_graph.hpp"
-#include "symbolic/slope.hpp"
+#include "symbolic/linear_rows.hpp"
 #include "symbolic/subgraph.hpp"
 
 #include <algorithm>
-#include <queue>
 #include <stdexcept>
 #include <unordered_set>
 #include <utility>
@@ -13,123 +12,6 @@
 namespace graze {
 
 namespace {
-
-/// Which nodes of a subgraph have one of the first variables in them.
-std::vector<bool> nodes_with(const Subgraph& part, const SymbolIndex& variables, std::size_t first) {
-    std::vector<bool> found(part.items.size());
-    for (std::size_t position = 0; position < found.size(); ++position) {
-        const Subgraph::Item& item = part.items[position];
-        const Operation operation = part.node(item).operation;
-        if (operation == Operation::symbol) {
-            const auto place = variables.find(item.index);
-            found[position] = place && *place < first;
-        } else {
-            const int operands = arity(operation);
-            found[position] = (operands >= 1 && found[item.left]) || (operands == 2 && found[item.right]);
-        }
-    }
-    return found;
-}
-
-/// Finds the derivatives of nodes of a subgraph by sources: variables, and other nodes that are intermediates. It goes
-/// from the node down to the sources, so that a row takes the time of its size, however many sources it has, and so
-/// that its coefficients share what they have in common.
-class RowBuilder {
-public:
-    RowBuilder(const Subgraph& part, const SymbolIndex& variables, std::span<const std::uint32_t> intermediates)
-        : part_(part), reaches_(nodes_with(part, variables, variables.size())), sources_(part.items.size(), none),
-          weights_(part.items.size()) {
-        for (std::size_t position = 0; position < sources_.size(); ++position)
-            if (part.node(part.items[position]).operation == Operation::symbol)
-                if (const auto place = variables.find(part.items[position].index))
-                    sources_[position] = *place;
-        for (std::size_t i = 0; i < intermediates.size(); ++i)
-            sources_[intermediates[i]] = variables.size() + i;
-    }
-
-    /// @param own whether it is the row of an intermediate, at that position, rather than of a function
-    void append(std::vector<LinearEntry>& entries, std::size_t row, std::uint32_t position, bool own) {
-        const auto before = static_cast<std::ptrdiff_t>(entries.size());
-        std::priority_queue<std::uint32_t> pending; // nodes before their operands
-        pending_ = &pending;
-        add(position, part_.graph->number(1));
-        while (!pending.empty()) {
-            const std::uint32_t next = pending.top();
-            pending.pop();
-            const Expression weight = std::exchange(weights_[next], {});
-            if (weight.is_number(0))
-                continue;
-            if (sources_[next] == none || (own && next == position))
-                pass_on(next, weight);
-            else
-                entries.push_back({row, sources_[next], weight});
-        }
-        std::sort(entries.begin() + before, entries.end(),
-                  [](const LinearEntry& one, const LinearEntry& other) { return one.source < other.source; });
-    }
-
-private:
-    static constexpr std::size_t none = static_cast<std::size_t>(-1);
-
-    void add(std::uint32_t position, const Expression& weight) {
-        if (!reaches_[position])
-            return;
-        Expression& sum = weights_[position];
-        if (sum.empty())
-            pending_->push(position);
-        sum = sum.empty() ? weight : sum + weight;
-    }
-
-    /// Products are formed as in derivatives of transform.hpp: whatever these are finite for, the weights are, too.
-    void pass_on(std::uint32_t position, const Expression& weight) {
-        const Subgraph::Item& item = part_.items[position];
-        const Operation operation = part_.node(item).operation;
-        const Expression value = part_.expression(item), left = part_.expression(part_.items[item.left]);
-        if (arity(operation) == 1) {
-            add(item.left, slope_of(operation, value, left) * weight);
-            return;
-        }
-        const Expression right = part_.expression(part_.items[item.right]);
-        if (reaches_[item.left]) // what is not needed is not formed
-            add(item.left, to_left(operation, left, right, weight));
-        if (reaches_[item.right])
-            add(item.right, to_right(operation, value, left, right, weight));
-    }
-    static Expression to_left(Operation operation, const Expression& left, const Expression& right,
-                              const Expression& weight) {
-        switch (operation) {
-        case Operation::multiply:
-            return weight * right;
-        case Operation::divide:
-            return weight / right;
-        case Operation::power:
-            return right * pow(left, right - 1) * weight;
-        default:
-            return weight;
-        }
-    }
-    static Expression to_right(Operation operation, const Expression& value, const Expression& left,
-                               const Expression& right, const Expression& weight) {
-        switch (operation) {
-        case Operation::subtract:
-            return -weight;
-        case Operation::multiply:
-            return left * weight;
-        case Operation::divide:
-            return -(value * weight) / right;
-        case Operation::power:
-            return value * log(left) * weight;
-        default:
-            return weight;
-        }
-    }
-
-    const Subgraph& part_;
-    std::vector<bool> reaches_; ///< any variable
-    std::vector<std::size_t> sources_;
-    std::vector<Expression> weights_; ///< derivatives of the row by nodes
-    std::priority_queue<std::uint32_t>* pending_ = nullptr;
-};
 
 /// Takes out intermediates that nothing is made of, or that do not change, as where derivatives have cancelled.
 void remove_idle(Linearisation& result) {
@@ -177,19 +59,6 @@ void mark_varying(std::vector<LinearEntry>& entries, const SymbolIndex& variable
         entries[i].varies = moves[part.roots[i]];
 }
 
-Linearisation with_intermediates(const Subgraph& part, const SymbolIndex& variables, std::size_t states,
-                                 std::span<const std::uint32_t> intermediates) {
-    Linearisation result{variables.size(), part.roots.size(), intermediates.size(), {}};
-    RowBuilder rows(part, variables, intermediates);
-    for (std::size_t i = 0; i < intermediates.size(); ++i)
-        rows.append(result.entries, i, intermediates[i], true);
-    for (std::size_t root = 0; root < part.roots.size(); ++root)
-        rows.append(result.entries, intermediates.size() + root, part.roots[root], false);
-    remove_idle(result);
-    mark_varying(result.entries, variables, states);
-    return result;
-}
-
 /// Of an operation on series, given which of its operands move.
 std::size_t cost_of(Operation operation, bool left_moves, bool right_moves) {
     switch (operation) {
@@ -226,6 +95,40 @@ std::size_t cost_in_states(Linearisation linear, const Subgraph& functions, cons
     return cost;
 }
 
+/// Finds rows, and judges what they cost.
+class Lineariser {
+public:
+    Lineariser(const Subgraph& part, const SymbolIndex& variables, std::size_t states, std::size_t directions)
+        : part_(part), variables_(variables), states_(states), directions_(directions) {}
+
+    /// Rows are found from the sources up and from the functions down, and the cheaper ones taken. The first are those
+    /// of the sparse Jacobian where there are no intermediates, but take the time of rows times their sources.
+    Linearisation with(std::span<const std::uint32_t> intermediates) const {
+        LinearRows rows(part_, variables_, intermediates);
+        Linearisation down = of_entries(rows.from_functions(), intermediates.size());
+        constexpr std::size_t enough = 1000000, each = 32;
+        if (rows.work_from_sources() > enough + each * part_.items.size())
+            return down;
+        Linearisation up = of_entries(rows.from_sources(), intermediates.size());
+        return cost(up) <= cost(down) ? up : down;
+    }
+    std::size_t cost(const Linearisation& one) const {
+        return cost_in_states(one, part_, variables_, states_, directions_);
+    }
+
+private:
+    Linearisation of_entries(std::vector<LinearEntry> entries, std::size_t intermediates) const {
+        Linearisation result{variables_.size(), part_.roots.size(), intermediates, std::move(entries)};
+        remove_idle(result);
+        mark_varying(result.entries, variables_, states_);
+        return result;
+    }
+
+    const Subgraph& part_;
+    const SymbolIndex& variables_;
+    std::size_t states_, directions_;
+};
+
 } // namespace
 
 std::size_t Linearisation::varying_entries() const {
@@ -253,15 +156,13 @@ Linearisation linearise(std::span<const Expression> functions, const SymbolIndex
     LinearGraph graph(part, nodes_with(part, variables, states), directions);
     graph.reduce();
     const bool may_be_too_many = graph.drop_useless();
-    result = with_intermediates(part, variables, states, graph.remaining());
+    const Lineariser lineariser(part, variables, states, directions);
+    result = lineariser.with(graph.remaining());
     if (result.intermediates == 0 || !may_be_too_many)
         return result;
     // Derivatives that cancel are not foreseen, and leave fewer products where nothing is between them.
-    Linearisation plain = with_intermediates(part, variables, states, {});
-    const auto cost = [&](const Linearisation& one) {
-        return cost_in_states(one, part, variables, states, directions);
-    };
-    return cost(plain) <= cost(result) ? plain : result;
+    Linearisation plain = lineariser.with({});
+    return lineariser.cost(plain) <= lineariser.cost(result) ? plain : result;
 }
 
 } // namespace graze
