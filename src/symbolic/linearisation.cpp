@@ -106,7 +106,7 @@ public:
     Linearisation with(std::span<const std::uint32_t> intermediates) const {
         LinearRows rows(part_, variables_, intermediates);
         Linearisation down = of_entries(rows.from_functions(), intermediates.size());
-        constexpr std::size_t enough = 1000000, each = 32;
+        constexpr std::size_t enough = 200000, each = 32;
         if (rows.work_from_sources() > enough + each * part_.items.size())
             return down;
         Linearisation up = of_entries(rows.from_sources(), intermediates.size());
