@@ -1,4 +1,4 @@
-#include "graze/flow/couplings.hpp"
+#include "flow/couplings.hpp"
 
 #include "graze/symbolic/require.hpp"
 #include "tape/tape_analysis.hpp"
@@ -120,12 +120,6 @@ private:
     std::size_t seen_ = 0;
 };
 
-/// What one state does to another.
-struct Pull {
-    std::size_t to, from; ///< in sizes
-    double gain;
-};
-
 /// Raises the sizes of one state by those of another; whether any grew by much.
 template <std::size_t lanes>
 bool raise(double* to, const double* from, double gain) {
@@ -139,29 +133,6 @@ bool raise(double* to, const double* from, double gain) {
     return grown != 0;
 }
 
-/// The same for all pulls, one after the other.
-template <std::size_t lanes>
-bool sweep(std::span<const Pull> pulls, double* sizes) {
-    bool grown = false;
-    for (const Pull& pull : pulls)
-        grown = raise<lanes>(sizes + pull.to, sizes + pull.from, pull.gain) || grown;
-    return grown;
-}
-
-bool sweep(std::span<const Pull> pulls, double* sizes, std::size_t lanes) {
-    if (lanes == 1)
-        return sweep<1>(pulls, sizes);
-    if (lanes == 2)
-        return sweep<2>(pulls, sizes);
-    if (lanes == 8)
-        return sweep<8>(pulls, sizes);
-    bool grown = false;
-    for (const Pull& pull : pulls)
-        for (std::size_t l = 0; l < lanes; ++l)
-            grown = raise<1>(sizes + pull.to + l, sizes + pull.from + l, pull.gain) || grown;
-    return grown;
-}
-
 } // namespace
 
 Couplings::Couplings(const System& system, std::size_t mode)
@@ -169,6 +140,7 @@ Couplings::Couplings(const System& system, std::size_t mode)
       jet_(make_jet(system.linear(mode).tape, 1, LaneKind::single)), units_(states_), row_(states_),
       intermediates_(equations_.intermediates) {
     find_entries(system.mode(mode).tape);
+    find_ways();
 }
 
 void Couplings::find_entries(const Tape& tape) {
@@ -364,33 +336,48 @@ double Couplings::largest_row() const {
     return most;
 }
 
-void Couplings::spread(double time, std::span<double> sizes, std::size_t width, std::size_t lanes,
-                       Through through) const {
+/// States are mostly counted along what they are the states of: in turn up and down. What has been passed is raised at
+/// once, so that a chain is gone along in one sweep, however position and speed take turns in it.
+void Couplings::find_ways() {
+    for (const bool up : {true, false}) {
+        std::vector<Pull>& way = ways_[up ? 0 : 1];
+        way.reserve(2 * entries_.size());
+        const auto pull = [&](std::size_t e) {
+            if (entries_[e].row != entries_[e].column)
+                way.push_back({entries_[e].row, entries_[e].column, e});
+        };
+        for (std::size_t n = 0; n < states_; ++n) {
+            const std::size_t i = up ? n : states_ - 1 - n;
+            for (std::size_t e = row_starts_[i]; e < row_starts_[i + 1]; ++e)
+                pull(e);
+            for (const std::size_t e : columns_[i])
+                if (up ? entries_[e].row < i : entries_[e].row > i)
+                    pull(e);
+        }
+    }
+}
+
+void Couplings::spread(double time, std::span<double> sizes, std::size_t width, Through through) const {
     require_size(sizes.size(), states_ * width, "sizes of states");
-    require_index(lanes, width + 1, "number of lanes");
-    // States are mostly counted along what they are the states of: in turn up and down. What has been passed is raised
-    // at once, so that a chain is gone along in one sweep, however position and speed take turns in it.
-    std::vector<Pull> ways[2];
+    const auto sweep = [&]<std::size_t lanes>(const std::vector<Pull>& way) {
+        bool grown = false;
+        for (const Pull& pull : way) {
+            const Entry& entry = entries_[pull.entry];
+            if (through == Through::constant && !entry.constant)
+                continue;
+            double* const to = &sizes[pull.to * width];
+            const double* const from = &sizes[pull.from * width];
+            for (std::size_t l = 0; l < width; l += lanes)
+                grown = raise<lanes>(to + l, from + l, time * entry.strength) || grown;
+        }
+        return grown;
+    };
     bool grown = true;
     for (std::size_t count = 0; count <= states_ && grown; ++count) {
-        const bool up = count % 2 == 0;
-        std::vector<Pull>& way = ways[up ? 0 : 1];
-        if (count < 2) {
-            way.reserve(2 * entries_.size());
-            const auto pull = [&](const Entry& entry) {
-                if (entry.strength > 0 && entry.row != entry.column && (through == Through::all || entry.constant))
-                    way.push_back({entry.row * width, entry.column * width, time * entry.strength});
-            };
-            for (std::size_t n = 0; n < states_; ++n) {
-                const std::size_t i = up ? n : states_ - 1 - n;
-                for (std::size_t e = row_starts_[i]; e < row_starts_[i + 1]; ++e)
-                    pull(entries_[e]);
-                for (const std::size_t e : columns_[i])
-                    if (up ? entries_[e].row < i : entries_[e].row > i)
-                        pull(entries_[e]);
-            }
-        }
-        grown = sweep(way, sizes.data(), lanes);
+        const std::vector<Pull>& way = ways_[count % 2];
+        grown = width % 8 == 0 ? sweep.operator()<8>(way)
+                : width % 4 == 0 ? sweep.operator()<4>(way)
+                : width % 2 == 0 ? sweep.operator()<2>(way) : sweep.operator()<1>(way);
     }
 }
 

@@ -1,5 +1,6 @@
 #include "graze/flow/late_states.hpp"
 
+#include "flow/couplings.hpp"
 #include "graze/flow/step_check.hpp"
 #include "graze/symbolic/require.hpp"
 
@@ -20,6 +21,10 @@ constexpr double worth_beginning = 1.5, worth_going_on = 1.2;
 constexpr double growth = 2;
 
 } // namespace
+
+LateStates::LateStates(const System& system) : system_(system) {}
+LateStates::~LateStates() = default;
+LateStates::LateStates(LateStates&&) noexcept = default;
 
 void LateStates::set_parameters(std::span<const double> parameters) {
     require_size(parameters.size(), system_.parameters(), "independent parameters");
@@ -72,7 +77,7 @@ double LateStates::with_floors(const StepSize& step_size, std::size_t mode, std:
         sizes_[i] = step_size.size_of(series[i], previous);
     floors_.assign(series.size(), 0.0);
     std::copy(sizes_.begin(), sizes_.end(), floors_.begin());
-    couplings.spread(time, std::span(floors_).first(states), 1, 1, Couplings::Through::constant);
+    couplings.spread(time, std::span(floors_).first(states), 1, Couplings::Through::constant);
     raised_.clear();
     others_.clear();
     raised_floors_.clear();

@@ -1,10 +1,12 @@
 #include "graze/flow/tangent_steps.hpp"
 
+#include "flow/couplings.hpp"
 #include "flow/tangent_reach.hpp"
 #include "graze/symbolic/require.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace graze {
@@ -15,7 +17,8 @@ std::size_t TangentSteps::together(std::size_t directions) {
 
 TangentSteps::TangentSteps(const System& system, double tolerance, std::size_t directions)
     : system_(system), states_(system.states()), directions_(directions), tolerance_(allowance * tolerance),
-      moving_(system.parameters(), 0), lanes_(system.model().modes.size()), state_(states_), couplings_(system) {}
+      moving_(system.parameters(), 0), lanes_(system.model().modes.size()), state_(states_),
+      couplings_(std::make_unique<ModeCouplings>(system)) {}
 
 TangentSteps::~TangentSteps() = default;
 TangentSteps::TangentSteps(TangentSteps&&) noexcept = default;
@@ -25,7 +28,7 @@ void TangentSteps::set_parameters(std::span<const double> parameters, std::span<
     require_size(seeds.size(), parameters.size() * directions_, "directions of parameters");
     parameters_.assign(parameters.begin(), parameters.end());
     parameter_seeds_.assign(seeds.begin(), seeds.end());
-    couplings_.set_parameters(parameters_);
+    couplings_->set_parameters(parameters_);
     std::vector<char> moving(parameters.size(), 0);
     groups_ = {LinearMode::by_states};
     for (std::size_t j = 0; j < parameters.size(); ++j) {
@@ -86,7 +89,7 @@ void TangentSteps::load(std::size_t first) {
 /// Measured where the step begins, once it is asked for.
 const Couplings& TangentSteps::couplings_here() {
     if (measured_ == nullptr)
-        measured_ = &couplings_.measured(mode_, place_);
+        measured_ = &couplings_->measured(mode_, place_);
     return *measured_;
 }
 
@@ -105,7 +108,7 @@ std::span<const double> TangentSteps::floors(double length) {
                 size = size * time + std::abs(c[k * width]);
             floors_[i * width + l] = size;
         }
-    couplings.spread(time, floors_, width, std::min(width, directions_ - first_));
+    couplings.spread(time, floors_, width);
     return floors_;
 }
 
@@ -129,16 +132,25 @@ std::span<const double> TangentSteps::noise() {
     return noise_;
 }
 
+/// What follows the motion begins at the end of a step, where `state_` is.
+void TangentSteps::begin_end(Jet& next, double step) {
+    next.begin(state_);
+    next.begin_followers(groups_);
+    at_ = step;
+}
+
 /// Follows the directions that are loaded for a step or a part of it.
 /// @return how far; what is there is in `sums_`, the motion itself in `state_`
 double TangentSteps::follow(Jet& next, double length) {
     Lanes& lanes = lanes_of_mode();
-    const TangentFloors least = [&] { return floors(length); };
+    std::span<const double> known;
+    const TangentFloors least = [&] { return known.empty() ? known = floors(length) : known; };
     const double reach = tangent_reach(*lanes.here, tolerance_, std::abs(length), least);
     const auto look = [&](double step) {
-        jet_->evaluate_states({&step, 1}, state_);
-        next.begin(state_);
-        next.begin_followers(groups_);
+        if (at_ != step) {
+            jet_->evaluate_states({&step, 1}, state_);
+            begin_end(next, step);
+        }
         lanes.here->evaluate(step, sums_, slopes_);
         lanes.there->load(sums_, *lanes.here);
         lanes.there->begin(next);
@@ -148,11 +160,17 @@ double TangentSteps::follow(Jet& next, double length) {
     return follow_tangents(places, tolerance_, std::copysign(reach, length), least, [this] { return noise(); });
 }
 
-double TangentSteps::carry(Jet& next, double length, std::span<double> after) {
+double TangentSteps::carry(Jet& next, double length, std::span<double> after, std::span<const double> end) {
     constexpr std::size_t most_rounds = 100;
     if (jet_ == nullptr)
         throw std::logic_error("derivatives are carried along a step that has begun");
     require_size(after.size(), states_ * directions_, "derivatives");
+    at_ = std::numeric_limits<double>::quiet_NaN();
+    if (!end.empty()) {
+        require_size(end.size(), states_, "states");
+        std::copy(end.begin(), end.end(), state_.begin());
+        begin_end(next, length);
+    }
     const std::size_t width = lanes_of_mode().here->width(), goes = (directions_ + width - 1) / width;
     // Where some directions do not come as far as those before them, these are asked again.
     std::size_t there = 0; // goes in a row that have come so far

@@ -28,6 +28,7 @@ public:
             part = Numbers<V>::of(0);
     }
     GRAZE_INLINE void add(double a, V w) { add_to<0>(a, w); }
+    GRAZE_INLINE void add_beside(double a, V w) { add_to<1>(a, w); }
     /// Terms j = 0 .. k of a_j w_{k-j}.
     template <int k>
     GRAZE_INLINE void add_all(const double* a, const double* w) {
@@ -36,6 +37,8 @@ public:
         }
         (std::make_integer_sequence<int, k + 1>{});
     }
+    /// Of products of single coefficients alone.
+    GRAZE_INLINE V total_of_few() const { return parts_[0] + parts_[1]; }
     GRAZE_INLINE V total() const { return (parts_[0] + parts_[1]) + (parts_[2] + parts_[3]); }
 
 private:
@@ -51,6 +54,7 @@ template <>
 class TangentSum<double> {
 public:
     GRAZE_INLINE void add(double a, double w) { sums_[0] = multiply_add(a, w, sums_[0]); }
+    GRAZE_INLINE void add_beside(double a, double w) { sums_[1] = multiply_add(a, w, sums_[1]); }
     template <int k>
     GRAZE_INLINE void add_all(const double* a, const double* w) {
 #if defined(__FMA__)
@@ -67,6 +71,7 @@ public:
         }
         (std::make_integer_sequence<int, k + 1 - 4 * blocks>{});
     }
+    GRAZE_INLINE double total_of_few() const { return sums_[0] + sums_[1]; }
     GRAZE_INLINE double total() const {
 #if defined(__FMA__)
         const __m128d halves = _mm256_castpd256_pd128(four_) + _mm256_extractf128_pd(four_, 1);
@@ -96,19 +101,31 @@ void tangent_order(const TangentOperands& o, const double* jet) {
     for (const TangentRow* row = o.rows; row != end; ++row) {
         TangentSum<V> sum;
         const TangentTerm* term = row->fixed;
-        for (; term != row->few; ++term)
+        for (; row->few - term >= 2; term += 2) {
+            sum.add(jet[term[0].series], at<V>(o.numbers + term[0].source, k));
+            sum.add_beside(jet[term[1].series], at<V>(o.numbers + term[1].source, k));
+        }
+        if (term != row->few) {
             sum.add(jet[term->series], at<V>(o.numbers + term->source, k));
+            ++term;
+        }
         for (; term != row->many; ++term) {
             const int last = term->degree < k ? term->degree : k;
             for (int j = k > term->source_degree ? k - term->source_degree : 0; j <= last; ++j)
                 sum.add(jet[term->series + j], at<V>(o.numbers + term->source, k - j));
         }
-        for (; term != row->end; ++term)
-            sum.template add_all<k>(jet + term->series, o.numbers + term->source);
+        V change;
+        if (term == row->end) {
+            change = sum.total_of_few();
+        } else {
+            for (; term != row->end; ++term)
+                sum.template add_all<k>(jet + term->series, o.numbers + term->source);
+            change = sum.total();
+        }
         if (row->is_rate)
-            put(o.numbers + row->result, k + 1, sum.total() * inverse.of[k + 1]);
+            put(o.numbers + row->result, k + 1, change * inverse.of[k + 1]);
         else
-            put(o.numbers + row->result, k, sum.total());
+            put(o.numbers + row->result, k, change);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace graze {
 
@@ -111,6 +112,12 @@ void TangentSeries::find_rows(const Tape& tape, const TangentEquations& equation
                          many + kinds[2].size()});
     }
     require_size(static_cast<std::size_t>(equations.entries.end() - entry), 0, "entries behind the last row");
+    // Rates do not wait for one another. Those that are alike come together, so that branches are foreseen.
+    const auto shape = [](const TangentRow& row) {
+        return std::tuple(row.end - row.many, row.many - row.few, row.few - row.fixed);
+    };
+    std::stable_sort(rows_.begin() + static_cast<std::ptrdiff_t>(intermediates_), rows_.end(),
+                     [&](const TangentRow& a, const TangentRow& b) { return shape(a) > shape(b); });
 }
 
 void TangentSeries::load(std::span<const double> matrix, std::span<const double> seeds, std::size_t directions,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "graze/flow/couplings.hpp"
 #include "graze/flow/mode_jets.hpp"
 
 #include <cstddef>
@@ -11,13 +10,15 @@
 
 namespace graze {
 
+class Couplings;
+class ModeCouplings;
 class TangentSeries;
 
 /// Carries derivatives of a flow in several directions along its steps. The flow's own series are computed once a step;
 /// directions are convolved with them side by side, as many at once as registers hold, or one alone.
 ///
 /// The error of a direction's component is measured against the component's size, or, where that is less, against what
-/// the direction's other components make of it within the response time of the flow (see Couplings): errors that these
+/// the direction's other components make of it within the response time of the flow (see docs/method.md): errors that these
 /// are allowed come to as much there. A component that has only begun to differ from zero, such as the motion of the
 /// far end of a chain of oscillators, therefore needs no shorter steps than the others.
 ///
@@ -46,9 +47,9 @@ public:
     void begin(Jet& jet, std::size_t mode, std::span<const double> state, std::span<const double> matrix);
     /// Carries all directions along the step, or along a part of it, as far as all may be carried at once.
     /// @param next another jet of the mode, which is begun at the end; @param length of the step, which may be negative
-    /// @param after the matrix at the end
+    /// @param after the matrix at the end; @param end the state at the end of the whole step, if it is known
     /// @return how far
-    double carry(Jet& next, double length, std::span<double> after);
+    double carry(Jet& next, double length, std::span<double> after, std::span<const double> end = {});
     /// Where `carry` has led to.
     std::span<const double> state() const { return state_; }
 
@@ -63,8 +64,9 @@ private:
     };
     Lanes& lanes_of_mode();
     void load(std::size_t first);
+    void begin_end(Jet& next, double step);
     double follow(Jet& next, double length);
-    std::span<const double> floors(double length);
+    std::span<const double> floors(double time);
     std::span<const double> noise();
     const Couplings& couplings_here();
     double seed(std::size_t source, std::size_t direction) const;
@@ -81,8 +83,9 @@ private:
     std::size_t mode_ = 0, first_ = 0;
     bool loaded_ = false; ///< the directions from `first_` on have been computed
     std::span<const double> place_, matrix_;
+    double at_ = 0; ///< where `state_` is along it
     std::vector<double> state_, sums_, slopes_;
-    ModeCouplings couplings_;
+    std::unique_ptr<ModeCouplings> couplings_;
     const Couplings* measured_ = nullptr; ///< what they are at its beginning, once it has been asked for
     std::vector<double> floors_, noise_;  ///< [state * width + direction]
 };

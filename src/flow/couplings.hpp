@@ -34,11 +34,10 @@ public:
 
     /// Raises sizes of states until no coupling, over a time, makes any larger: s_i >= time |J_ij| s_j for all i, j.
     /// @param time at most the response time
-    /// @param sizes [state * width + lane]; @param lanes the first ones, that matter
+    /// @param sizes [state * width + lane]
     /// @param through all couplings, or those alone that are the same at all places
     enum class Through { all, constant };
-    void spread(double time, std::span<double> sizes, std::size_t width, std::size_t lanes,
-                Through through = Through::all) const;
+    void spread(double time, std::span<double> sizes, std::size_t width, Through through = Through::all) const;
     /// Whether something acts on a state through a coupling that is the same at all places, and its rate is a
     /// polynomial of low degree in the states: nothing that is small may become large within a small part of a step.
     bool is_pushed_steadily(std::size_t state) const { return steady_[state]; }
@@ -51,6 +50,11 @@ private:
         bool constant = false; ///< of a state whose rate is a polynomial of low degree
     };
 
+    /// What one state does to another, by an entry.
+    struct Pull {
+        std::size_t to, from, entry;
+    };
+    void find_ways();
     void find_entries(const Tape& tape);
     void find_constants(const Tape& tape);
     void find_strengths();
@@ -66,6 +70,7 @@ private:
     std::vector<Entry> entries_;                    ///< row by row
     std::vector<std::size_t> row_starts_;           ///< in `entries_`
     std::vector<std::vector<std::size_t>> columns_; ///< entries of each
+    std::vector<Pull> ways_[2];                     ///< all pulls, in two sequences: up and down the states
     /// Entries between states that act on each other, sorted by one of the two: `starts` has where those of each begin.
     struct Sorted {
         std::vector<std::size_t> starts, entries, others;
