@@ -15,14 +15,16 @@ namespace {
 /// Share of a step that derivatives are content with before other sizes than their own are asked for.
 constexpr double little_shorter = 0.8;
 
-/// Excess of rates over what is allowed from which on floors are worth asking for: so much is what a step of that share
-/// would take away.
-double worth_floors(int order) {
-    double excess = 1;
-    for (int k = 0; k < order; ++k)
-        excess /= little_shorter;
-    return excess;
-}
+/// Excess of rates over what is allowed from which on floors are worth asking for, for each order: so much is what a
+/// step of that share would take away.
+struct FloorsWorth {
+    double of[highest_order + 1] = {1};
+    constexpr FloorsWorth() {
+        for (int k = 1; k <= highest_order; ++k)
+            of[k] = of[k - 1] / little_shorter;
+    }
+};
+constexpr FloorsWorth floors_worth;
 
 /// Size of a series whose first three terms are zero.
 double size_of_all(const double* c, std::size_t width, std::size_t order, double step) {
@@ -149,7 +151,7 @@ double follow_tangents(const TangentPlaces& places, double tolerance, double ste
                        const TangentFloors& noise) {
     constexpr int most_halvings = TangentCheck::most_halvings;
     Misfit misfit(places, tolerance);
-    const double much = worth_floors(places.here.order());
+    const double much = floors_worth.of[places.here.order()];
     const double most = misfit.after(step, much);
     if (most <= 1 || (most > much && misfit.above(floors(), step) <= 1))
         return step;
