@@ -119,43 +119,60 @@ std::span<const ProbeTracker::Found> ProbeTracker::search(const Step& step) {
     found_.clear();
     changes_.clear();
     if (!bounds_known_)
-        for (Phase& phase : phases_)
-            find_bounds(phase);
-    bounds_known_ = true;
+        find_bounds();
     for (const Phase& phase : phases_) {
-        const Reach reach = reach_of(phase, step);
-        const double now = *step.states[phase.state].first;
-        if (!(now - reach.down > phase.low && now + reach.up < phase.high))
-            search_phases(phase, reach, step);
+        const double* const series = step.states[phase.state].first;
+        const double now = series[0], end = now + series[step.states[phase.state].stride] * step.length;
+        if (!phase.is_line(step.mode) || !(std::min(now, end) > phase.low && std::max(now, end) < phase.high))
+            search_phases(phase, step);
     }
     for (const std::size_t probe : expressions_)
         search_expression(probe, step);
     arc_start_ = false;
-    if (found_.size() < 2)
-        return found_;
+    if (found_.size() > 1)
+        sort_found();
+    return found_;
+}
+
+void ProbeTracker::sort_found() {
     const auto is_before = [](const Found& a, const Found& b) {
         return a.at < b.at || (a.at == b.at && a.probe < b.probe);
     };
     if (!std::is_sorted(found_.begin(), found_.end(), is_before)) // sorting asks for memory
         std::stable_sort(found_.begin(), found_.end(), is_before);
-    return found_;
 }
 
-/// Values that are surely not near: those of each probe decide what is.
-void ProbeTracker::find_bounds(Phase& phase) {
+/// Where no value is near for sure, with more to spare than round-off and slack can take. Nearer, those of each probe
+/// decide.
+void ProbeTracker::find_bounds() {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    phase.low = -infinity;
-    phase.high = infinity;
-    for (const std::size_t probe : phase.probes) {
-        const Tracked& tracked = tracked_[probe];
-        const double margin = 4 * roundoff * (std::abs(tracked.lower) + std::abs(tracked.upper));
-        phase.low = std::max(phase.low, tracked.on_section ? infinity : tracked.lower + margin);
-        phase.high = std::min(phase.high, tracked.upper - margin);
+    for (Phase& phase : phases_) {
+        phase.low = -infinity;
+        phase.high = infinity;
+        for (const std::size_t probe : phase.probes) {
+            const Tracked& tracked = tracked_[probe];
+            const double margin = 4 * roundoff * (std::abs(tracked.lower) + std::abs(tracked.upper));
+            phase.low = std::max(phase.low, tracked.on_section ? infinity : tracked.lower + margin);
+            phase.high = std::min(phase.high, tracked.upper - margin);
+        }
     }
+    bounds_known_ = true;
 }
 
-void ProbeTracker::search_phases(const Phase& phase, const Reach& reach, const Step& step) {
-    const std::span<const double> c = series_of(phase, step);
+ProbeTracker::Reach ProbeTracker::reach_of_line(double change) {
+    const double most = std::abs(change) * (1 + roundoff);
+    return {change < 0 ? 0 : most, change > 0 ? 0 : most, most};
+}
+
+ProbeTracker::Reach ProbeTracker::reach_of_series(std::span<const double> c, double length) {
+    const double most = size_beyond_start(c, length) * (1 + roundoff);
+    return {most, most, most};
+}
+
+void ProbeTracker::search_phases(const Phase& phase, const Step& step) {
+    const std::span<const double> c = without_gaps(step.states[phase.state], phase.sizes[step.mode]);
+    const Reach reach = phase.is_line(step.mode) ? reach_of_line(step.states[phase.state][1] * step.length)
+                                                 : reach_of_series(c, step.length);
     for (const std::size_t probe : phase.probes)
         if (tracked_[probe].on_section || tracked_[probe].is_near(c[0], reach))
             search_phase(probe, step, c, reach);
@@ -261,27 +278,10 @@ double ProbeTracker::place(std::size_t probe, const Step& step) {
     return lone ? lone->place(c, step.length) : unplaced;
 }
 
-/// Coefficients of one lane, side by side; valid until the next ones are asked for.
-std::span<const double> ProbeTracker::without_gaps(const Series& series, std::size_t size) {
-    if (series.stride == 1)
-        return {series.first, size};
+std::span<const double> ProbeTracker::gather(const Series& series, std::size_t size) {
     for (std::size_t k = 0; k < size; ++k)
         gathered_[k] = series[k];
     return {gathered_.data(), size};
-}
-
-/// Without the coefficients that are zero: the rate of a phase may be constant.
-std::span<const double> ProbeTracker::series_of(const Phase& phase, const Step& step) {
-    return without_gaps(step.states[phase.state], phase.sizes[step.mode]);
-}
-
-ProbeTracker::Reach ProbeTracker::reach_of(const Phase& phase, const Step& step) {
-    if (phase.sizes[step.mode] > 2) {
-        const double most = size_beyond_start(series_of(phase, step), step.length) * (1 + roundoff);
-        return {most, most, most};
-    }
-    const double rate = step.states[phase.state][1], most = std::abs(rate) * step.length * (1 + roundoff);
-    return {rate < 0 ? 0 : most, rate > 0 ? 0 : most, most};
 }
 
 void ProbeTracker::search_phase(std::size_t index, const Step& step, std::span<const double> c, const Reach& reach) {

@@ -45,6 +45,8 @@ private:
     struct Reach {
         double up = 0, down = 0, most = 0;
     };
+    static Reach reach_of_line(double change);
+    static Reach reach_of_series(std::span<const double> c, double length);
     struct Tracked {
         int side = 0;
         double lower = 0, upper = 0;             ///< next values of a phase, below and above
@@ -78,12 +80,14 @@ private:
     /// A cyclic state, with all that wait for its values.
     struct Phase {
         std::size_t state;
-        std::vector<std::size_t> sizes;  ///< of its series in each mode: coefficients that may not be zero
+        std::vector<std::size_t> sizes;  ///< of its series in each mode: the rate may be constant
         std::vector<std::size_t> probes; ///< rising
         double low = 0, high = 0;        ///< none of them is near while it stays between
+        bool is_line(std::size_t mode) const { return sizes[mode] <= 2; }
     };
-    void find_bounds(Phase& phase);
-    void search_phases(const Phase& phase, const Reach& reach, const Step& step);
+    void find_bounds();
+    void sort_found();
+    void search_phases(const Phase& phase, const Step& step);
     void search_expression(std::size_t probe, const Step& step);
     void search_series(std::size_t probe, std::span<const double> c, double length, const roots::ClearSign& clear);
     void begin_on(int side, std::size_t probe);
@@ -91,10 +95,12 @@ private:
     void note_crossings(std::size_t probe, std::span<const double> c, double length, RootStart start);
     std::span<const double> rate_of(std::span<const double> c);
     double place(std::size_t probe, const Step& step);
-    Reach reach_of(const Phase& phase, const Step& step);
     void search_phase(std::size_t probe, const Step& step, std::span<const double> c, const Reach& reach);
-    std::span<const double> without_gaps(const Series& series, std::size_t size);
-    std::span<const double> series_of(const Phase& phase, const Step& step);
+    /// Coefficients of one lane, side by side; valid until the next ones are asked for.
+    std::span<const double> without_gaps(const Series& series, std::size_t size) {
+        return series.stride == 1 ? std::span<const double>(series.first, size) : gather(series, size);
+    }
+    std::span<const double> gather(const Series& series, std::size_t size);
     void note(std::size_t probe, double at, int direction, bool at_contact);
     void change(std::size_t probe, int direction);
     void leave_section(std::size_t probe, std::span<const double> c, double length);
