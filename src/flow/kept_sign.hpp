@@ -104,7 +104,7 @@ ClearSign clear_sign(std::span<const double> c, double length) {
         low = low * fourth + one;
         high = high * fourth + other;
     }
-    const double sign = c[first] > 0 ? 1 : -1;
+    const double sign = std::copysign(1.0, c[first]);
     double sum = sign * c[first], size = std::abs(sum), power = sign, least = sum;
 #pragma GCC unroll 1
     for (std::size_t k = first + 1; k < behind; ++k) {
@@ -117,7 +117,7 @@ ClearSign clear_sign(std::span<const double> c, double length) {
     const NumberPair both = low + high * square;
     const double rest = (both[0] + both[1] * length) * std::abs(power * length);
     size += rest;
-    const double margin = bernstein::unit_roundoff * (256 + 2 * static_cast<double>(c.size()));
+    const double margin = bernstein::unit_roundoff * static_cast<double>(256 + 2 * static_cast<int>(c.size()));
     // Compared so that what is no number is not clear.
     if (!(least - rest > margin * size && size < std::numeric_limits<double>::infinity()))
         return {0, size};

@@ -228,8 +228,7 @@ void ProbeTracker::begin_on(int side, std::size_t probe) {
 }
 
 /// @param clear what a glance has shown
-void ProbeTracker::search_series(std::size_t probe, std::span<const double> c, double length,
-                                 const roots::ClearSign& clear) {
+void ProbeTracker::search_series(std::size_t probe, std::span<const double> c, double length, roots::ClearSign clear) {
     if (clear.sign != 0)
         return begin_on(clear.sign, probe);
     const int now = c[0] > 0 ? 1 : -1;

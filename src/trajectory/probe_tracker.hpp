@@ -89,7 +89,7 @@ private:
     void sort_found();
     void search_phases(const Phase& phase, const Step& step);
     void search_expression(std::size_t probe, const Step& step);
-    void search_series(std::size_t probe, std::span<const double> c, double length, const roots::ClearSign& clear);
+    void search_series(std::size_t probe, std::span<const double> c, double length, roots::ClearSign clear);
     void begin_on(int side, std::size_t probe);
     void search_from_zero(std::size_t probe, std::span<const double> c, double length, double noise);
     void note_crossings(std::size_t probe, std::span<const double> c, double length, RootStart start);
