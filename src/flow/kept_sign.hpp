@@ -91,7 +91,6 @@ ClearSign clear_sign(std::span<const double> c, double length) {
         low_orders = NumberPair{size, size + 1};
         high_orders = NumberPair{size + 2, size + 3};
     }
-#pragma GCC unroll 1
     for (const double* some = c.data() + c.size(); some != c.data() + behind;) {
         some -= block;
         NumberPair one = absolute(load_pair(some)), other = absolute(load_pair(some + 2));
@@ -106,7 +105,6 @@ ClearSign clear_sign(std::span<const double> c, double length) {
     }
     const double sign = std::copysign(1.0, c[first]);
     double sum = sign * c[first], size = std::abs(sum), power = sign, least = sum;
-#pragma GCC unroll 1
     for (std::size_t k = first + 1; k < behind; ++k) {
         power *= length;
         const double term = (derivative ? static_cast<double>(k) * c[k] : c[k]) * power;
