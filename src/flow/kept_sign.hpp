@@ -77,13 +77,14 @@ struct ClearSign {
 };
 
 /// Of the polynomial, or of its derivative. Only the first terms, 3 to 6, count with their signs; of the others sizes
-/// are summed, four at a time.
+/// are summed, four at a time. It is kept short: what is run in every step shares the processor's cache of instructions
+/// with the kernels, which about fill it.
 template <bool derivative>
 ClearSign clear_sign(std::span<const double> c, double length) {
     constexpr std::size_t block = 4, least_signed = 3, first = derivative ? 1 : 0;
     if (c.size() < first + least_signed || !(length > 0))
         return {0, std::numeric_limits<double>::infinity()};
-    const std::size_t behind = first + least_signed + (c.size() - first - least_signed) % block;
+    const std::size_t behind = c.size() - (c.size() - first - least_signed) / block * block;
     const double square = length * length, fourth = square * square;
     NumberPair low{}, high{}, low_orders{}, high_orders{};
     if constexpr (derivative) {
@@ -91,7 +92,6 @@ ClearSign clear_sign(std::span<const double> c, double length) {
         low_orders = NumberPair{size, size + 1};
         high_orders = NumberPair{size + 2, size + 3};
     }
-#pragma GCC unroll 1
     for (const double* some = c.data() + c.size(); some != c.data() + behind;) {
         some -= block;
         NumberPair one = absolute(load_pair(some)), other = absolute(load_pair(some + 2));
@@ -106,7 +106,6 @@ ClearSign clear_sign(std::span<const double> c, double length) {
     }
     const double sign = std::copysign(1.0, c[first]);
     double sum = sign * c[first], size = std::abs(sum), power = sign, least = sum;
-#pragma GCC unroll 1
     for (std::size_t k = first + 1; k < behind; ++k) {
         power *= length;
         const double term = (derivative ? static_cast<double>(k) * c[k] : c[k]) * power;
