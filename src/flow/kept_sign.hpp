@@ -77,13 +77,14 @@ struct ClearSign {
 };
 
 /// Of the polynomial, or of its derivative. Only the first terms, 3 to 6, count with their signs; of the others sizes
-/// are summed, four at a time.
+/// are summed, four at a time. It is kept short: what is run in every step shares the processor's cache of instructions
+/// with the kernels, which about fill it.
 template <bool derivative>
 ClearSign clear_sign(std::span<const double> c, double length) {
     constexpr std::size_t block = 4, least_signed = 3, first = derivative ? 1 : 0;
     if (c.size() < first + least_signed || !(length > 0))
         return {0, std::numeric_limits<double>::infinity()};
-    const std::size_t behind = first + least_signed + (c.size() - first - least_signed) % block;
+    const std::size_t behind = c.size() - (c.size() - first - least_signed) / block * block;
     const double square = length * length, fourth = square * square;
     NumberPair low{}, high{}, low_orders{}, high_orders{};
     if constexpr (derivative) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstring>
 
 namespace graze {
@@ -16,7 +17,7 @@ inline NumberPair load_pair(const double* from) {
 inline NumberPair absolute(NumberPair pair) {
     typedef long long Bits __attribute__((vector_size(16)));
     constexpr long long all_but_sign = 0x7fffffffffffffff;
-    return (NumberPair)((Bits)pair & Bits{all_but_sign, all_but_sign});
+    return std::bit_cast<NumberPair>(std::bit_cast<Bits>(pair) & Bits{all_but_sign, all_but_sign});
 }
 
 } // namespace graze

@@ -2,6 +2,7 @@
 
 #include "flow/kept_sign.hpp"
 #include "flow/lone_crossing.hpp"
+#include "flow/number_pair.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "root_isolation.hpp"
 
@@ -253,8 +254,24 @@ double sum_in_parts(std::size_t size, double s, Coefficient c) {
 
 } // namespace
 
+/// The same sums, of which two are made side by side.
 double evaluate_polynomial(std::span<const double> c, double s) {
-    return sum_in_parts(c.size(), s, [c](std::size_t k) { return c[k]; });
+    const double square = s * s, step = square * square;
+    const std::size_t rest = c.size() % 4;
+    const double* at = c.data() + (c.size() - rest);
+    NumberPair low{}, high{};
+    if (rest == 1)
+        low = NumberPair{at[0], 0};
+    else if (rest > 1)
+        low = load_pair(at);
+    if (rest == 3)
+        high = NumberPair{at[2], 0};
+    while (at != c.data()) {
+        at -= 4;
+        low = low * step + load_pair(at);
+        high = high * step + load_pair(at + 2);
+    }
+    return (low[0] + low[1] * s) + (high[0] + high[1] * s) * square;
 }
 
 double evaluate_polynomial(const Series& c, std::size_t size, double s) {

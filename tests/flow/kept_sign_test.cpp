@@ -95,8 +95,9 @@ TEST(ClearSign, OfWhatIsNoNumberOrNoIntervalIsOpen) {
             c[1] = 1;
             c[at] = bad;
             EXPECT_EQ(roots::clear_sign<false>(c, 0.5).sign, 0) << at;
-            if (at > 0)
+            if (at > 0) {
                 EXPECT_EQ(roots::clear_sign<true>(c, 0.5).sign, 0) << at;
+            }
         }
     const std::vector<double> one{1, 1, 0, 0};
     EXPECT_EQ(roots::clear_sign<false>(one, 0).sign, 0);
