@@ -375,9 +375,10 @@ void Couplings::spread(double time, std::span<double> sizes, std::size_t width, 
     bool grown = true;
     for (std::size_t count = 0; count <= states_ && grown; ++count) {
         const std::vector<Pull>& way = ways_[count % 2];
-        grown = width % 8 == 0 ? sweep.operator()<8>(way)
+        grown = width % 8 == 0   ? sweep.operator()<8>(way)
                 : width % 4 == 0 ? sweep.operator()<4>(way)
-                : width % 2 == 0 ? sweep.operator()<2>(way) : sweep.operator()<1>(way);
+                : width % 2 == 0 ? sweep.operator()<2>(way)
+                                 : sweep.operator()<1>(way);
     }
 }
 

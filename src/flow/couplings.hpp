@@ -81,7 +81,7 @@ private:
     std::vector<bool> steady_;    ///< states
     std::vector<bool> vanishing_; ///< entries that were zero when cycles were found
     std::vector<double> units_;   ///< in which rows and columns are about as large
-    std::vector<double> row_; ///< of the Jacobian, one number for each state
+    std::vector<double> row_;     ///< of the Jacobian, one number for each state
     /// Derivatives of intermediate quantities by states.
     struct Part {
         std::size_t column;

@@ -25,6 +25,7 @@ constexpr double growth = 2;
 LateStates::LateStates(const System& system) : system_(system) {}
 LateStates::~LateStates() = default;
 LateStates::LateStates(LateStates&&) noexcept = default;
+LateStates& LateStates::operator=(LateStates&&) noexcept = default;
 
 void LateStates::set_parameters(std::span<const double> parameters) {
     require_size(parameters.size(), system_.parameters(), "independent parameters");

@@ -43,8 +43,10 @@ ModeFlow::ModeFlow(const System& system, double tolerance, int order, std::vecto
     : system_(system), free_(std::move(free)), starts_(starts_of(system, std::move(starts))), states_(system.states()),
       directions_(starts_.size() + free_.size()), step_size_(order_of(tolerance, order), tolerance),
       step_check_(system, order_of(tolerance, order), tolerance), late_states_(system),
-      jets_(system, order_of(tolerance, order), LaneKind::single), tangents_(system, tolerance, directions_),
-      allowance_{StepCheck::allowance * tolerance, StepCheck::value_allowance * tolerance, StepCheck::smallest_size} {
+      jets_(system, order_of(tolerance, order), LaneKind::single),
+      tangents_(system, tolerance, directions_), allowance_{StepCheck::allowance * tolerance,
+                                                            StepCheck::value_allowance * tolerance,
+                                                            StepCheck::smallest_size} {
     if (directions_ > 0)
         jets_.add_tangents();
     for (const ParameterId parameter : free_)

@@ -5,8 +5,7 @@
 namespace graze {
 
 ModeJets::ModeJets(const System& system, int order, LaneKind kind, InstructionSet set)
-    : system_(system), order_(order), kind_(kind), set_(set),
-      width_(lanes_of(kind, set)),
+    : system_(system), order_(order), kind_(kind), set_(set), width_(lanes_of(kind, set)),
       jets_(system.model().modes.size()), next_jets_(jets_.size()) {}
 
 Jet& ModeJets::make(Jets& jets, std::size_t mode) {

@@ -267,13 +267,12 @@ LinearMode SystemCompiler::linearise(const System& system, std::size_t mode, std
     outputs.insert(outputs.end(), more.begin(), more.end());
     const std::size_t states = states_.size();
     LinearMode linear;
-    std::vector<Follower> followers;
+    std::vector<TapeFollower> followers;
     const auto add = [&](std::vector<TangentEntry>& entries, std::size_t row, std::size_t source, Expression value,
                          std::uint32_t group) {
         const bool by_parameter = source >= states && source < inputs_.size();
         entries.push_back({row, source, followers.size()});
-        followers.push_back(
-            {std::move(value), by_parameter ? LinearMode::by_parameter(source - states) : group});
+        followers.push_back({std::move(value), by_parameter ? LinearMode::by_parameter(source - states) : group});
     };
     Linearisation linearisation = graze::linearise(rates, inputs_, states);
     linear.equations = {states, parameters_.size(), linearisation.intermediates, {}};

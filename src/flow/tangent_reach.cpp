@@ -75,8 +75,8 @@ double Misfit::compare(double step, double enough) const {
     const EndAllowance allowed{StepCheck::allowance * tolerance_, 0, StepCheck::smallest_size};
     double most = 0;
     std::size_t i = 0;
-    while (most <= enough && (i = places_.here.find_misfit(places_.there, allowed, length, places_.sums,
-                                                           places_.slopes, i)) < places_.states) {
+    while (most <= enough && (i = places_.here.find_misfit(places_.there, allowed, length, places_.sums, places_.slopes,
+                                                           i)) < places_.states) {
         const double *c = places_.here.state(i), *rates = places_.there.state(i) + width_;
         const double *ends = &places_.sums[i * width_], *slopes = &places_.slopes[i * width_];
         for (std::size_t l = 0; l < places_.count; ++l) {

@@ -22,6 +22,7 @@ TangentSteps::TangentSteps(const System& system, double tolerance, std::size_t d
 
 TangentSteps::~TangentSteps() = default;
 TangentSteps::TangentSteps(TangentSteps&&) noexcept = default;
+TangentSteps& TangentSteps::operator=(TangentSteps&&) noexcept = default;
 
 void TangentSteps::set_parameters(std::span<const double> parameters, std::span<const double> seeds) {
     require_size(parameters.size(), system_.parameters(), "independent parameters");
@@ -155,8 +156,8 @@ double TangentSteps::follow(Jet& next, double length) {
         lanes.there->load(sums_, *lanes.here);
         lanes.there->begin(next);
     };
-    const TangentPlaces places{*lanes.here, *lanes.there, sums_, slopes_, states_,
-                               std::min(lanes.here->width(), directions_ - first_), look};
+    const TangentPlaces places{
+        *lanes.here, *lanes.there, sums_, slopes_, states_, std::min(lanes.here->width(), directions_ - first_), look};
     return follow_tangents(places, tolerance_, std::copysign(reach, length), least, [this] { return noise(); });
 }
 

@@ -6,9 +6,9 @@
 namespace graze {
 
 TangentFan::Group::Group(const Simulation& simulation, std::size_t from_direction, std::size_t directions)
-    : first(from_direction), count(directions),
-      jets(simulation.system(), simulation.order(), LaneKind::single),
-      steps(simulation.system(), simulation.options().tolerance, directions), matrix(simulation.system().states() * directions), next(matrix.size()) {
+    : first(from_direction), count(directions), jets(simulation.system(), simulation.order(), LaneKind::single),
+      steps(simulation.system(), simulation.options().tolerance, directions),
+      matrix(simulation.system().states() * directions), next(matrix.size()) {
     jets.add_tangents();
 }
 

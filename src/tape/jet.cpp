@@ -156,7 +156,7 @@ private:
 
 TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
     : table_(table), order_(order), states_(tape.states), parameters_(tape.parameters),
-      layout_(tape, order, table.width), memory_(layout_.size) {
+      layout_(tape, order, table.width), memory_(layout_.size + read_behind) {
     const auto register_at = [&](std::uint32_t index) {
         return memory_.data() + layout_.registers + index * layout_.series;
     };
@@ -165,9 +165,11 @@ TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
         terms_.push_back({register_at(term.series), memory_.data() + term.coefficient * layout_.number});
 
     programs_.reserve(1 + tape.follower_code.size());
-    programs_.emplace_back(StepFinder(tape, table, layout_, memory_.data(), terms_), table, order);
+    programs_.emplace_back(StepFinder(tape, table, layout_, memory_.data(), terms_), table, order,
+                           KernelProgram::Sequence::by_order);
     for (std::size_t part = 0; part < tape.follower_code.size(); ++part)
-        programs_.emplace_back(StepFinder(tape, part, table, layout_, memory_.data(), terms_), table, order);
+        programs_.emplace_back(StepFinder(tape, part, table, layout_, memory_.data(), terms_), table, order,
+                               KernelProgram::Sequence::by_instruction);
     progress_.assign(tape.follower_code.size(), Progress::none);
 
     std::size_t constant_outputs = 0;

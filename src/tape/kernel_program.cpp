@@ -1,6 +1,7 @@
 #include "tape/kernel_program.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace graze {
 
@@ -19,17 +20,30 @@ bool same_operands(const KernelStep& one, const KernelStep& other) {
 
 void end_of_chain(const KernelOperands*, const KernelLink*, Order) {}
 
-KernelProgram::KernelProgram(const StepFinder& finder, const KernelTable& table, int order) {
+KernelProgram::KernelProgram(const StepFinder& finder, const KernelTable& table, int order, Sequence sequence) {
     std::vector<Segment> segments;
-    for (int k = 0; k <= order; ++k) {
-        if (k == 2)
-            segments.push_back({finder.before_all(), order, true});
-        segments.push_back({finder.steps(k), k, k % 2 == 0 && k <= 2});
-    }
+    for (int k = 0; k <= std::min(order, 1); ++k)
+        segments.push_back({finder.steps(k), k, k == 0});
     if (order > 1)
-        segments.push_back({finder.after_all(), order, true});
+        (sequence == Sequence::by_order ? add_by_order : add_by_instruction)(finder, order, segments);
     find_operands(segments);
     find_chains(segments, table);
+}
+
+void KernelProgram::add_by_order(const StepFinder& finder, int order, std::vector<Segment>& segments) {
+    segments.push_back({finder.before_all(), order, true});
+    for (int k = 2; k <= order; ++k)
+        segments.push_back({finder.steps(k), k, k == 2});
+    segments.push_back({finder.after_all(), order, true});
+}
+
+void KernelProgram::add_by_instruction(const StepFinder& finder, int order, std::vector<Segment>& segments) {
+    for (StepFinder::Run& run : finder.runs()) {
+        int k = run.whole ? order : 2;
+        bool begins = true;
+        for (std::vector<KernelStep>& steps : run.steps)
+            segments.push_back({std::move(steps), k++, std::exchange(begins, false)});
+    }
 }
 
 void KernelProgram::find_operands(std::vector<Segment>& segments) {

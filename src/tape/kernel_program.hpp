@@ -11,8 +11,9 @@ namespace graze {
 /// Kernels in the sequence in which they compute coefficients of all orders, as links of chains: each calls the next.
 class KernelProgram {
 public:
-    /// @param order the highest
-    KernelProgram(const StepFinder& finder, const KernelTable& table, int order);
+    enum class Sequence { by_order, by_instruction };
+    /// @param order the highest; @param sequence by order where instructions go back into what they are made of
+    KernelProgram(const StepFinder& finder, const KernelTable& table, int order, Sequence sequence);
 
     /// Coefficients 0 and 1 ...
     void begin() const { run(std::span(chains_).first(beginning_)); }
@@ -38,6 +39,8 @@ private:
         for (const Chain& chain : chains)
             chain.link->kernel(chain.operands, chain.link + 1, chain.order);
     }
+    static void add_by_order(const StepFinder& finder, int order, std::vector<Segment>& segments);
+    static void add_by_instruction(const StepFinder& finder, int order, std::vector<Segment>& segments);
     void find_operands(std::vector<Segment>& segments);
     void find_chains(const std::vector<Segment>& segments, const KernelTable& table);
 

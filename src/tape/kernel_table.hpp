@@ -170,6 +170,9 @@ struct CombinationKernels {
     Kernel state_combination_value[combination_kernels]; ///< ... for coefficient 1 of the state
 };
 
+/// So many numbers there have to be behind the last series.
+inline constexpr int read_behind = 8;
+
 struct KernelTable {
     int width; ///< doubles for each number
     /// Row `linear_combination` is empty.
@@ -185,6 +188,9 @@ struct KernelTable {
     Kernel sine_and_cosine;
     /// All coefficients from 2 to the order that they are called with, of an argument of degree 1, found likewise.
     Kernel whole_sine_and_cosine, whole_hyperbolic_pair, whole_exponential;
+    /// All coefficients from 2 to the order of the product of two known series; only for one lane, or null. It may read
+    /// `read_behind` numbers behind them.
+    Kernel whole_product;
     /// Goes on with the next order and the operands found in the link that follows.
     Kernel next_order;
     // Of two steps, one after the other; null where there is no such kernel.
@@ -222,14 +228,14 @@ const TangentKernels& tangent_kernels(std::size_t directions, InstructionSet set
 namespace baseline {
 const KernelTable& kernels(LaneKind kind);
 const TangentKernels& tangent_kernels(std::size_t directions);
-}
+} // namespace baseline
 namespace avx2 {
 const KernelTable& kernels(LaneKind kind);
 const TangentKernels& tangent_kernels(std::size_t directions);
-}
+} // namespace avx2
 namespace avx512 {
 const KernelTable& kernels(LaneKind kind);
 const TangentKernels& tangent_kernels(std::size_t directions);
-}
+} // namespace avx512
 
 } // namespace graze

@@ -120,17 +120,21 @@ void StepFinder::add_states(int order, std::vector<KernelStep>& steps) const {
             steps.push_back({kernel, {register_at(i), register_at(rate.index), {}, {}, {}, {}}});
             continue;
         }
-        combinations.push_back(
-            combination_step(code_[combination], order == 1 ? &CombinationKernels::state_combination_value
-                                                                 : &CombinationKernels::state_combination));
+        combinations.push_back(combination_step(code_[combination], order == 1
+                                                                        ? &CombinationKernels::state_combination_value
+                                                                        : &CombinationKernels::state_combination));
         combinations.back().operands.result = register_at(i);
     }
     steps.insert(steps.end(), combinations.begin(), combinations.end());
 }
 
 void StepFinder::add_instructions(int order, std::vector<KernelStep>& steps) const {
-    std::uint32_t reciprocals = reciprocals_;
-    for (std::size_t i = 0; i < code_.size(); ++i) {
+    add_instructions(order, 0, code_.size(), reciprocals_, steps);
+}
+
+void StepFinder::add_instructions(int order, std::size_t first, std::size_t behind, std::uint32_t reciprocals,
+                                  std::vector<KernelStep>& steps) const {
+    for (std::size_t i = first; i < behind; ++i) {
         const Instruction& instruction = code_[i];
         KernelStep step{nullptr, operands_of(instruction, reciprocals)};
         if (combination_of_[instruction.result] != none ||
@@ -144,7 +148,7 @@ void StepFinder::add_instructions(int order, std::vector<KernelStep>& steps) con
             ++i;
             continue;
         }
-        const Kernel joint = order > 0 && i > 0 && !steps.empty() ? joint_kernel(i, order, steps.back()) : nullptr;
+        const Kernel joint = order > 0 && i > first && !steps.empty() ? joint_kernel(i, order, steps.back()) : nullptr;
         if (joint)
             steps.back().kernel = joint;
         else if (instruction.operation == SeriesOperation::linear_combination)
@@ -156,15 +160,65 @@ void StepFinder::add_instructions(int order, std::vector<KernelStep>& steps) con
     }
 }
 
+/// One past the last instruction that has to be computed with the first, order by order: a function waits for one
+/// behind it, such as the sine for the cosine.
+/// @param behind one past the instruction that computes each register
+std::size_t StepFinder::end_of_run(std::size_t first, const std::vector<std::size_t>& behind) const {
+    std::size_t end = first + 1;
+    for (std::size_t i = first; i < end; ++i)
+        visit_operands(tape_, code_[i], [&](std::uint32_t operand) { end = std::max(end, behind[operand]); });
+    return end;
+}
+
+std::vector<StepFinder::Run> StepFinder::runs() const {
+    std::vector<Run> runs;
+    std::vector<std::size_t> behind(tape_.registers, 0);
+    for (std::size_t i = 0; i < code_.size(); ++i)
+        behind[code_[i].result] = i + 1;
+    std::uint32_t reciprocals = reciprocals_;
+    const auto highest = static_cast<int>(layout_.order);
+    for (std::size_t first = 0; first < code_.size();) {
+        const Instruction& one = code_[first];
+        const std::size_t end = end_of_run(first, behind);
+        Run run;
+        std::uint32_t unused = reciprocals;
+        const bool product = (one.operation == SeriesOperation::multiply || one.operation == SeriesOperation::square) &&
+                             table_.whole_product != nullptr && tape_.degrees[one.result] == Tape::unbounded;
+        const bool sum =
+            one.operation == SeriesOperation::linear_combination && tape_.degrees[one.result] == Tape::unbounded;
+        if (sum) {
+            run = {true, {{combination_step(one, &CombinationKernels::whole_combination)}}};
+        } else if (times_[first] == Time::before_all) {
+            run = {true, {{whole_step(first)}}};
+        } else if (product) {
+            KernelOperands operands = operands_of(one, unused);
+            if (one.operation == SeriesOperation::square)
+                operands.right = operands.left;
+            run = {true, {{{table_.whole_product, operands}}}};
+        } else {
+            for (int order = 2; order <= highest; ++order)
+                add_instructions(order, first, end, reciprocals, run.steps.emplace_back());
+        }
+        runs.push_back(std::move(run));
+        for (; first < end; ++first)
+            static_cast<void>(operands_of(code_[first], reciprocals)); // counts what they keep
+    }
+    return runs;
+}
+
+/// Of a function of an argument of degree 1, and the other if it is one of a pair.
+KernelStep StepFinder::whole_step(std::size_t i) const {
+    const Instruction& one = code_[i];
+    return {whole_kernel(i), {register_at(one.result), register_at(one.third), {}, register_at(one.right), {}, {}}};
+}
+
 std::vector<KernelStep> StepFinder::before_all() const {
     std::vector<KernelStep> steps;
     for (std::size_t i = 0; i < code_.size(); ++i) {
         if (times_[i] != Time::before_all)
             continue;
-        const Instruction& one = code_[i];
-        steps.push_back(
-            {whole_kernel(i), {register_at(one.result), register_at(one.third), {}, register_at(one.right), {}, {}}});
-        if (one.right != one.result)
+        steps.push_back(whole_step(i));
+        if (code_[i].right != code_[i].result)
             ++i;
     }
     return steps;

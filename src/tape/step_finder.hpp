@@ -39,6 +39,14 @@ public:
     std::vector<KernelStep> before_all() const;
     std::vector<KernelStep> after_all() const;
 
+    /// One instruction after the other, or some that wait for one another, all orders above 1: what does not go back
+    /// into what it is made of waits less that way.
+    struct Run {
+        bool whole = false;                         ///< all orders by one kernel
+        std::vector<std::vector<KernelStep>> steps; ///< of each order from 2 on
+    };
+    std::vector<Run> runs() const;
+
 private:
     static constexpr std::uint32_t none = 0xffffffff;
 
@@ -53,11 +61,16 @@ private:
     void find_times(const std::vector<std::uint32_t>& uses);
     void add_states(int order, std::vector<KernelStep>& steps) const;
     void add_instructions(int order, std::vector<KernelStep>& steps) const;
+    /// Those from one on, and before another.
+    void add_instructions(int order, std::size_t first, std::size_t behind, std::uint32_t reciprocals,
+                          std::vector<KernelStep>& steps) const;
+    std::size_t end_of_run(std::size_t first, const std::vector<std::size_t>& behind) const;
 
     /// Whether an instruction is a sine and the next the cosine of the same argument.
     bool starts_pair(std::size_t i) const;
     /// Of a function and, if it is one of a pair, the other; null where it needs more than its argument.
     Kernel whole_kernel(std::size_t i) const;
+    KernelStep whole_step(std::size_t i) const;
     /// Of an instruction and the one before, whose step is given; null where there is none.
     Kernel joint_kernel(std::size_t i, int order, const KernelStep& before) const;
 

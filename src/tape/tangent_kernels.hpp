@@ -58,20 +58,25 @@ public:
     template <int k>
     GRAZE_INLINE void add_all(const double* a, const double* w) {
 #if defined(__FMA__)
-        constexpr int blocks = (k + 1) / 4;
+        constexpr int blocks = k / 4;
 #else
         constexpr int blocks = 0;
 #endif
+        // The newest coefficient by itself: it is still on its way to memory, from where four cannot be read at once.
+        sums_[0] = multiply_add(a[0], w[k], sums_[0]);
         [&]<int... block>(Indices<block...>) __attribute__((always_inline)) {
-            (add_four(a + 4 * block, w + k - 4 * block - 3), ...);
+            (add_four(a + 1 + 4 * block, w + k - 4 * block - 4), ...);
         }
         (std::make_integer_sequence<int, blocks>{});
         [&]<int... j>(Indices<j...>) __attribute__((always_inline)) {
-            ((sums_[j % 2] = multiply_add(a[4 * blocks + j], w[k - 4 * blocks - j], sums_[j % 2])), ...);
+            ((sums_[(j + 1) % 2] = multiply_add(a[1 + 4 * blocks + j], w[k - 1 - 4 * blocks - j], sums_[(j + 1) % 2])),
+             ...);
         }
-        (std::make_integer_sequence<int, k + 1 - 4 * blocks>{});
+        (std::make_integer_sequence<int, k - 4 * blocks>{});
     }
-    GRAZE_INLINE double total_of_few() const { return sums_[0] + sums_[1]; }
+    GRAZE_INLINE double total_of_few() const {
+        return sums_[0] + sums_[1];
+    }
     GRAZE_INLINE double total() const {
 #if defined(__FMA__)
         const __m128d halves = _mm256_castpd256_pd128(four_) + _mm256_extractf128_pd(four_, 1);
@@ -148,36 +153,55 @@ void tangent_sums_and_slopes(const TangentStates& states, double time, double* v
     }
 }
 
+/// Where a size is that of nothing, the share is not known this way.
+GRAZE_INLINE double share_of(double last, double size) {
+    return size > smallest_derivative ? last / size : 0;
+}
+template <int n>
+GRAZE_INLINE Packs<n> share_of(Packs<n> last, Packs<n> size) {
+    return GRAZE_FOR_PARTS(Packs<n>, size.part[i] > smallest_derivative ? last.part[i] / size.part[i] : splat(0));
+}
+/// Share of the last two terms in the sum of all, in lanes where the first three are zero.
+template <class V>
+GRAZE_INLINE double share_of_all(const double* c, int order, double step, V last, V size) {
+    constexpr int width = Numbers<V>::width;
+    double sizes[width], lasts[width], worst = 0;
+    Numbers<V>::store(sizes, size);
+    Numbers<V>::store(lasts, last);
+    for (int lane = 0; lane < width; ++lane) {
+        if (!(lasts[lane] > 0) || sizes[lane] > 0)
+            continue;
+        double all = 0;
+        for (int k = order; k >= 0; --k)
+            all = all * step + absolute(c[k * width + lane]);
+        worst = greater(worst, share_of(lasts[lane], all));
+    }
+    return worst;
+}
+
 template <class V>
 double tangent_tails(const TangentStates& states, double step, const double* floors) {
-    constexpr std::size_t width = Numbers<V>::width;
-    const unsigned in_use = (1U << states.count) - 1U;
+    constexpr int width = Numbers<V>::width;
     const int order = states.order;
-    double power = 1, worst = 0;
+    double power = 1, worst_of_all = 0;
     for (int k = 1; k < order; ++k)
         power *= step;
+    V worst = Numbers<V>::of(0);
     for (std::size_t i = 0; i < states.states; ++i) {
         const double* c = states.numbers + i * states.size;
         V size = absolute(at<V>(c, 0)) + (absolute(at<V>(c, 1)) + absolute(at<V>(c, 2)) * step) * step;
         if (floors != nullptr)
-            size = greater(size, Numbers<V>::load(floors + i * width));
+            size = greater(size, Numbers<V>::load(floors + i * static_cast<std::size_t>(width)));
         const V last = greater(absolute(at<V>(c, order - 1)), absolute(at<V>(c, order)) * step) * power;
-        if ((lanes_above(last, size * worst) & in_use) == 0)
-            continue;
-        double sizes[width], lasts[width];
-        Numbers<V>::store(sizes, size);
-        Numbers<V>::store(lasts, last);
-        for (std::size_t lane = 0; lane < static_cast<std::size_t>(states.count); ++lane) {
-            if (lasts[lane] > 0 && !(sizes[lane] > 0)) {
-                sizes[lane] = 0;
-                for (int k = order; k >= 0; --k)
-                    sizes[lane] = sizes[lane] * step + absolute(c[static_cast<std::size_t>(k) * width + lane]);
-            }
-            if (lasts[lane] > worst * sizes[lane] && sizes[lane] > smallest_derivative)
-                worst = lasts[lane] / sizes[lane];
-        }
+        worst = greater(worst, share_of(last, size));
+        if (lanes_above(last, size * 0x1p+1000) != 0) // where there is no size
+            worst_of_all = greater(worst_of_all, share_of_all(c, order, step, last, size));
     }
-    return worst;
+    double shares[width];
+    Numbers<V>::store(shares, worst);
+    for (const double share : shares)
+        worst_of_all = greater(worst_of_all, share);
+    return worst_of_all;
 }
 
 template <class V>

@@ -101,8 +101,10 @@ void TangentSeries::find_rows(const Tape& tape, const TangentEquations& equation
             if (from == no_row)
                 continue;
             const int degree = degree_of(tape, entry->follower);
-            kinds[degree == 0 ? 0 : degree != unbounded || degrees[from] != unbounded ? 1 : 2].push_back(
-                {like.follower(entry->follower) - like.state(0), from * size_, degree, degrees[from]});
+            kinds[degree == 0                                         ? 0
+                  : degree != unbounded || degrees[from] != unbounded ? 1
+                                                                      : 2]
+                .push_back({like.follower(entry->follower) - like.state(0), from * size_, degree, degrees[from]});
         }
         for (const std::vector<TangentTerm>& kind : kinds)
             terms_.insert(terms_.end(), kind.begin(), kind.end());
@@ -183,10 +185,10 @@ std::size_t TangentSeries::find_misfit(const TangentSeries& end, const EndAllowa
     require_size(end.states_, states_, "states");
     require_room(values.size(), states_ * width_, "changes of states");
     require_room(slopes.size(), states_ * width_, "changes of states");
-    return kernels_.misfit(in_use(),
-                           {end.numbers_.data(), values.data(), slopes.data(), std::abs(length), allowance.rates,
-                            allowance.smallest},
-                           from);
+    return kernels_.misfit(
+        in_use(),
+        {end.numbers_.data(), values.data(), slopes.data(), std::abs(length), allowance.rates, allowance.smallest},
+        from);
 }
 
 } // namespace graze

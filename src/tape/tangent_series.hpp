@@ -16,7 +16,8 @@ namespace graze {
 /// followers; for each direction there are convolutions with these.
 class TangentSeries {
 public:
-    /// @param tape of which the equations' coefficients are followers; @param like any single jet of it: coefficients are found in others where they are in this one
+    /// @param tape of which the equations' coefficients are followers; @param like any single jet of it: coefficients
+    /// are found in others where they are in this one
     /// @param moving of each parameter, whether any direction changes it
     /// @param directions that there may be at once; more than one register holds are computed in several goes
     /// @throws InputError for entries that are out of range or not in order
@@ -58,9 +59,7 @@ public:
                             std::span<const double> values, std::span<const double> slopes, std::size_t from) const;
 
 private:
-    TangentStates in_use() const {
-        return {numbers_.data(), states_, size_, static_cast<int>(count_), order_};
-    }
+    TangentStates in_use() const { return {numbers_.data(), states_, size_, static_cast<int>(count_), order_}; }
     std::size_t row_of_source(std::size_t source) const;
     std::vector<int> degrees_of_rows(const Tape& tape, const TangentEquations& equations) const;
     void find_rows(const Tape& tape, const TangentEquations& equations, const Jet& like);
@@ -68,7 +67,7 @@ private:
     const TangentKernels& kernels_;
     std::size_t states_, parameters_, intermediates_, width_;
     int order_;
-    std::size_t size_, count_ = 0; ///< numbers in a series; directions that are in use
+    std::size_t size_, count_ = 0;            ///< numbers in a series; directions that are in use
     std::vector<std::size_t> parameter_rows_; ///< of those that move
     std::vector<std::size_t> moving_;         ///< which these are
     std::vector<TangentTerm> terms_;

@@ -18,9 +18,9 @@ std::vector<Expression> joined(std::span<const Expression> one, std::span<const 
     return all;
 }
 
-std::vector<Expression> values_of(std::span<const Follower> followers) {
+std::vector<Expression> values_of(std::span<const TapeFollower> followers) {
     std::vector<Expression> values;
-    for (const Follower& follower : followers)
+    for (const TapeFollower& follower : followers)
         values.push_back(follower.value);
     return values;
 }
@@ -88,7 +88,7 @@ void check(const Subgraph& subgraph, std::span<const Expression> symbols) {
 
 Tape compile_tape(std::span<const Expression> states, std::span<const Expression> parameters,
                   std::span<const Expression> rates, std::span<const Expression> outputs,
-                  std::span<const Follower> followers) {
+                  std::span<const TapeFollower> followers) {
     if (states.size() != rates.size())
         throw std::invalid_argument("there must be as many rates as states");
     const Subgraph subgraph = subgraph_of(joined(rates, outputs)), behind = subgraph_of(values_of(followers));
@@ -115,6 +115,7 @@ Tape compile_tape(std::span<const Expression> states, std::span<const Expression
     }
     // Compiled by themselves, they find registers in which something of theirs is already, and make no others of what
     // rates and outputs need.
+    builder.prefer_reciprocals();
     const std::vector<LinearForm> more = compile(builder, behind, known);
     std::vector<std::uint32_t> groups;
     for (std::size_t i = 0; i < followers.size(); ++i) {

@@ -9,8 +9,8 @@ namespace graze {
 
 Tangents::Tangents(const Simulation& simulation, std::span<const double> parameters, std::span<const double> seeds,
                    std::size_t directions)
-    : simulation_(simulation), parameters_(parameters.begin(), parameters.end()),
-      states_(simulation.system().states()), parameter_count_(parameters.size()), directions_(directions),
+    : simulation_(simulation), parameters_(parameters.begin(), parameters.end()), states_(simulation.system().states()),
+      parameter_count_(parameters.size()), directions_(directions),
       steps_(simulation.system(), simulation.options().tolerance, directions),
       parameter_seeds_(parameter_count_ * directions), matrix_(states_ * directions), next_(states_ * directions) {
     for (std::size_t d = 0; d < directions; ++d) {

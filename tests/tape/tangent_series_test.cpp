@@ -30,16 +30,16 @@ struct Linear {
         inputs.insert(inputs.end(), p.parameters.begin(), p.parameters.end());
         const Linearisation linearisation = linearise(p.rates, SymbolIndex(inputs), p.states.size());
         equations = {p.states.size(), p.parameters.size(), linearisation.intermediates, {}};
-        std::vector<Follower> followers;
+        std::vector<TapeFollower> followers;
         for (const LinearEntry& entry : linearisation.entries) {
             equations.entries.push_back({entry.row, entry.source, followers.size()});
             const bool by_parameter = entry.source >= p.states.size() && entry.source < inputs.size();
-            followers.push_back(
-                {entry.coefficient,
-                 by_parameter ? 1 + static_cast<std::uint32_t>(entry.source - p.states.size()) : 0U});
+            followers.push_back({entry.coefficient,
+                                 by_parameter ? 1 + static_cast<std::uint32_t>(entry.source - p.states.size()) : 0U});
         }
         for (std::uint32_t group = 0; group <= p.parameters.size(); ++group)
-            if (std::any_of(followers.begin(), followers.end(), [&](const Follower& f) { return f.group == group; }))
+            if (std::any_of(followers.begin(), followers.end(),
+                            [&](const TapeFollower& f) { return f.group == group; }))
                 groups.push_back(group);
         tape = compile_tape(p.states, p.parameters, p.rates, p.outputs, followers);
     }
@@ -195,8 +195,8 @@ TEST(TangentSeries, FollowersLeaveTheMotionAlone) {
                 one->compute(p.state_values);
                 one->follow({&group, 1});
                 for (const TangentEntry& entry : linear.equations.entries) {
-                    const bool by_parameter = entry.source >= p.states.size() &&
-                                              entry.source < p.states.size() + p.parameters.size();
+                    const bool by_parameter =
+                        entry.source >= p.states.size() && entry.source < p.states.size() + p.parameters.size();
                     if ((by_parameter ? 1 + entry.source - p.states.size() : 0) != group)
                         continue;
                     const bool constant = linear.tape.followers[entry.follower].constant;

@@ -23,6 +23,7 @@ public:
     explicit LateStates(const System& system);
     ~LateStates();
     LateStates(LateStates&&) noexcept;
+    LateStates& operator=(LateStates&&) noexcept;
     /// Before the first step. @param parameters as many as the system has
     void set_parameters(std::span<const double> parameters);
     /// A motion begins, of which nothing is known.

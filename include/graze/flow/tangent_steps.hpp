@@ -18,9 +18,9 @@ class TangentSeries;
 /// directions are convolved with them side by side, as many at once as registers hold, or one alone.
 ///
 /// The error of a direction's component is measured against the component's size, or, where that is less, against what
-/// the direction's other components make of it within the response time of the flow (see docs/method.md): errors that these
-/// are allowed come to as much there. A component that has only begun to differ from zero, such as the motion of the
-/// far end of a chain of oscillators, therefore needs no shorter steps than the others.
+/// the direction's other components make of it within the response time of the flow (see docs/method.md): errors that
+/// these are allowed come to as much there. A component that has only begun to differ from zero, such as the motion of
+/// the far end of a chain of oscillators, therefore needs no shorter steps than the others.
 ///
 /// Matrices are row by row, [row * directions + direction].
 class TangentSteps {
@@ -37,6 +37,7 @@ public:
     TangentSteps(const System& system, double tolerance, std::size_t directions);
     ~TangentSteps();
     TangentSteps(TangentSteps&&) noexcept;
+    TangentSteps& operator=(TangentSteps&&) noexcept;
 
     /// @param seeds of the parameters in the directions, parameters x directions
     void set_parameters(std::span<const double> parameters, std::span<const double> seeds);

@@ -8,8 +8,8 @@ namespace graze {
 /// A product in the first variational equations of a mode: a coefficient that goes with the motion, times the change
 /// of what it depends on.
 struct TangentEntry {
-    std::size_t row = 0;    ///< intermediate quantities first, then states, whose rates change
-    std::size_t source = 0; ///< states first, then parameters, then intermediate quantities
+    std::size_t row = 0;      ///< intermediate quantities first, then states, whose rates change
+    std::size_t source = 0;   ///< states first, then parameters, then intermediate quantities
     std::size_t follower = 0; ///< of the mode's tape, whose series the coefficient is
 };
 

@@ -83,7 +83,7 @@ struct Tape {
 };
 
 /// An expression that is wanted along the flow now and then, together with the others of its group.
-struct Follower {
+struct TapeFollower {
     Expression value;
     std::uint32_t group = 0; ///< what other groups share with group 0 is not computed again: it has to come first
 };
@@ -96,6 +96,6 @@ struct Follower {
 /// @throws std::invalid_argument when they do
 Tape compile_tape(std::span<const Expression> states, std::span<const Expression> parameters,
                   std::span<const Expression> rates, std::span<const Expression> outputs,
-                  std::span<const Follower> followers = {});
+                  std::span<const TapeFollower> followers = {});
 
 } // namespace graze
