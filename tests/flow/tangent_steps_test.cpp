@@ -1,6 +1,7 @@
 #include "graze/flow/tangent_steps.hpp"
 
 #include "graze/flow/mode_flow.hpp"
+#include "graze/flow/variational_system.hpp"
 #include "graze/model/model_file.hpp"
 #include "graze/symbolic/input_error.hpp"
 
@@ -213,6 +214,48 @@ TEST(TangentSteps, AreShortenedForDirectionsThatAreFaster) {
     EXPECT_NEAR(100 * derivatives[slow * n + slow + 1], std::sin(angle), angle * tolerance);
     EXPECT_NEAR(derivatives[(slow + 1) * n + slow] / 100, -std::sin(angle), angle * tolerance);
     EXPECT_EQ(derivatives[slow * n], 0);
+}
+
+/// Oscillators that all feel a mean of all, which so is a quantity of its own in their first variational equations.
+std::string mean_field(std::size_t count) {
+    std::string states, rates, mean;
+    for (std::size_t i = 0; i < count; ++i) {
+        states += fmt::format("x{0} = {1}\nv{0} = {2}\n", i, 0.3 + 0.05 * static_cast<double>(i), 0.1);
+        rates += fmt::format("x{0} = \"v{0}\"\nv{0} = \"-{1}*x{0} - 0.1*v{0} + K*mean*cos(x{0}) + exp(-mean^2)\"\n", i,
+                             1 + 0.1 * static_cast<double>(i));
+        mean += fmt::format("{}sin(x{})*v{}", i == 0 ? "" : " + ", i, (i + 1) % count);
+    }
+    return fmt::format("name = \"mean-field\"\n[parameters]\nK = 0.4\n[definitions]\nmean = \"({})/{}\"\n[states]\n{}"
+                       "[modes.m.rates]\n{}[initial]\nmode = \"m\"\n",
+                       mean, count, states, rates);
+}
+
+/// The tangent as states of a larger system, which needs no derivatives of flows.
+TEST(TangentSteps, AgreeWithTheVariationalSystemOfAMeanField) {
+    constexpr double tolerance = 1e-13, time = 3;
+    const Model model = parse_model(mean_field(12), "mean_field.toml");
+    const System system(model);
+    ASSERT_GT(system.linear(0).equations.intermediates, 0u);
+    const std::size_t n = system.states();
+    const std::vector<ParameterId> free = {model.independent_parameter("K")};
+    ModeFlow flow(system, tolerance, 0, free);
+    flow.set_parameters(model.parameter_values());
+    std::vector<double> state = model.initial_state(), derivatives(n * (n + 1));
+    ASSERT_EQ(flow.run(0, state, time, derivatives), ModeFlow::Ending::done);
+    const VariationalSystem variational(system, free);
+    ModeFlow larger(variational.modes(), tolerance, 0, {}, std::vector<std::size_t>{});
+    for (const std::size_t d : {std::size_t{0}, std::size_t{7}, n - 1, n}) {
+        std::vector<double> parameters = model.parameter_values(), both = model.initial_state();
+        parameters.push_back(d == n ? 1 : 0);
+        both.resize(2 * n, 0.0);
+        if (d < n)
+            both[n + d] = 1;
+        larger.set_parameters(parameters);
+        ASSERT_EQ(larger.run(0, both, time), ModeFlow::Ending::done);
+        for (std::size_t i = 0; i < n; ++i)
+            // Derivatives are allowed fifty tolerances, of which they take few.
+            EXPECT_NEAR(derivatives[i * (n + 1) + d], both[n + i], 20 * tolerance) << i << ' ' << d;
+    }
 }
 
 TEST(TangentSteps, RefuseWhatDoesNotFit) {
