@@ -136,11 +136,19 @@ bool raise(double* to, const double* from, double gain) {
 } // namespace
 
 Couplings::Couplings(const System& system, std::size_t mode)
-    : states_(system.states()), equations_(system.linear(mode).equations), system_(system),
-      jet_(make_jet(system.linear(mode).tape, 1, LaneKind::single)), units_(states_), row_(states_),
-      intermediates_(equations_.intermediates) {
+    : states_(system.states()), system_(system), mode_(mode), units_(states_), row_(states_) {
     find_entries(system.mode(mode).tape);
     find_ways();
+}
+
+Jet& Couplings::jet() {
+    if (!jet_) {
+        const LinearMode& linear = system_.linear(mode_);
+        jet_ = make_jet(linear.tape, 1, LaneKind::single);
+        jet_->set_parameters(parameters_);
+        intermediates_.resize(linear.equations.intermediates);
+    }
+    return *jet_;
 }
 
 void Couplings::find_entries(const Tape& tape) {
@@ -198,24 +206,28 @@ void Couplings::find_constants(const Tape& tape) {
 }
 
 void Couplings::set_parameters(std::span<const double> parameters) {
-    jet_->set_parameters(parameters);
+    require_size(parameters.size(), system_.parameters(), "independent parameters");
+    parameters_.assign(parameters.begin(), parameters.end());
+    if (jet_)
+        jet_->set_parameters(parameters_);
 }
 
 /// Row by row, intermediate quantities first.
 void Couplings::find_strengths() {
+    const TangentEquations& equations = system_.linear(mode_).equations;
     std::vector<std::size_t> columns; // in which there is something
-    auto entry = equations_.entries.begin();
+    auto entry = equations.entries.begin();
     const auto add = [&](std::size_t column, double value) {
         row_[column] += value;
         columns.push_back(column);
     };
     for (std::size_t row = 0; row < intermediates_.size() + states_; ++row) {
-        for (; entry != equations_.entries.end() && entry->row == row; ++entry) {
+        for (; entry != equations.entries.end() && entry->row == row; ++entry) {
             const double value = *jet_->follower(entry->follower);
             if (entry->source < states_)
                 add(entry->source, value);
-            else if (entry->source >= states_ + equations_.parameters)
-                for (const Part& part : intermediates_[entry->source - states_ - equations_.parameters])
+            else if (entry->source >= states_ + equations.parameters)
+                for (const Part& part : intermediates_[entry->source - states_ - equations.parameters])
                     add(part.column, value * part.value);
         }
         if (row < intermediates_.size()) {
@@ -237,8 +249,8 @@ void Couplings::find_strengths() {
 void Couplings::measure(std::span<const double> states) {
     require_size(states.size(), states_, "states");
     constexpr std::uint32_t groups[] = {LinearMode::by_states};
-    jet_->begin(states);
-    jet_->begin_followers(groups);
+    jet().begin(states);
+    jet().begin_followers(groups);
     find_strengths();
     const bool finite =
         std::all_of(entries_.begin(), entries_.end(), [](const Entry& e) { return std::isfinite(e.strength); });
@@ -389,15 +401,20 @@ void ModeCouplings::set_parameters(std::span<const double> parameters) {
             couplings->set_parameters(parameters_);
 }
 
-const Couplings& ModeCouplings::measured(std::size_t mode, std::span<const double> states) {
+Couplings& ModeCouplings::of(std::size_t mode) {
     require_index(mode, all_.size(), "mode");
     auto& couplings = all_[mode];
     if (!couplings) {
         couplings = std::make_unique<Couplings>(system_, mode);
         couplings->set_parameters(parameters_);
     }
-    couplings->measure(states);
     return *couplings;
+}
+
+const Couplings& ModeCouplings::measured(std::size_t mode, std::span<const double> states) {
+    Couplings& couplings = of(mode);
+    couplings.measure(states);
+    return couplings;
 }
 
 } // namespace graze

@@ -3,6 +3,7 @@
 #include "graze/flow/system.hpp"
 #include "graze/tape/jet.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -17,7 +18,7 @@ namespace graze {
 /// outgrows itself by way of others, so that the sizes to which a disturbance can bring all states are well defined.
 class Couplings {
 public:
-    /// @throws InputError, here and below, for a mode or numbers that do not fit the system
+    /// Which couplings there are. @throws InputError, here and below, for a mode or numbers that do not fit the system
     Couplings(const System& system, std::size_t mode);
     /// @param parameters as many as the system has
     void set_parameters(std::span<const double> parameters);
@@ -41,6 +42,8 @@ public:
     /// Whether something acts on a state through a coupling that is the same at all places, and its rate is a
     /// polynomial of low degree in the states: nothing that is small may become large within a small part of a step.
     bool is_pushed_steadily(std::size_t state) const { return steady_[state]; }
+    /// Whether that is so of any state.
+    bool push_steadily() const { return std::find(steady_.begin(), steady_.end(), true) != steady_.end(); }
 
 private:
     struct Entry {
@@ -58,15 +61,17 @@ private:
     void find_entries(const Tape& tape);
     void find_constants(const Tape& tape);
     void find_strengths();
+    Jet& jet();
     void find_cycles();
     void sort_cycles();
     void balance();
     double largest_row() const;
 
     std::size_t states_;
-    const TangentEquations& equations_; ///< of the system, which it keeps
     System system_;
-    std::unique_ptr<Jet> jet_;
+    std::size_t mode_;
+    std::vector<double> parameters_;
+    std::unique_ptr<Jet> jet_; ///< of the first variational equations, once something is measured
     std::vector<Entry> entries_;                    ///< row by row
     std::vector<std::size_t> row_starts_;           ///< in `entries_`
     std::vector<std::vector<std::size_t>> columns_; ///< entries of each
@@ -97,6 +102,8 @@ class ModeCouplings {
 public:
     explicit ModeCouplings(const System& system) : system_(system), all_(system.model().modes.size()) {}
     void set_parameters(std::span<const double> parameters);
+    /// Those of a mode, measured or not.
+    Couplings& of(std::size_t mode);
     /// Those of a mode at a place.
     const Couplings& measured(std::size_t mode, std::span<const double> states);
 

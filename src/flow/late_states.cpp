@@ -60,7 +60,7 @@ double LateStates::step(const StepSize& step_size, std::size_t mode, std::span<c
     return step;
 }
 
-/// Of what a state is now, and of what comes to it from others until the end of the step.
+/// The step by what a state is now and by what comes to it from others until its end; 0 where no state can be late.
 double LateStates::with_floors(const StepSize& step_size, std::size_t mode, std::span<const Series> series,
                                double previous) {
     const std::size_t states = system_.states();
@@ -68,6 +68,8 @@ double LateStates::with_floors(const StepSize& step_size, std::size_t mode, std:
         couplings_ = std::make_unique<ModeCouplings>(system_);
         couplings_->set_parameters(parameters_);
     }
+    if (!couplings_->of(mode).push_steadily())
+        return 0; // no state can be late
     state_.resize(states);
     for (std::size_t i = 0; i < states; ++i)
         state_[i] = series[i][0];

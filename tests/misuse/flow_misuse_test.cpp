@@ -230,9 +230,8 @@ void tangents(WrongUses& wrong) {
     });
     use("begin_where_nothing_is_computed", [](Step& s) { s.steps.begin(s.jets(0), 0, s.state, s.matrix); });
     for (const auto& [how, mode] : wrong_indices(1))
-        use("begin_mode_" + how, [mode = mode](Step& s) {
-            s.steps.begin(s.jets.computed(0, s.state), mode, s.state, s.matrix);
-        });
+        use("begin_mode_" + how,
+            [mode = mode](Step& s) { s.steps.begin(s.jets.computed(0, s.state), mode, s.state, s.matrix); });
     for (const auto& [how, length] : wrong_lengths(2))
         use("carry_" + how, [length = length](Step& s) {
             s.begin();
