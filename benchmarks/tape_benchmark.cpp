@@ -200,7 +200,6 @@ const int registered = [] {
         const std::string name(name_of(set));
         benchmark::RegisterBenchmark(("tape_jet/single/" + name).c_str(), tape_jet, LaneKind::single, set);
         benchmark::RegisterBenchmark(("tape_jet/ensemble/" + name).c_str(), tape_jet, LaneKind::ensemble, set);
-        benchmark::RegisterBenchmark(("tape_jet/tangent/" + name).c_str(), tape_jet, LaneKind::tangent, set);
     }
     benchmark::RegisterBenchmark("compile_tape_and_make_jet", compile_and_make);
     return 0;

@@ -1,4 +1,4 @@
-#include "graze/flow/couplings.hpp"
+#include "flow/couplings.hpp"
 
 #include "graze/symbolic/require.hpp"
 #include "tape/tape_analysis.hpp"
@@ -120,12 +120,6 @@ private:
     std::size_t seen_ = 0;
 };
 
-/// What one state does to another.
-struct Pull {
-    std::size_t to, from; ///< in sizes
-    double gain;
-};
-
 /// Raises the sizes of one state by those of another; whether any grew by much.
 template <std::size_t lanes>
 bool raise(double* to, const double* from, double gain) {
@@ -139,48 +133,22 @@ bool raise(double* to, const double* from, double gain) {
     return grown != 0;
 }
 
-/// The same for all pulls, one after the other.
-template <std::size_t lanes>
-bool sweep(std::span<const Pull> pulls, double* sizes) {
-    bool grown = false;
-    for (const Pull& pull : pulls)
-        grown = raise<lanes>(sizes + pull.to, sizes + pull.from, pull.gain) || grown;
-    return grown;
-}
-
-bool sweep(std::span<const Pull> pulls, double* sizes, std::size_t lanes) {
-    if (lanes == 1)
-        return sweep<1>(pulls, sizes);
-    if (lanes == 2)
-        return sweep<2>(pulls, sizes);
-    if (lanes == 8)
-        return sweep<8>(pulls, sizes);
-    bool grown = false;
-    for (const Pull& pull : pulls)
-        for (std::size_t l = 0; l < lanes; ++l)
-            grown = raise<1>(sizes + pull.to + l, sizes + pull.from + l, pull.gain) || grown;
-    return grown;
-}
-
-/// Puts ones where the directions of the colours from one on are.
-void seed(std::span<double> seeds, std::size_t width, std::span<const std::size_t> colours, std::size_t first) {
-    std::fill(seeds.begin(), seeds.end(), 0.0);
-    for (std::size_t k = 0; k < colours.size(); ++k)
-        if (colours[k] >= first && colours[k] - first + 1 < width)
-            seeds[k * width + 1 + colours[k] - first] = 1;
-}
-
 } // namespace
 
 Couplings::Couplings(const System& system, std::size_t mode)
-    : states_(system.states()), jet_(make_jet(system.mode(mode).tape, 1, LaneKind::tangent)) {
-    width_ = static_cast<std::size_t>(jet_->width());
-    units_.resize(states_);
-    seeds_.resize(states_ * width_);
-    parameter_lanes_.assign(system.parameters() * width_, 0.0);
+    : states_(system.states()), system_(system), mode_(mode), units_(states_), row_(states_) {
     find_entries(system.mode(mode).tape);
-    find_colours();
-    seed(seeds_, width_, colours_, 0);
+    find_ways();
+}
+
+Jet& Couplings::jet() {
+    if (!jet_) {
+        const LinearMode& linear = system_.linear(mode_);
+        jet_ = make_jet(linear.tape, 1, LaneKind::single);
+        jet_->set_parameters(parameters_);
+        intermediates_.resize(linear.equations.intermediates);
+    }
+    return *jet_;
 }
 
 void Couplings::find_entries(const Tape& tape) {
@@ -237,44 +205,53 @@ void Couplings::find_constants(const Tape& tape) {
     }
 }
 
-/// Columns of one colour have no row in common. Each takes the first colour that is free.
-void Couplings::find_colours() {
-    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-    colours_.assign(states_, none);
-    std::vector<std::size_t> taken_by;
-    for (std::size_t k = 0; k < states_; ++k) {
-        taken_by.resize(colour_count_, none);
-        for (const std::size_t entry : columns_[k])
-            for (std::size_t e = row_starts_[entries_[entry].row]; e < row_starts_[entries_[entry].row + 1]; ++e)
-                if (const std::size_t colour = colours_[entries_[e].column]; colour != none)
-                    taken_by[colour] = k;
-        const auto free = std::find_if(taken_by.begin(), taken_by.end(), [k](std::size_t by) { return by != k; });
-        colours_[k] = static_cast<std::size_t>(free - taken_by.begin());
-        colour_count_ = std::max(colour_count_, colours_[k] + 1);
-    }
+void Couplings::set_parameters(std::span<const double> parameters) {
+    require_size(parameters.size(), system_.parameters(), "independent parameters");
+    parameters_.assign(parameters.begin(), parameters.end());
+    if (jet_)
+        jet_->set_parameters(parameters_);
 }
 
-void Couplings::set_parameters(std::span<const double> parameters) {
-    require_size(parameters.size() * width_, parameter_lanes_.size(), "independent parameters");
-    for (std::size_t j = 0; j < parameters.size(); ++j)
-        parameter_lanes_[j * width_] = parameters[j];
-    jet_->set_parameters(parameter_lanes_);
+/// Row by row, intermediate quantities first.
+void Couplings::find_strengths() {
+    const TangentEquations& equations = system_.linear(mode_).equations;
+    std::vector<std::size_t> columns; // in which there is something
+    auto entry = equations.entries.begin();
+    const auto add = [&](std::size_t column, double value) {
+        row_[column] += value;
+        columns.push_back(column);
+    };
+    for (std::size_t row = 0; row < intermediates_.size() + states_; ++row) {
+        for (; entry != equations.entries.end() && entry->row == row; ++entry) {
+            const double value = *jet_->follower(entry->follower);
+            if (entry->source < states_)
+                add(entry->source, value);
+            else if (entry->source >= states_ + equations.parameters)
+                for (const Part& part : intermediates_[entry->source - states_ - equations.parameters])
+                    add(part.column, value * part.value);
+        }
+        if (row < intermediates_.size()) {
+            intermediates_[row].clear();
+            for (const std::size_t column : columns)
+                if (const double value = std::exchange(row_[column], 0.0); value != 0)
+                    intermediates_[row].push_back({column, value});
+        } else {
+            const std::size_t state = row - intermediates_.size();
+            for (std::size_t e = row_starts_[state]; e < row_starts_[state + 1]; ++e)
+                entries_[e].strength = std::abs(row_[entries_[e].column]);
+            for (const std::size_t column : columns)
+                row_[column] = 0;
+        }
+        columns.clear();
+    }
 }
 
 void Couplings::measure(std::span<const double> states) {
     require_size(states.size(), states_, "states");
-    const std::size_t lanes = width_ - 1;
-    for (std::size_t first = 0; first < colour_count_; first += lanes) {
-        if (colour_count_ > lanes)
-            seed(seeds_, width_, colours_, first);
-        for (std::size_t k = 0; k < states_; ++k)
-            seeds_[k * width_] = states[k];
-        jet_->begin(seeds_);
-        const std::span<const Series> series = jet_->series();
-        for (Entry& entry : entries_)
-            if (const std::size_t colour = colours_[entry.column]; colour >= first && colour < first + lanes)
-                entry.strength = std::abs(series[entry.row].first[width_ + 1 + colour - first]);
-    }
+    constexpr std::uint32_t groups[] = {LinearMode::by_states};
+    jet().begin(states);
+    jet().begin_followers(groups);
+    find_strengths();
     const bool finite =
         std::all_of(entries_.begin(), entries_.end(), [](const Entry& e) { return std::isfinite(e.strength); });
     if (!finite) {
@@ -371,33 +348,49 @@ double Couplings::largest_row() const {
     return most;
 }
 
-void Couplings::spread(double time, std::span<double> sizes, std::size_t width, std::size_t lanes,
-                       Through through) const {
+/// States are mostly counted along what they are the states of: in turn up and down. What has been passed is raised at
+/// once, so that a chain is gone along in one sweep, however position and speed take turns in it.
+void Couplings::find_ways() {
+    for (const bool up : {true, false}) {
+        std::vector<Pull>& way = ways_[up ? 0 : 1];
+        way.reserve(2 * entries_.size());
+        const auto pull = [&](std::size_t e) {
+            if (entries_[e].row != entries_[e].column)
+                way.push_back({entries_[e].row, entries_[e].column, e});
+        };
+        for (std::size_t n = 0; n < states_; ++n) {
+            const std::size_t i = up ? n : states_ - 1 - n;
+            for (std::size_t e = row_starts_[i]; e < row_starts_[i + 1]; ++e)
+                pull(e);
+            for (const std::size_t e : columns_[i])
+                if (up ? entries_[e].row < i : entries_[e].row > i)
+                    pull(e);
+        }
+    }
+}
+
+void Couplings::spread(double time, std::span<double> sizes, std::size_t width, Through through) const {
     require_size(sizes.size(), states_ * width, "sizes of states");
-    require_index(lanes, width + 1, "number of lanes");
-    // States are mostly counted along what they are the states of: in turn up and down. What has been passed is raised
-    // at once, so that a chain is gone along in one sweep, however position and speed take turns in it.
-    std::vector<Pull> ways[2];
+    const auto sweep = [&]<std::size_t lanes>(const std::vector<Pull>& way) {
+        bool grown = false;
+        for (const Pull& pull : way) {
+            const Entry& entry = entries_[pull.entry];
+            if (through == Through::constant && !entry.constant)
+                continue;
+            double* const to = &sizes[pull.to * width];
+            const double* const from = &sizes[pull.from * width];
+            for (std::size_t l = 0; l < width; l += lanes)
+                grown = raise<lanes>(to + l, from + l, time * entry.strength) || grown;
+        }
+        return grown;
+    };
     bool grown = true;
     for (std::size_t count = 0; count <= states_ && grown; ++count) {
-        const bool up = count % 2 == 0;
-        std::vector<Pull>& way = ways[up ? 0 : 1];
-        if (count < 2) {
-            way.reserve(2 * entries_.size());
-            const auto pull = [&](const Entry& entry) {
-                if (entry.strength > 0 && entry.row != entry.column && (through == Through::all || entry.constant))
-                    way.push_back({entry.row * width, entry.column * width, time * entry.strength});
-            };
-            for (std::size_t n = 0; n < states_; ++n) {
-                const std::size_t i = up ? n : states_ - 1 - n;
-                for (std::size_t e = row_starts_[i]; e < row_starts_[i + 1]; ++e)
-                    pull(entries_[e]);
-                for (const std::size_t e : columns_[i])
-                    if (up ? entries_[e].row < i : entries_[e].row > i)
-                        pull(entries_[e]);
-            }
-        }
-        grown = sweep(way, sizes.data(), lanes);
+        const std::vector<Pull>& way = ways_[count % 2];
+        grown = width % 8 == 0   ? sweep.operator()<8>(way)
+                : width % 4 == 0 ? sweep.operator()<4>(way)
+                : width % 2 == 0 ? sweep.operator()<2>(way)
+                                 : sweep.operator()<1>(way);
     }
 }
 
@@ -408,15 +401,20 @@ void ModeCouplings::set_parameters(std::span<const double> parameters) {
             couplings->set_parameters(parameters_);
 }
 
-const Couplings& ModeCouplings::measured(std::size_t mode, std::span<const double> states) {
+Couplings& ModeCouplings::of(std::size_t mode) {
     require_index(mode, all_.size(), "mode");
     auto& couplings = all_[mode];
     if (!couplings) {
         couplings = std::make_unique<Couplings>(system_, mode);
         couplings->set_parameters(parameters_);
     }
-    couplings->measure(states);
     return *couplings;
+}
+
+const Couplings& ModeCouplings::measured(std::size_t mode, std::span<const double> states) {
+    Couplings& couplings = of(mode);
+    couplings.measure(states);
+    return couplings;
 }
 
 } // namespace graze

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bernstein.hpp"
+#include "number_pair.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -67,6 +68,59 @@ Kept kept_sign(std::span<const double> c, std::size_t first, double length, Fact
 /// The same of the polynomial itself: 1 or -1 where it is so throughout, else 0.
 inline int kept_sign(std::span<const double> c, double length) {
     return kept_sign(c, 0, length, [](double) { return 1; }).sign;
+}
+
+/// The sign at a glance, and the sum of the sizes of all terms.
+struct ClearSign {
+    int sign = 0; ///< 0 also where the sum comes within some hundred times its round-off of zero
+    double size = 0;
+};
+
+/// Of the polynomial, or of its derivative. Only the first terms, 3 to 6, count with their signs; of the others sizes
+/// are summed, four at a time. It is kept short: what is run in every step shares the processor's cache of instructions
+/// with the kernels, which about fill it.
+template <bool derivative>
+ClearSign clear_sign(std::span<const double> c, double length) {
+    constexpr std::size_t block = 4, least_signed = 3, first = derivative ? 1 : 0;
+    if (c.size() < first + least_signed || !(length > 0))
+        return {0, std::numeric_limits<double>::infinity()};
+    const std::size_t behind = c.size() - (c.size() - first - least_signed) / block * block;
+    const double square = length * length, fourth = square * square;
+    NumberPair low{}, high{}, low_orders{}, high_orders{};
+    if constexpr (derivative) {
+        const auto size = static_cast<double>(c.size());
+        low_orders = NumberPair{size, size + 1};
+        high_orders = NumberPair{size + 2, size + 3};
+    }
+    for (const double* some = c.data() + c.size(); some != c.data() + behind;) {
+        some -= block;
+        NumberPair one = absolute(load_pair(some)), other = absolute(load_pair(some + 2));
+        if constexpr (derivative) {
+            low_orders -= static_cast<double>(block);
+            high_orders -= static_cast<double>(block);
+            one *= low_orders;
+            other *= high_orders;
+        }
+        low = low * fourth + one;
+        high = high * fourth + other;
+    }
+    const double sign = std::copysign(1.0, c[first]);
+    double sum = sign * c[first], size = std::abs(sum), power = sign, least = sum;
+    for (std::size_t k = first + 1; k < behind; ++k) {
+        power *= length;
+        const double term = (derivative ? static_cast<double>(k) * c[k] : c[k]) * power;
+        sum += term;
+        size += std::abs(term);
+        least = std::min(least, sum);
+    }
+    const NumberPair both = low + high * square;
+    const double rest = (both[0] + both[1] * length) * std::abs(power * length);
+    size += rest;
+    const double margin = bernstein::unit_roundoff * static_cast<double>(256 + 2 * static_cast<int>(c.size()));
+    // Compared so that what is no number is not clear.
+    if (!(least - rest > margin * size && size < std::numeric_limits<double>::infinity()))
+        return {0, size};
+    return {c[first] > 0 ? 1 : -1, size};
 }
 
 } // namespace graze::roots

@@ -1,5 +1,6 @@
 #include "graze/flow/late_states.hpp"
 
+#include "flow/couplings.hpp"
 #include "graze/flow/step_check.hpp"
 #include "graze/symbolic/require.hpp"
 
@@ -20,6 +21,11 @@ constexpr double worth_beginning = 1.5, worth_going_on = 1.2;
 constexpr double growth = 2;
 
 } // namespace
+
+LateStates::LateStates(const System& system) : system_(system) {}
+LateStates::~LateStates() = default;
+LateStates::LateStates(LateStates&&) noexcept = default;
+LateStates& LateStates::operator=(LateStates&&) noexcept = default;
 
 void LateStates::set_parameters(std::span<const double> parameters) {
     require_size(parameters.size(), system_.parameters(), "independent parameters");
@@ -54,7 +60,7 @@ double LateStates::step(const StepSize& step_size, std::size_t mode, std::span<c
     return step;
 }
 
-/// Of what a state is now, and of what comes to it from others until the end of the step.
+/// The step by what a state is now and by what comes to it from others until its end; 0 where no state can be late.
 double LateStates::with_floors(const StepSize& step_size, std::size_t mode, std::span<const Series> series,
                                double previous) {
     const std::size_t states = system_.states();
@@ -62,6 +68,8 @@ double LateStates::with_floors(const StepSize& step_size, std::size_t mode, std:
         couplings_ = std::make_unique<ModeCouplings>(system_);
         couplings_->set_parameters(parameters_);
     }
+    if (!couplings_->of(mode).push_steadily())
+        return 0; // no state can be late
     state_.resize(states);
     for (std::size_t i = 0; i < states; ++i)
         state_[i] = series[i][0];
@@ -72,7 +80,7 @@ double LateStates::with_floors(const StepSize& step_size, std::size_t mode, std:
         sizes_[i] = step_size.size_of(series[i], previous);
     floors_.assign(series.size(), 0.0);
     std::copy(sizes_.begin(), sizes_.end(), floors_.begin());
-    couplings.spread(time, std::span(floors_).first(states), 1, 1, Couplings::Through::constant);
+    couplings.spread(time, std::span(floors_).first(states), 1, Couplings::Through::constant);
     raised_.clear();
     others_.clear();
     raised_floors_.clear();

@@ -43,10 +43,12 @@ ModeFlow::ModeFlow(const System& system, double tolerance, int order, std::vecto
     : system_(system), free_(std::move(free)), starts_(starts_of(system, std::move(starts))), states_(system.states()),
       directions_(starts_.size() + free_.size()), step_size_(order_of(tolerance, order), tolerance),
       step_check_(system, order_of(tolerance, order), tolerance), late_states_(system),
-      single_(system, order_of(tolerance, order), LaneKind::single),
-      tangents_(system, single_.order(), tolerance, directions_), allowance_{StepCheck::allowance * tolerance,
-                                                                             StepCheck::value_allowance * tolerance,
-                                                                             StepCheck::smallest_size} {
+      jets_(system, order_of(tolerance, order), LaneKind::single),
+      tangents_(system, tolerance, directions_), allowance_{StepCheck::allowance * tolerance,
+                                                            StepCheck::value_allowance * tolerance,
+                                                            StepCheck::smallest_size} {
+    if (directions_ > 0)
+        jets_.add_tangents();
     for (const ParameterId parameter : free_)
         require_index(parameter.place(), system.parameters(), "independent parameter");
     for (const std::size_t state : starts_)
@@ -71,7 +73,7 @@ void ModeFlow::set_parameters(std::span<const double> parameters) {
     require_size(parameters.size(), system_.parameters(), "independent parameters");
     parameters_.resize(parameters.size());
     std::copy(parameters.begin(), parameters.end(), parameters_.begin());
-    single_.set_parameters(parameters_);
+    jets_.set_parameters(parameters_);
     step_check_.set_parameters(parameters_);
     late_states_.set_parameters(parameters_);
     tangents_.set_parameters(parameters_, parameter_seeds_);
@@ -81,8 +83,8 @@ void ModeFlow::set_parameters(std::span<const double> parameters) {
 bool ModeFlow::agrees(std::size_t mode, double length) {
     if (!(length > 0))
         return false;
-    const Jet& jet = single_(mode);
-    Jet& next = single_.next(mode);
+    const Jet& jet = jets_(mode);
+    Jet& next = jets_.next(mode);
     jet.evaluate_states({&length, 1}, sums_, slopes_);
     next.begin(std::span<const double>(sums_).first(states_));
     double disagreement = 0;
@@ -91,14 +93,9 @@ bool ModeFlow::agrees(std::size_t mode, double length) {
     return disagreement <= 0;
 }
 
-bool ModeFlow::agrees_with_tangents(std::size_t mode, double length) {
-    return tangents_.agrees(mode, length, allowance_);
-}
-
 /// Length of the next step, with the sign of what remains: chosen from the series, and believed as far as the model
 /// agrees with them. @param watched events are looked at, whose functions must then be as accurate as the states
-/// @param look tells of most steps that they are right; more is allowed by StepCheck, which is asked about the others
-double ModeFlow::step_of(std::size_t mode, const Jet& jet, double remaining, bool watched, EndLook look) {
+double ModeFlow::step_of(std::size_t mode, const Jet& jet, double remaining, bool watched) {
     const std::span<const Series> all = jet.series(), series = watched ? all : all.first(states_);
     double step = step_size_(series, previous_);
     // A state that starts at almost zero, such as a phase of 1e-18, is no measure of its own changes.
@@ -114,7 +111,8 @@ double ModeFlow::step_of(std::size_t mode, const Jet& jet, double remaining, boo
     guarded_[0] = std::min(step, std::abs(remaining));
     jet.guard_steps(guarded_);
     const double wanted = std::copysign(guarded_[0], remaining);
-    const double longest = !leap && (this->*look)(mode, wanted)
+    // Of most steps that tells that they are right; more is allowed by StepCheck, which is asked about the others.
+    const double longest = !leap && agrees(mode, wanted)
                                ? guarded_[0]
                                : std::abs(step_check_.longest(mode, series, wanted, leap, late_states_.floors()));
     if (longest < std::min(step, std::abs(remaining)))
@@ -134,9 +132,9 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
     for (std::size_t count = 0; remaining != 0; ++count) {
         if (count >= most_steps)
             return Ending::too_long;
-        const Jet& jet = single_.computed(mode, state);
+        const Jet& jet = jets_.computed(mode, state);
         seen_ = 0;
-        const double step = step_of(mode, jet, remaining, static_cast<bool>(visit), &ModeFlow::agrees);
+        const double step = step_of(mode, jet, remaining, static_cast<bool>(visit));
         if (std::isnan(step))
             return Ending::undefined;
         if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining)
@@ -187,15 +185,17 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
     for (std::size_t count = 0; remaining != 0; ++count) {
         if (count >= most_steps)
             return Ending::too_long;
-        const Jet& jet = tangents_.begin(mode, state, matrix_);
-        const double wanted = step_of(mode, jet, remaining, looks, &ModeFlow::agrees_with_tangents);
+        Jet& jet = jets_.computed(mode, state);
+        seen_ = 0;
+        const double wanted = step_of(mode, jet, remaining, looks);
         if (std::isnan(wanted))
             return Ending::undefined;
         if (looks)
             watched->note(jet);
-        const double step = tangents_.carry(mode, state, matrix_, wanted, next_);
-        if (step == 0 && wanted != 0)
-            return Ending::too_long;
+        tangents_.begin(jet, mode, state, matrix_);
+        const std::span<const double> end =
+            seen_ == wanted ? std::span<const double>(sums_).first(states_) : std::span<const double>{};
+        const double step = tangents_.carry(jets_.next(mode), wanted, next_, end);
         if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining)
             return Ending::singular;
         std::copy(tangents_.state().begin(), tangents_.state().end(), state.begin());

@@ -1,6 +1,7 @@
 #include "root_tracker.hpp"
 
 #include "bernstein.hpp"
+#include "number_pair.hpp"
 
 #include <cmath>
 
@@ -14,35 +15,50 @@ constexpr int refinement_steps = 200;
 
 } // namespace
 
-// Even and odd terms side by side, by powers of the square: p(s) = e(s^2) + s o(s^2).
-PointValue evaluate(std::span<const double> c, double s) {
+namespace {
+
+/// Even and odd terms side by side, by powers of the square: p(s) = e(s^2) + s o(s^2).
+/// @param with_errors whether bounds on errors are wanted, too: where it is left out they are 0
+template <bool with_errors>
+PointValue evaluate_in_pairs(std::span<const double> c, double s) {
     const double square = s * s;
-    double value[2] = {0, 0}, slope[2] = {0, 0}, size[2] = {0, 0}, size_slope[2] = {0, 0};
+    NumberPair value{}, slope{}, size{}, size_slope{};
     std::size_t k = c.size();
     if (k % 2 == 1) {
-        value[0] = c[--k];
-        size[0] = std::abs(value[0]);
+        value = NumberPair{c[--k], 0};
+        size = absolute(value);
     }
-    for (const double* pair = c.data() + k; pair != c.data();) {
-        pair -= 2;
-        for (std::size_t j = 0; j < 2; ++j) {
-            slope[j] = slope[j] * square + value[j];
-            value[j] = value[j] * square + pair[j];
-            size_slope[j] = size_slope[j] * square + size[j];
-            size[j] = size[j] * square + std::abs(pair[j]);
-        }
+    for (const double* at = c.data() + k; at != c.data();) {
+        at -= 2;
+        const NumberPair pair = load_pair(at);
+        slope = slope * square + value;
+        value = value * square + pair;
+        if constexpr (with_errors)
+            size_slope = size_slope * square + size;
+        size = size * square + absolute(pair);
     }
-    const double degree = static_cast<double>(c.size()), all = size[0] + s * size[1],
-                 all_slopes = size[1] + 2 * s * (size_slope[0] + s * size_slope[1]);
-    return {value[0] + s * value[1], value[1] + 2 * s * (slope[0] + s * slope[1]), all,
-            unit_roundoff * (4 * all + 2 * s * all_slopes), unit_roundoff * (2 * degree + 4) * all_slopes};
+    const double all = size[0] + s * size[1];
+    PointValue point{value[0] + s * value[1], value[1] + 2 * s * (slope[0] + s * slope[1]), all, 0, 0};
+    if constexpr (with_errors) {
+        const double degree = static_cast<double>(c.size()),
+                     all_slopes = size[1] + 2 * s * (size_slope[0] + s * size_slope[1]);
+        point.value_error = unit_roundoff * (4 * all + 2 * s * all_slopes);
+        point.slope_error = unit_roundoff * (2 * degree + 4) * all_slopes;
+    }
+    return point;
+}
+
+} // namespace
+
+PointValue evaluate(std::span<const double> c, double s) {
+    return evaluate_in_pairs<true>(c, s);
 }
 
 double refine(std::span<const double> c, double low, double high, int sign_low, double guess) {
     double s = guess > low && guess < high ? guess : 0.5 * (low + high);
     double last_step = high - low;
     for (int i = 0; i < refinement_steps; ++i) {
-        const PointValue point = evaluate(c, s);
+        const PointValue point = evaluate_in_pairs<false>(c, s);
         const double newton = s - point.value / point.slope;
         const bool inside = newton > low && newton < high;
         if (std::abs(point.value) <= unit_roundoff * point.size) // a longer step would be led by round-off

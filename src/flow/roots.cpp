@@ -1,6 +1,8 @@
 #include "graze/flow/roots.hpp"
 
 #include "flow/kept_sign.hpp"
+#include "flow/lone_crossing.hpp"
+#include "flow/number_pair.hpp"
 #include "graze/symbolic/input_error.hpp"
 #include "root_isolation.hpp"
 
@@ -50,13 +52,6 @@ double least_around(const PointValue& point, double bend, double left, double ri
     const double fall = std::max(fall_beyond(point.slope_error + point.slope, bend, left),
                                  fall_beyond(point.slope_error - point.slope, bend, right));
     return point.value - point.value_error - fall;
-}
-
-/// Of a polynomial that rises or falls from start to end, where it passes zero if its inverse is the cubic that has its
-/// slopes.
-double guess_of_monotone(std::span<const double> c, double length, const PointValue& end) {
-    const double change = end.value - c[0], t = -c[0] / change, rest = 1 - t;
-    return t * t * (3 - 2 * t) * length + change * t * rest * (rest / c[1] - t / end.slope);
 }
 
 } // namespace
@@ -143,7 +138,7 @@ std::optional<bool> RootFinder::falls_once_or_never(std::span<const double> c, d
         if (lowest.sign() >= 0)
             return std::nullopt;
     }
-    const double guess = way < 0 ? guess_of_monotone(c, length, end) : -c[0] / c[1];
+    const double guess = way < 0 ? roots::guess_of_monotone(c, length, end) : -c[0] / c[1];
     at = roots::refine(c, 0, at, 1, guess);
     root = {RootKind::falling, at, evaluate_polynomial(c, at)};
     return true;
@@ -189,23 +184,14 @@ void RootFinder::crossings(std::span<const double> c, double length, RootStart s
             restore_start(c, length, root);
 }
 
-/// Most polynomials rise or fall throughout, or keep their sign, as one pass shows.
-/// @return whether it has, and `roots` has the crossing if there is one
+/// @return whether it has no more than one crossing, as one pass shows, and `roots` has it
 bool RootFinder::crosses_once_or_never(std::span<const double> c, double length, std::vector<Root>& roots) {
-    if (c.empty() || c[0] == 0 || !(length > 0) || !(length < infinity))
-        return false;
-    const int at_start = c[0] > 0 ? 1 : -1;
-    const PointValue end = evaluate(c, length);
-    const int at_end = end.sign();
-    if (at_end == at_start && roots::kept_sign(c, length) == at_start)
-        return true;
-    if (at_end == 0 || trend(c, length) == 0)
-        return false;
-    if (at_end == at_start)
-        return true;
-    const double at = roots::refine(c, 0, length, at_start, guess_of_monotone(c, length, end));
-    roots.push_back({at_start > 0 ? RootKind::falling : RootKind::rising, at, evaluate_polynomial(c, at)});
-    return true;
+    const std::optional<roots::LoneCrossing> lone = roots::lone_crossing(c, length);
+    if (lone && lone->crosses) {
+        const double at = lone->place(c, length);
+        roots.push_back({lone->at_start > 0 ? RootKind::falling : RootKind::rising, at, evaluate_polynomial(c, at)});
+    }
+    return lone.has_value();
 }
 
 /// The least value of polynomials that rise or fall throughout, or bend to one side. @return whether this one does
@@ -268,8 +254,24 @@ double sum_in_parts(std::size_t size, double s, Coefficient c) {
 
 } // namespace
 
+/// The same sums, of which two are made side by side.
 double evaluate_polynomial(std::span<const double> c, double s) {
-    return sum_in_parts(c.size(), s, [c](std::size_t k) { return c[k]; });
+    const double square = s * s, step = square * square;
+    const std::size_t rest = c.size() % 4;
+    const double* at = c.data() + (c.size() - rest);
+    NumberPair low{}, high{};
+    if (rest == 1)
+        low = NumberPair{at[0], 0};
+    else if (rest > 1)
+        low = load_pair(at);
+    if (rest == 3)
+        high = NumberPair{at[2], 0};
+    while (at != c.data()) {
+        at -= 4;
+        low = low * step + load_pair(at);
+        high = high * step + load_pair(at + 2);
+    }
+    return (low[0] + low[1] * s) + (high[0] + high[1] * s) * square;
 }
 
 double evaluate_polynomial(const Series& c, std::size_t size, double s) {

@@ -1,6 +1,7 @@
 #include "graze/flow/system.hpp"
 
 #include "flow/section_function.hpp"
+#include "graze/symbolic/linearisation.hpp"
 #include "graze/symbolic/transform.hpp"
 #include "model/model_expand.hpp"
 #include "model/model_expressions.hpp"
@@ -8,6 +9,8 @@
 
 #include <algorithm>
 #include <map>
+#include <mutex>
+#include <optional>
 #include <utility>
 
 namespace graze {
@@ -36,6 +39,8 @@ public:
     std::vector<System::CompiledMode> compile_modes();
     /// The tapes of modes that are compiled already, anew for what is observed as well.
     void observe(std::vector<System::CompiledMode>& modes, std::span<const Expression> observed);
+    LinearMode linearise(const System& system, std::size_t mode, std::span<const Expression> observed);
+    std::vector<Expression> expanded(std::span<const Expression> expressions) { return expander_.expand(expressions); }
 
     Function function_of(std::span<const Expression> outputs) { return compile(inputs_, expander_.expand(outputs)); }
     Function function_of_parameters(std::span<const Expression> outputs) {
@@ -78,6 +83,16 @@ private:
     std::size_t workspace_ = 0, operations_ = 0;
 };
 
+/// What is compiled once it is needed.
+struct System::LinearModes {
+    struct Item {
+        std::once_flag compiled;
+        std::optional<LinearMode> mode;
+    };
+    explicit LinearModes(std::size_t modes) : items(modes) {}
+    std::vector<Item> items;
+};
+
 System::System(const Model& model) {
     auto parts = std::make_shared<Parts>();
     parts->model = model;
@@ -87,6 +102,7 @@ System::System(const Model& model) {
     SystemCompiler compiler(parts->model);
     compiler.compile(*parts);
     modes_ = std::make_shared<const std::vector<CompiledMode>>(compiler.compile_modes());
+    linear_ = std::make_shared<LinearModes>(modes_->size());
     workspace_ = compiler.workspace();
     operations_ = compiler.operations();
     parts->model.freeze();
@@ -99,10 +115,18 @@ System System::with_tapes(std::vector<CompiledMode> modes, std::span<const Expre
     SystemCompiler compiler(model());
     compiler.observe(modes, observed);
     result.modes_ = std::make_shared<const std::vector<CompiledMode>>(std::move(modes));
-    result.observed_ = observed.size();
+    result.linear_ = std::make_shared<LinearModes>(result.modes_->size());
+    result.observed_ = compiler.expanded(observed);
     result.workspace_ = std::max(workspace_, compiler.workspace());
     result.operations_ += compiler.operations();
     return result;
+}
+
+const LinearMode& System::linear(std::size_t mode) const {
+    require_index(mode, modes_->size(), "mode");
+    LinearModes::Item& item = linear_->items[mode];
+    std::call_once(item.compiled, [&] { item.mode = SystemCompiler(model()).linearise(*this, mode, observed_); });
+    return *item.mode;
 }
 
 System System::observing(std::span<const Expression> expressions) const {
@@ -234,6 +258,30 @@ void SystemCompiler::observe(std::vector<System::CompiledMode>& modes, std::span
         outputs.insert(outputs.end(), more.begin(), more.end());
         compile_tape(modes[m], expander_.expand(model_.modes[m].rates), outputs);
     }
+}
+
+LinearMode SystemCompiler::linearise(const System& system, std::size_t mode, std::span<const Expression> observed) {
+    const std::vector<Expression> rates = expander_.expand(model_.modes[mode].rates),
+                                  events = watched_functions(system.mode(mode)), more = expander_.expand(observed);
+    std::vector<Expression> outputs = events;
+    outputs.insert(outputs.end(), more.begin(), more.end());
+    const std::size_t states = states_.size();
+    LinearMode linear;
+    std::vector<TapeFollower> followers;
+    const auto add = [&](std::vector<TangentEntry>& entries, std::size_t row, std::size_t source, Expression value,
+                         std::uint32_t group) {
+        const bool by_parameter = source >= states && source < inputs_.size();
+        entries.push_back({row, source, followers.size()});
+        followers.push_back({std::move(value), by_parameter ? LinearMode::by_parameter(source - states) : group});
+    };
+    Linearisation linearisation = graze::linearise(rates, inputs_, states);
+    linear.equations = {states, parameters_.size(), linearisation.intermediates, {}};
+    for (LinearEntry& entry : linearisation.entries)
+        add(linear.equations.entries, entry.row, entry.source, std::move(entry.coefficient), LinearMode::by_states);
+    for (JacobianEntry& entry : sparse_jacobian(events, inputs_))
+        add(linear.events, entry.row, entry.column, std::move(entry.value), LinearMode::of_events);
+    linear.tape = graze::compile_tape(states_.symbols(), parameters_.symbols(), rates, outputs, followers);
+    return linear;
 }
 
 void SystemCompiler::compile_tape(System::CompiledMode& compiled, const std::vector<Expression>& rates,

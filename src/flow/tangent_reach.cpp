@@ -1,4 +1,4 @@
-#include "graze/flow/tangent_reach.hpp"
+#include "flow/tangent_reach.hpp"
 
 #include "graze/flow/step_check.hpp"
 #include "graze/symbolic/require.hpp"
@@ -15,20 +15,20 @@ namespace {
 /// Share of a step that derivatives are content with before other sizes than their own are asked for.
 constexpr double little_shorter = 0.8;
 
-/// Excess of rates over what is allowed from which on floors are worth asking for: so much is what a step of that share
-/// would take away.
-double worth_floors(int order) {
-    double excess = 1;
-    for (int k = 0; k < order; ++k)
-        excess /= little_shorter;
-    return excess;
-}
+/// What is left over of a step takes as much work as the step did. Tails that would take away less than this share are
+/// let be: at the end of the step it is seen whether derivatives are right.
+constexpr double worth_a_part = 0.9;
 
-void require_lanes(const Jet& jet, std::size_t states, std::size_t count) {
-    require_index(count, static_cast<std::size_t>(jet.width()), "number of derivatives");
-    if (states > 0)
-        static_cast<void>(jet.state(states - 1)); // which there must be
-}
+/// Excess of rates over what is allowed from which on floors are worth asking for, for each order: so much is what a
+/// step of that share would take away.
+struct FloorsWorth {
+    double of[highest_order + 1] = {1};
+    constexpr FloorsWorth() {
+        for (int k = 1; k <= highest_order; ++k)
+            of[k] = of[k - 1] / little_shorter;
+    }
+};
+constexpr FloorsWorth floors_worth;
 
 /// Size of a series whose first three terms are zero.
 double size_of_all(const double* c, std::size_t width, std::size_t order, double step) {
@@ -42,19 +42,13 @@ double size_of_all(const double* c, std::size_t width, std::size_t order, double
 /// step.
 class Misfit {
 public:
-    Misfit(const Jet& jet, Jet& next, std::size_t states, std::size_t count, double tolerance, std::span<double> times,
-           std::span<double> sums, std::span<double> slopes)
-        : jet_(jet), next_(next), states_(states), count_(count), order_(static_cast<std::size_t>(jet.order())),
-          width_(static_cast<std::size_t>(jet.width())), tolerance_(tolerance), times_(times), sums_(sums),
-          slopes_(slopes) {}
+    Misfit(const TangentPlaces& places, double tolerance)
+        : places_(places), order_(static_cast<std::size_t>(places.here.order())), width_(places.here.width()),
+          tolerance_(tolerance) {}
 
     /// The largest, in units of what is allowed; or, where that is so much that it no longer matters by how much, any.
     double after(double step, double enough = std::numeric_limits<double>::infinity()) {
-        evaluate(step);
-        return here(step, enough);
-    }
-    /// The same where what is there has been evaluated.
-    double here(double step, double enough = std::numeric_limits<double>::infinity()) const {
+        places_.look(step);
         return compare(step, enough);
     }
     /// The same as before, where floors allow more.
@@ -69,20 +63,13 @@ public:
 private:
     double compare(double step, double enough) const;
     double excess(std::size_t i, std::size_t lane, double apart, double size, double length) const;
-    void evaluate(double step) {
-        std::fill(times_.begin(), times_.end(), step);
-        jet_.evaluate_states(times_, sums_, slopes_);
-        next_.begin(sums_);
-    }
     double difference(std::size_t i, std::size_t l) const {
-        return std::abs(slopes_[i * width_ + l + 1] - next_.state(i)[width_ + 1 + l]);
+        return std::abs(places_.slopes[i * width_ + l] - places_.there.state(i)[width_ + l]);
     }
 
-    const Jet& jet_;
-    Jet& next_;
-    std::size_t states_, count_, order_, width_;
+    const TangentPlaces& places_;
+    std::size_t order_, width_;
     double tolerance_;
-    std::span<double> times_, sums_, slopes_;
     std::span<const double> floors_;
     std::vector<double> noise_; ///< of rates, states x count; none before it is measured
 };
@@ -90,14 +77,13 @@ private:
 double Misfit::compare(double step, double enough) const {
     const double length = std::abs(step);
     const EndAllowance allowed{StepCheck::allowance * tolerance_, 0, StepCheck::smallest_size};
-    const std::span<const Series> here = jet_.series(), there = next_.series();
     double most = 0;
     std::size_t i = 0;
-    while (most <= enough &&
-           (i = jet_.find_tangent_misfit(next_, allowed, states_, count_, length, sums_, slopes_, i)) < states_) {
-        const double *c = here[i].first, *rates = there[i].first + width_;
-        const double *ends = &sums_[i * width_], *slopes = &slopes_[i * width_];
-        for (std::size_t l = 1; l <= count_; ++l) {
+    while (most <= enough && (i = places_.here.find_misfit(places_.there, allowed, length, places_.sums, places_.slopes,
+                                                           i)) < places_.states) {
+        const double *c = places_.here.state(i), *rates = places_.there.state(i) + width_;
+        const double *ends = &places_.sums[i * width_], *slopes = &places_.slopes[i * width_];
+        for (std::size_t l = 0; l < places_.count; ++l) {
             const double apart = length * std::abs(slopes[l] - rates[l]),
                          size = StepCheck::size_over(c[l], c[width_ + l], ends[l], rates[l], length);
             if (!(apart <= allowed.rates * size))
@@ -108,15 +94,15 @@ double Misfit::compare(double step, double enough) const {
     return most;
 }
 
-/// A difference in units of what is allowed, where it exceeds what the ends of the step allow. @param lane of the jet
+/// A difference in units of what is allowed, where it exceeds what the ends of the step allow.
 double Misfit::excess(std::size_t i, std::size_t lane, double apart, double size, double length) const {
     if (!floors_.empty()) {
         size = std::max(size, floors_[i * width_ + lane]);
         if (apart <= StepCheck::allowance * tolerance_ * size)
             return 0;
     }
-    size = std::max(size, size_of_all(jet_.series()[i].first + lane, width_, order_, length));
-    const double noise = noise_.empty() ? 0 : length * noise_[i * count_ + lane - 1],
+    size = std::max(size, size_of_all(places_.here.state(i) + lane, width_, order_, length));
+    const double noise = noise_.empty() ? 0 : length * noise_[i * places_.count + lane],
                  ratio = apart / ((StepCheck::allowance * tolerance_ + TangentCheck::round_off) * size + noise);
     return std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio;
 }
@@ -125,27 +111,26 @@ double Misfit::excess(std::size_t i, std::size_t lane, double apart, double size
 /// cancel, such as those of a coupling that a symmetry makes zero, beside which nothing shows how large they are.
 void Misfit::measure_noise(double step, std::span<const double> known) {
     constexpr double near = 0x1p-24, spread = 100; // what is random is small now and then
-    noise_.assign(states_ * count_, 0.0);
-    for (std::size_t i = 0; i < states_ && !known.empty(); ++i)
-        std::copy_n(&known[i * width_ + 1], count_, &noise_[i * count_]);
+    const std::size_t count = places_.count;
+    noise_.assign(places_.states * count, 0.0);
+    for (std::size_t i = 0; i < places_.states && !known.empty(); ++i)
+        std::copy_n(&known[i * width_], count, &noise_[i * count]);
     for (const double share : {near, 1.7 * near, 3.1 * near}) {
-        evaluate(share * step);
-        for (std::size_t i = 0; i < states_; ++i)
-            for (std::size_t l = 0; l < count_; ++l)
+        places_.look(share * step);
+        for (std::size_t i = 0; i < places_.states; ++i)
+            for (std::size_t l = 0; l < count; ++l)
                 if (const double noise = spread * difference(i, l); std::isfinite(noise))
-                    noise_[i * count_ + l] = std::max(noise_[i * count_ + l], noise);
+                    noise_[i * count + l] = std::max(noise_[i * count + l], noise);
     }
 }
 
 } // namespace
 
-double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, double tolerance, double step,
-                     const TangentFloors& floors) {
-    require_lanes(jet, states, count);
-    const double root = 1.0 / (jet.order() - 1);
-    double reach = step, worst = jet.tangent_tails(states, count, reach, {});
+double tangent_reach(const TangentSeries& series, double tolerance, double step, const TangentFloors& floors) {
+    double reach = step, worst = series.tails(reach, {});
     if (!(worst > tolerance))
         return step;
+    const double root = 1.0 / (series.order() - 1);
     // Sizes shrink with the step: a few rounds, each of which aims at a little less than what is allowed.
     constexpr double aim = 0.98;
     const auto shorten = [&](std::span<const double> least, double shortest) {
@@ -153,41 +138,28 @@ double tangent_reach(const Jet& jet, std::size_t states, std::size_t count, doub
             reach *= std::pow(aim * tolerance / worst, root);
             if (reach < shortest)
                 return;
-            worst = jet.tangent_tails(states, count, reach, least);
+            worst = series.tails(reach, least);
         }
     };
-    shorten({}, floors ? little_shorter * step : 0); // below, other sizes decide
-    if (floors && !(reach >= little_shorter * step)) {
+    shorten({}, little_shorter * step); // below, other sizes decide
+    if (!(reach >= little_shorter * step)) {
         const std::span<const double> least = floors();
-        require_room(least.size(), states * static_cast<std::size_t>(jet.width()), "floors of derivatives");
         reach = step;
-        worst = jet.tangent_tails(states, count, reach, least);
+        worst = series.tails(reach, least);
         shorten(least, 0);
     }
-    return std::isfinite(reach) && reach > 0 ? reach : step;
+    return std::isfinite(reach) && reach > 0 && reach < worth_a_part * step ? reach : step;
 }
 
-double follow_tangents(const Jet& jet, Jet& next, std::size_t states, std::size_t count, double tolerance, double step,
-                       std::span<double> times, std::span<double> sums, std::span<double> slopes,
-                       const TangentFloors& floors, const TangentFloors& noise, bool seen) {
-    require_lanes(jet, states, count);
-    require_room(times.size(), static_cast<std::size_t>(jet.width()), "times");
+double follow_tangents(const TangentPlaces& places, double tolerance, double step, const TangentFloors& floors,
+                       const TangentFloors& noise) {
     constexpr int most_halvings = TangentCheck::most_halvings;
-    Misfit misfit(jet, next, states, count, tolerance, times, sums, slopes);
-    const double much = floors ? worth_floors(jet.order()) : std::numeric_limits<double>::infinity();
-    const double most = seen ? misfit.here(step, much) : misfit.after(step, much);
-    if (most <= 1)
+    Misfit misfit(places, tolerance);
+    const double much = floors_worth.of[places.here.order()];
+    const double most = misfit.after(step, much);
+    if (most <= 1 || (most > much && misfit.above(floors(), step) <= 1))
         return step;
-    if (floors && most > much) {
-        const std::span<const double> least = floors();
-        require_room(least.size(), states * static_cast<std::size_t>(jet.width()), "floors of derivatives");
-        if (misfit.above(least, step) <= 1)
-            return step;
-    }
-    const std::span<const double> known = noise ? noise() : std::span<const double>{};
-    if (noise)
-        require_room(known.size(), states * static_cast<std::size_t>(jet.width()), "round-off of rates");
-    misfit.measure_noise(step, known);
+    misfit.measure_noise(step, noise());
     double part = step, first = 0;
     for (int halving = 0; halving <= most_halvings; ++halving, part *= 0.5) {
         const double here = misfit.after(part);

@@ -1,181 +1,235 @@
 #include "graze/flow/tangent_steps.hpp"
 
-#include "graze/flow/tangent_reach.hpp"
+#include "flow/couplings.hpp"
+#include "flow/tangent_reach.hpp"
 #include "graze/symbolic/require.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
 namespace graze {
 
-TangentSteps::TangentSteps(const System& system, int order, double tolerance, std::size_t directions)
-    : system_(system), states_(system.states()), directions_(directions), tolerance_(allowance * tolerance),
-      jets_(system, order, LaneKind::tangent), lanes_(static_cast<std::size_t>(jets_.width()) - 1), couplings_(system) {
-    const std::size_t width = lanes_ + 1;
-    parameter_lanes_.resize(system.parameters() * width);
-    seeds_.resize(states_ * width);
-    sums_.resize(std::max<std::size_t>(states_, 1) * width);
-    slopes_.resize(sums_.size());
-    times_.resize(width);
-    disagreement_.resize(width);
-    state_.resize(states_);
-    floors_.resize(states_ * width);
-    noise_.resize(floors_.size());
+std::size_t TangentSteps::together(std::size_t directions) {
+    return static_cast<std::size_t>(tangent_kernels(directions, best_instruction_set()).width);
 }
+
+TangentSteps::TangentSteps(const System& system, double tolerance, std::size_t directions)
+    : system_(system), states_(system.states()), directions_(directions), tolerance_(allowance * tolerance),
+      moving_(system.parameters(), 0), lanes_(system.model().modes.size()), state_(states_),
+      couplings_(std::make_unique<ModeCouplings>(system)) {}
+
+TangentSteps::~TangentSteps() = default;
+TangentSteps::TangentSteps(TangentSteps&&) noexcept = default;
+TangentSteps& TangentSteps::operator=(TangentSteps&&) noexcept = default;
 
 void TangentSteps::set_parameters(std::span<const double> parameters, std::span<const double> seeds) {
     require_size(parameters.size(), system_.parameters(), "independent parameters");
     require_size(seeds.size(), parameters.size() * directions_, "directions of parameters");
     parameters_.assign(parameters.begin(), parameters.end());
     parameter_seeds_.assign(seeds.begin(), seeds.end());
-    parameters_move_ = std::any_of(seeds.begin(), seeds.end(), [](double seed) { return seed != 0; });
-    const std::size_t width = lanes_ + 1;
-    std::fill(parameter_lanes_.begin(), parameter_lanes_.end(), 0.0);
+    couplings_->set_parameters(parameters_);
+    std::vector<char> moving(parameters.size(), 0);
+    groups_ = {LinearMode::by_states};
     for (std::size_t j = 0; j < parameters.size(); ++j) {
-        parameter_lanes_[j * width] = parameters[j];
-        if (directions_ <= lanes_)
-            std::copy_n(seeds.begin() + static_cast<std::ptrdiff_t>(j * directions_), directions_,
-                        parameter_lanes_.begin() + static_cast<std::ptrdiff_t>(j * width + 1));
+        const auto row = seeds.subspan(j * directions_, directions_);
+        if (std::all_of(row.begin(), row.end(), [](double seed) { return seed == 0; }))
+            continue;
+        moving[j] = 1;
+        groups_.push_back(LinearMode::by_parameter(j));
     }
-    jets_.set_parameters(parameter_lanes_);
-    couplings_.set_parameters(parameters_);
+    if (moving != moving_) {
+        moving_ = std::move(moving);
+        for (Lanes& lanes : lanes_)
+            lanes = {};
+    }
+    jet_ = nullptr;
 }
 
-/// Where all directions fit into a jet, and where none changes a parameter, jets have them already.
-void TangentSteps::load_parameters(std::size_t mode, std::size_t first) {
-    if (directions_ <= lanes_ || !parameters_move_)
-        return;
-    const std::size_t width = lanes_ + 1, count = count_from(first);
-    for (std::size_t j = 0; j < parameters_.size(); ++j)
-        for (std::size_t l = 0; l < lanes_; ++l)
-            parameter_lanes_[j * width + 1 + l] = l < count ? parameter_seeds_[j * directions_ + first + l] : 0.0;
-    jets_.set_parameters(mode, parameter_lanes_);
+TangentSteps::Lanes& TangentSteps::lanes_of_mode() {
+    Lanes& lanes = lanes_[mode_];
+    if (!lanes.here) {
+        const LinearMode& linear = system_.linear(mode_);
+        for (auto* series : {&lanes.here, &lanes.there})
+            *series = std::make_unique<TangentSeries>(linear.tape, linear.equations, *jet_, moving_, directions_);
+        sums_.resize(states_ * lanes.here->width());
+        slopes_.resize(sums_.size());
+        floors_.resize(sums_.size());
+        noise_.resize(sums_.size());
+    }
+    return lanes;
 }
 
-const Jet& TangentSteps::begin(std::size_t mode, std::span<const double> state, std::span<const double> matrix,
-                               std::size_t first) {
+void TangentSteps::begin(Jet& jet, std::size_t mode, std::span<const double> state, std::span<const double> matrix) {
+    require_index(mode, lanes_.size(), "mode");
     require_size(state.size(), states_, "states");
     require_size(matrix.size(), states_ * directions_, "derivatives");
-    require_index(first, directions_, "direction");
-    load_parameters(mode, first);
-    seen_ = 0;
-    const std::size_t width = lanes_ + 1, count = count_from(first);
-    for (std::size_t i = 0; i < states_; ++i) {
-        seeds_[i * width] = state[i];
-        for (std::size_t l = 0; l < lanes_; ++l)
-            seeds_[i * width + 1 + l] = l < count ? matrix[i * directions_ + first + l] : 0.0;
-    }
-    return jets_.computed(mode, seeds_);
+    require_index(0, directions_, "direction");
+    require_size(jet.followers(), system_.linear(mode).tape.followers.size(), "followers of a jet");
+    jet_ = &jet;
+    mode_ = mode;
+    place_ = state;
+    matrix_ = matrix;
+    measured_ = nullptr;
+    loaded_ = false;
+    jet.follow(groups_);
 }
 
-bool TangentSteps::agrees(std::size_t mode, double length, const EndAllowance& allowed) {
-    if (!(length > 0))
-        return false;
-    const Jet& jet = jets_(mode);
-    Jet& next = jets_.next(mode);
-    std::fill(times_.begin(), times_.end(), length);
-    jet.evaluate_states(times_, sums_, slopes_);
-    next.begin(std::span<const double>(sums_).first(states_ * (lanes_ + 1)));
-    jet.find_disagreement(next, allowed, times_, sums_, slopes_, disagreement_);
-    seen_ = length;
-    return disagreement_[0] <= 0;
+/// Computes the series of some directions, from one on.
+void TangentSteps::load(std::size_t first) {
+    TangentSeries& here = *lanes_of_mode().here;
+    if (loaded_ && first_ == first)
+        return;
+    here.load(matrix_, parameter_seeds_, directions_, first, std::min(here.width(), directions_ - first));
+    here.compute(*jet_);
+    first_ = first;
+    loaded_ = true;
 }
 
 /// Measured where the step begins, once it is asked for.
-const Couplings& TangentSteps::couplings_here(std::size_t mode) {
+const Couplings& TangentSteps::couplings_here() {
     if (measured_ == nullptr)
-        measured_ = &couplings_.measured(mode, place_);
+        measured_ = &couplings_->measured(mode_, place_);
     return *measured_;
 }
 
 /// To what each component may be brought by the others, from where all are now.
-std::span<const double> TangentSteps::floors_of(const Jet& jet, std::size_t mode, std::size_t count, double length) {
-    const Couplings& couplings = couplings_here(mode);
-    const std::size_t width = lanes_ + 1;
+std::span<const double> TangentSteps::floors(double length) {
+    const Couplings& couplings = couplings_here();
+    const TangentSeries& here = *lanes_[mode_].here;
+    const std::size_t width = here.width();
     const double time = std::min(std::abs(length), couplings.response_time());
-    const std::span<const Series> series = jet.series();
-    for (std::size_t i = 0; i < states_; ++i) {
-        const double* c = series[i].first;
-        for (std::size_t l = 0; l < width; ++l)
-            floors_[i * width + l] =
-                std::abs(c[l]) + time * (std::abs(c[width + l]) + time * std::abs(c[2 * width + l]));
-    }
-    // The first lane is that of the value.
-    couplings.spread(time, floors_, width, count + 1);
+    const std::size_t terms = static_cast<std::size_t>(std::min(here.order(), 2));
+    for (std::size_t i = 0; i < states_; ++i)
+        for (std::size_t l = 0; l < width; ++l) {
+            const double* c = here.state(i) + l;
+            double size = 0;
+            for (std::size_t k = terms + 1; k-- > 0;)
+                size = size * time + std::abs(c[k * width]);
+            floors_[i * width + l] = size;
+        }
+    couplings.spread(time, floors_, width);
     return floors_;
 }
 
 /// What round-off may make of a direction's rates: the terms of which each is the sum are as large as the strongest
 /// coupling makes them of the direction's largest component, in the units of the couplings, but may cancel.
-std::span<const double> TangentSteps::noise_of(const Jet& jet, std::size_t mode, std::size_t count) {
+std::span<const double> TangentSteps::noise() {
     constexpr double round_off = 100 * 0x1p-53; // of a sum of some terms, and now and then more
-    const Couplings& couplings = couplings_here(mode);
+    const Couplings& couplings = couplings_here();
+    const TangentSeries& here = *lanes_[mode_].here;
     const double rate = couplings.response_time() > 0 ? round_off / couplings.response_time() : 0;
     const std::span<const double> units = couplings.units();
-    const std::span<const Series> series = jet.series();
-    const std::size_t width = lanes_ + 1;
+    const std::size_t width = here.width(), count = std::min(width, directions_ - first_);
     std::fill(noise_.begin(), noise_.end(), 0.0);
-    for (std::size_t l = 1; l <= count; ++l) {
+    for (std::size_t l = 0; l < count; ++l) {
         double largest = 0;
         for (std::size_t i = 0; i < states_; ++i)
-            largest = std::max(largest, std::abs(series[i].first[l]) / units[i]);
+            largest = std::max(largest, std::abs(here.state(i)[l]) / units[i]);
         for (std::size_t i = 0; i < states_; ++i)
             noise_[i * width + l] = rate * largest * units[i];
     }
     return noise_;
 }
 
-/// Follows a jet's series for a step or a part of it. @param seen whether what is at its end has been evaluated
-/// @return how far; what is there is in `sums_`
-double TangentSteps::follow(const Jet& jet, std::size_t mode, std::size_t first, double length, bool seen) {
-    const std::size_t count = count_from(first);
+/// What follows the motion begins at the end of a step, where `state_` is.
+void TangentSteps::begin_end(Jet& next, double step) {
+    next.begin(state_);
+    next.begin_followers(groups_);
+    at_ = step;
+}
+
+/// Follows the directions that are loaded for a step or a part of it.
+/// @return how far; what is there is in `sums_`, the motion itself in `state_`
+double TangentSteps::follow(Jet& next, double length) {
+    Lanes& lanes = lanes_of_mode();
     std::span<const double> known;
-    const TangentFloors floors = [&] { return known.empty() ? known = floors_of(jet, mode, count, length) : known; };
-    const double reach = tangent_reach(jet, states_, count, tolerance_, std::abs(length), floors);
-    const TangentFloors noise = [&] { return noise_of(jet, mode, count); };
-    return follow_tangents(jet, jets_.next(mode), states_, count, tolerance_, std::copysign(reach, length), times_,
-                           sums_, slopes_, floors, noise, seen && reach == length);
+    const TangentFloors least = [&] { return known.empty() ? known = floors(length) : known; };
+    const double reach = tangent_reach(*lanes.here, tolerance_, std::abs(length), least);
+    const auto look = [&](double step) {
+        if (at_ != step) {
+            jet_->evaluate_states({&step, 1}, state_);
+            begin_end(next, step);
+        }
+        lanes.here->evaluate(step, sums_, slopes_);
+        lanes.there->load(sums_, *lanes.here);
+        lanes.there->begin(next);
+    };
+    const TangentPlaces places{
+        *lanes.here, *lanes.there, sums_, slopes_, states_, std::min(lanes.here->width(), directions_ - first_), look};
+    return follow_tangents(places, tolerance_, std::copysign(reach, length), least, [this] { return noise(); });
 }
 
-void TangentSteps::finish(const Jet& jet, std::size_t first, std::span<double> after, std::size_t output,
-                          std::span<double> row) {
-    const std::size_t width = lanes_ + 1, count = count_from(first);
-    for (std::size_t i = 0; i < states_; ++i)
-        std::copy_n(&sums_[i * width + 1], count, &after[i * directions_ + first]);
-    if (row.empty())
-        return;
-    jet.evaluate_output(output, times_, slopes_);
-    std::copy_n(&slopes_[1], count, &row[first]);
-}
-
-double TangentSteps::carry(std::size_t mode, std::span<const double> state, std::span<const double> matrix,
-                           double length, std::span<double> after, std::size_t output, std::span<double> row) {
+double TangentSteps::carry(Jet& next, double length, std::span<double> after, std::span<const double> end) {
+    constexpr std::size_t most_rounds = 100;
+    if (jet_ == nullptr)
+        throw std::logic_error("derivatives are carried along a step that has begun");
     require_size(after.size(), states_ * directions_, "derivatives");
-    if (!row.empty())
-        require_size(row.size(), directions_, "derivatives of an output");
-    const std::size_t width = lanes_ + 1;
-    place_ = state;
-    measured_ = nullptr;
-    for (std::size_t first = 0; first < directions_; first += lanes_) {
-        const Jet* jet = first == 0 ? &jets_(mode) : &begin(mode, state, matrix, first);
-        double part = follow(*jet, mode, first, length, first == 0 && seen_ == length);
-        if (first == 0) {
-            length = part;
-            for (std::size_t i = 0; i < states_; ++i)
-                state_[i] = sums_[i * width];
-        }
-        double remaining = part == length ? 0 : length - part;
-        for (int parts = 1; remaining != 0 && parts < most_parts; ++parts) {
-            seeds_ = sums_;
-            jet = &jets_.computed(mode, std::span<const double>(seeds_).first(states_ * width));
-            part = follow(*jet, mode, first, remaining);
-            remaining = part == remaining ? 0 : remaining - part;
-        }
-        if (remaining != 0)
-            return 0;
-        finish(*jet, first, after, output, row);
+    at_ = std::numeric_limits<double>::quiet_NaN();
+    if (!end.empty()) {
+        require_size(end.size(), states_, "states");
+        std::copy(end.begin(), end.end(), state_.begin());
+        begin_end(next, length);
+    }
+    const std::size_t width = lanes_of_mode().here->width(), goes = (directions_ + width - 1) / width;
+    // Where some directions do not come as far as those before them, these are asked again.
+    std::size_t there = 0; // goes in a row that have come so far
+    for (std::size_t go = 0; there < goes && go < most_rounds * goes; ++go) {
+        const std::size_t first = go % goes * width, count = std::min(width, directions_ - first);
+        load(first);
+        const double part = follow(next, length);
+        there = part == length ? there + 1 : 1;
+        length = part;
+        for (std::size_t i = 0; i < states_; ++i)
+            std::copy_n(&sums_[i * width], count, &after[i * directions_ + first]);
     }
     return length;
+}
+
+/// By how much a direction changes a state, at the beginning of the step, or a parameter.
+double TangentSteps::seed(std::size_t source, std::size_t direction) const {
+    return parameter_seeds_[(source - states_) * directions_ + direction];
+}
+
+void TangentSteps::event_at_end(Jet& next, std::span<const double> after, std::size_t watched,
+                                std::span<double> row) const {
+    require_size(row.size(), directions_, "derivatives of an event");
+    std::vector<std::uint32_t> groups = groups_;
+    groups.push_back(LinearMode::of_events);
+    next.begin_followers(groups);
+    std::fill(row.begin(), row.end(), 0.0);
+    for (const TangentEntry& entry : system_.linear(mode_).events) {
+        if (entry.row != watched || (entry.source >= states_ && moving_[entry.source - states_] == 0))
+            continue;
+        const double slope = *next.follower(entry.follower);
+        for (std::size_t d = 0; d < directions_; ++d)
+            row[d] += slope * (entry.source < states_ ? after[entry.source * directions_ + d] : seed(entry.source, d));
+    }
+}
+
+void TangentSteps::event_coefficient(std::size_t watched, std::size_t k, std::span<double> row) {
+    require_size(row.size(), directions_, "derivatives of an event");
+    std::vector<std::uint32_t> groups = groups_;
+    groups.push_back(LinearMode::of_events);
+    jet_->follow(groups);
+    std::fill(row.begin(), row.end(), 0.0);
+    const LinearMode& linear = system_.linear(mode_);
+    const std::size_t width = lanes_of_mode().here->width();
+    for (std::size_t first = 0; first < directions_; first += width) {
+        load(first);
+        const TangentSeries& here = *lanes_[mode_].here;
+        for (const TangentEntry& entry : linear.events) {
+            const double* change = here.source(entry.source);
+            if (entry.row != watched || change == nullptr)
+                continue;
+            const double* slope = jet_->follower(entry.follower);
+            const std::size_t degree = linear.tape.followers[entry.follower].constant ? 0 : k;
+            for (std::size_t j = 0; j <= degree; ++j)
+                for (std::size_t l = 0; l < width && first + l < directions_; ++l)
+                    row[first + l] += slope[j] * change[(k - j) * width + l];
+        }
+    }
 }
 
 } // namespace graze

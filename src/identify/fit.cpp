@@ -6,6 +6,7 @@
 #include "identify/fit_solver.hpp"
 #include "identify/fit_start.hpp"
 #include "identify/fit_twins.hpp"
+#include "identify/joined_descent.hpp"
 
 #include <fmt/format.h>
 
@@ -22,6 +23,9 @@ namespace {
 /// Gaps are then some millionth of what readings are off; the larger it is, the shorter steps have to be along the
 /// curved set of motions that join.
 constexpr double last_joint = 3e3;
+
+/// A further step that would change numbers by so little of their errors makes no difference.
+constexpr double smooth = 0.01;
 
 /// Pieces join more and more.
 std::vector<FitStage> stages_of(const FitRows& rows, const FitSettings& settings) {
@@ -90,6 +94,7 @@ private:
         double unlikelihood = std::numeric_limits<double>::infinity(); ///< if it is a motion at all
         std::size_t contacts = 0;
         bool exact = false, noise_alone = false; ///< what is left: nothing; nothing but noise
+        bool settled = false;                    ///< nothing beside it is better
     };
 
     /// Of solutions that meet the readings as well, one whose signs are those of the guesses.
@@ -140,9 +145,12 @@ private:
         Way way{rows_.layout, rows_.noise, point_, report, rows_.evaluate(point_)};
         for (const PieceRows& piece : way.known)
             way.contacts += piece.contacts;
-        if (report.interrupted || !unreadable(rows_, way.known).empty() ||
-            !check_point(rows_, point_, way.known, last_joint).joined())
+        if (report.interrupted || !unreadable(rows_, way.known).empty())
             return way;
+        const FitChecks checks = check_point(rows_, point_, way.known, last_joint);
+        if (!checks.joined())
+            return way;
+        way.settled = report.least || checks.off <= smooth;
         way.unlikelihood = unlikelihood_of(rows_, way.known);
         way.exact = is_exact(rows_, way.known);
         Fit trial;
@@ -157,7 +165,7 @@ private:
     /// one begins again with what was found, elsewhere and otherwise, until the best is found a second time.
     Way best_way(Fit& fit) {
         constexpr int most_passes = 8;
-        constexpr double same = 0.01; // of logarithms of likelihoods
+        constexpr double same = 0.01, one_error = 0.5; // of logarithms of likelihoods
         Way best = way_here(pass(false, fit));
         const double usual = usual_length();
         bool again = best.contacts > 0 || !best.noise_alone;
@@ -170,11 +178,32 @@ private:
                 return other;
             const double better = best.unlikelihood - other.unlikelihood;
             again = !(std::abs(better) <= same) || (best.contacts > 0 && !best.noise_alone);
-            if (better > 0)
+            const double enough = best.settled == other.settled ? 0 : best.settled ? one_error : -one_error;
+            if (better > enough)
                 best = std::move(other);
         }
         restore(best);
-        return best;
+        if (best.report.interrupted || best.exact || !descend(true, best.report, fit))
+            return best;
+        return way_here(best.report);
+    }
+
+    /// Where steps of pieces that hardly give way have come to no end: those of motions that join. @return whether
+    /// there was need
+    bool descend(bool look, StageReport& report, Fit& fit) {
+        const std::vector<PieceRows> known = rows_.evaluate(point_);
+        if (!unreadable(rows_, known).empty())
+            return false;
+        const FitChecks checks = check_point(rows_, point_, known, last_joint);
+        if (!checks.joined() || checks.off <= smooth)
+            return false;
+        const int before = fit.iterations;
+        const DescentReport descent = descend_joined(
+            rows_, point_, last_joint, look, [&](double cost) { return tell(0, 1, ++fit.iterations - before, cost); });
+        report.least = descent.least;
+        report.interrupted = report.interrupted || descent.interrupted;
+        merge_bound(rows_, point_);
+        return true;
     }
 
     /// From the first pieces to all of them, and until they join.
@@ -210,6 +239,8 @@ private:
                 break;
             rows_.noise = noise;
         }
+        if (!report.interrupted && !report.failed)
+            descend(false, report, fit);
         return report;
     }
     std::vector<double> noise_here() {
@@ -257,17 +288,21 @@ private:
     StageReport make(const FitStage& stage, int number, int count, Fit& fit) {
         const int before = fit.iterations;
         const StageReport report = minimise(rows_, point_, stage, [&](int iteration, double cost, const FitPoint&) {
-            if (!settings_->progress)
-                return true;
-            FitProgress progress;
-            progress.stage = number;
-            progress.stages = count;
-            progress.iteration = before + iteration;
-            progress.misfit = std::sqrt(2 * cost / static_cast<double>(std::max<std::size_t>(1, readings())));
-            return settings_->progress(progress);
+            return tell(number, count, before + iteration, cost);
         });
         fit.iterations += report.iterations;
         return report;
+    }
+
+    bool tell(int stage, int stages, int iteration, double cost) const {
+        if (!settings_->progress)
+            return true;
+        FitProgress progress;
+        progress.stage = stage;
+        progress.stages = stages;
+        progress.iteration = iteration;
+        progress.misfit = std::sqrt(2 * cost / static_cast<double>(std::max<std::size_t>(1, readings())));
+        return settings_->progress(progress);
     }
 
     std::size_t readings() const {
@@ -319,11 +354,12 @@ private:
     /// Where a reading is passed by a contact that is too slow to be told from noise the sum of squares has a step, and
     /// can be least at its edge. The way that is left is part of the errors.
     static bool is_least(const StageReport& report, const FitChecks& checks, const Fit& fit) {
-        constexpr double smooth = 0.01, at_edge = 0.3; // of errors
+        constexpr double at_edge = 0.3; // of errors
         const bool contacts = std::any_of(fit.records.begin(), fit.records.end(),
                                           [](const FittedRecord& record) { return record.contacts > 0; });
         const bool stopped = report.converged || report.gained * fit.freedom <= smooth * report.cost;
-        return checks.held_well && (checks.off <= smooth || (contacts && stopped && checks.off <= at_edge));
+        return checks.held_well &&
+               (checks.off <= smooth || (contacts && (report.least || (stopped && checks.off <= at_edge))));
     }
 
     const FitSettings* settings_;

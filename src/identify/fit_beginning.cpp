@@ -1,6 +1,7 @@
 #include "identify/fit_beginning.hpp"
 
 #include "identify/fit_start.hpp"
+#include "identify/other_openings.hpp"
 
 #include <algorithm>
 

@@ -21,6 +21,7 @@ struct FitStage {
 struct StageReport {
     bool converged = false, interrupted = false;
     bool failed = false; ///< nothing could be evaluated at the point itself
+    bool least = false;  ///< nothing beside the point is better (DescentReport)
     int iterations = 0;
     double cost = 0;   ///< half the sum of squares that is left
     double gained = 0; ///< by how much that is less than at the beginning

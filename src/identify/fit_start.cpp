@@ -195,39 +195,6 @@ void continue_from(FitRows& rows, FitPoint& point, std::size_t piece, bool read)
         point.states[piece][i] = state[static_cast<std::size_t>(i)] / rows.layout.state_scale[i];
 }
 
-std::vector<Eigen::VectorXd> other_openings(FitRows& rows, const FitPoint& point, std::size_t piece) {
-    constexpr int phases = 8;
-    constexpr double seen = 0.2;
-    const FitTask& task = rows.task();
-    const FitRecord& record = task.records[rows.layout.pieces[piece].record];
-    const Model& model = rows.system().model();
-    const std::vector<double> parameters = rows.parameters(rows.layout.pieces[piece].record, point.shared);
-    const std::vector<double> periods = rows.system().periods()(parameters);
-    std::vector<Eigen::VectorXd> openings;
-    for (std::size_t c = 0; c < record.unknown_states.size(); ++c) {
-        const std::size_t state = record.unknown_states[c];
-        const bool read =
-            !record.start.empty() ||
-            std::any_of(record.readings.begin(), record.readings.end(), [&](const FitRecord::Readings& readings) {
-                const Expression& value = task.outputs[readings.output].value;
-                return value.is_symbol() && value.name() == model.states[state].name;
-            });
-        if (read || !(periods[state] > 0))
-            continue;
-        const auto place = static_cast<Eigen::Index>(c);
-        const double part = periods[state] / phases / rows.layout.state_scale[static_cast<Eigen::Index>(state)];
-        const PieceRows& known = rows.evaluate(rows.layout.pieces[piece], point.shared, point.states[piece]);
-        if (!known.finite ||
-            !(part * known.readings.col(place).norm() > seen * known.readings.col(known.readings.cols() - 1).norm()))
-            continue;
-        for (int k = 1; k < phases; ++k) {
-            openings.push_back(point.states[piece]);
-            openings.back()[place] += k * part;
-        }
-    }
-    return openings;
-}
-
 bool ends_bound(FitRows& rows, const FitPoint& point, std::size_t piece) {
     const PredictedMotion& motion = rows.motion(rows.layout.pieces[piece], point.shared, point.states[piece]);
     return motion.complete && motion.bound;

@@ -11,10 +11,6 @@ FitPoint starting_point(FitRows& rows);
 /// Begins a piece anew where the one before it ends. @param read whether with the states that readings tell
 void continue_from(FitRows& rows, FitPoint& point, std::size_t piece, bool read = true);
 
-/// Other states in which a record might begin: phases that nothing has read, all around their period. None where
-/// readings of the first piece hardly depend on the phase, which then had better stay as it was guessed.
-std::vector<Eigen::VectorXd> other_openings(FitRows& rows, const FitPoint& point, std::size_t piece);
-
 /// Whether a piece ends where not all states are free, as where friction has brought a mass to rest: no other can begin
 /// there.
 bool ends_bound(FitRows& rows, const FitPoint& point, std::size_t piece);

@@ -6,13 +6,15 @@
 namespace graze {
 
 TangentFan::Group::Group(const Simulation& simulation, std::size_t from_direction, std::size_t directions)
-    : first(from_direction), count(directions),
-      steps(simulation.system(), simulation.order(), simulation.options().tolerance, directions),
-      matrix(simulation.system().states() * directions), next(matrix.size()) {}
+    : first(from_direction), count(directions), jets(simulation.system(), simulation.order(), LaneKind::single),
+      steps(simulation.system(), simulation.options().tolerance, directions),
+      matrix(simulation.system().states() * directions), next(matrix.size()) {
+    jets.add_tangents();
+}
 
 TangentFan::TangentFan(const Simulation& simulation, std::size_t directions)
     : states_(simulation.system().states()), directions_(directions) {
-    const auto lanes = static_cast<std::size_t>(lanes_of(LaneKind::tangent, best_instruction_set()));
+    const std::size_t lanes = TangentSteps::together(directions);
     for (std::size_t first = 0; first < directions; first += lanes)
         groups_.push_back(std::make_unique<Group>(simulation, first, std::min(lanes, directions - first)));
 }
@@ -22,6 +24,7 @@ void TangentFan::set_parameters(std::span<const double> parameters, std::span<co
         std::vector<double> some(parameters.size() * group->count);
         for (std::size_t j = 0; j < parameters.size(); ++j)
             std::copy_n(&seeds[j * directions_ + group->first], group->count, &some[j * group->count]);
+        group->jets.set_parameters(parameters);
         group->steps.set_parameters(parameters, some);
     }
 }
@@ -45,9 +48,9 @@ bool TangentFan::follow(Group& group, double s) {
             return true;
         }
         if (!group.begun)
-            group.steps.begin(mode_, group.state, group.matrix);
+            group.steps.begin(group.jets.computed(mode_, group.state), mode_, group.state, group.matrix);
         group.begun = true;
-        const double made = group.steps.carry(mode_, group.state, group.matrix, length, group.next);
+        const double made = group.steps.carry(group.jets.next(mode_), length, group.next);
         if (made == length)
             return true;
         if (made == 0 || !std::isfinite(made))

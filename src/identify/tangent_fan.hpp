@@ -30,6 +30,7 @@ private:
     struct Group {
         Group(const Simulation& simulation, std::size_t from, std::size_t directions);
         std::size_t first, count;
+        ModeJets jets;
         TangentSteps steps;
         std::vector<double> state, matrix, next; ///< where it is, and where it was asked for
         double from = 0;                         ///< how far that is from the beginning

@@ -6,6 +6,7 @@
 #include "program/dot_strokes.hpp"
 #include "program/figure_layout.hpp"
 #include "program/gnuplot_text.hpp"
+#include "program/mingled_crosses.hpp"
 #include "program/mingled_dots.hpp"
 #include "program/output_file.hpp"
 #include "program/picture.hpp"
@@ -298,6 +299,15 @@ private:
                 if (!dots)
                     add_dots(panel, layout, add);
                 dots = true;
+                continue;
+            }
+            if (const std::size_t last = last_of_crosses(panel, s); last > s) {
+                FigureSeries part = series;
+                for (CrossLayer& layer : mingled_crosses(panel, s, last)) {
+                    part.points = std::move(layer.points);
+                    add(data_text(part, panel, layout), style_text(panel.series[layer.series], covering[layer.series]));
+                }
+                s = last;
                 continue;
             }
             if (cells && series.style == FigureSeries::Style::symbols) // seen on any colour

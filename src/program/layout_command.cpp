@@ -118,7 +118,8 @@ std::vector<std::string> options_again(const LayoutArguments& arguments, bool ru
 int layout_command(const LayoutArguments& arguments, const Console& console) {
     const auto [path, pictures] = asked_for(arguments);
     require_places(arguments);
-    const DeviceFile file = load_device_file(arguments.design, parameter_values(arguments.set));
+    DeviceFile file;
+    with_places_of(arguments.set, [&] { file = load_device_file(arguments.design, parameter_values(arguments.set)); });
     Layout layout = arguments.wafer ? draw_wafer_layout(file) : draw_device_layout(file);
     if (!arguments.parameters.empty() && layout.devices.size() > 1)
         throw InputError(

@@ -257,16 +257,6 @@ void require_same_values(const Study& study, const ResultFile& file) {
         "choose another folder by --output");
 }
 
-Study load_study_with(const ParameterValues& set, const std::string& name) {
-    try {
-        return load_study(name, set);
-    } catch (const InputError& error) {
-        if (set.empty() || !error.place().file.empty())
-            throw;
-        throw InputError({"--set", 0, 0}, error.problem(), error.remedy());
-    }
-}
-
 /// A shipped study, one in a file, or the one that a result file has of itself.
 AskedFor asked_for(const RunArguments& arguments) {
     const std::string stored = result_path(arguments.study);
@@ -276,7 +266,8 @@ AskedFor asked_for(const RunArguments& arguments) {
     const bool is_shipped = std::find(shipped.begin(), shipped.end(), arguments.study) != shipped.end();
     AskedFor result;
     if (is_shipped || !from_results) {
-        result.study = load_study_with(parameter_values(arguments.set), arguments.study);
+        with_places_of(arguments.set,
+                       [&] { result.study = load_study(arguments.study, parameter_values(arguments.set)); });
         std::vector<std::string> models;
         for (const StudyRun& run : result.study.runs)
             if (!run.model.name.empty() && std::find(models.begin(), models.end(), run.model.name) == models.end())

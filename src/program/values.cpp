@@ -154,6 +154,23 @@ std::vector<std::pair<std::string, double>> parameter_values(const std::vector<s
     return values;
 }
 
+void with_places_of(const std::vector<std::string>& assignments, const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const InputError& error) {
+        const std::string& file = error.place().file;
+        if (assignments.empty() || !(file.empty() || file.starts_with("--set")))
+            throw;
+        for (const Assignment& assignment : all_assignments(assignments, "--set", nullptr))
+            if (assignment.in_file && (file == "--set " + assignment.name ||
+                                       error.problem().find("'" + assignment.name + "'") != std::string::npos))
+                throw InputError(assignment.name_place, error.problem(), error.remedy());
+        if (!file.empty())
+            throw;
+        throw InputError(Place{"--set", 0, 0}, error.problem(), error.remedy());
+    }
+}
+
 void require_models_of_files(const std::vector<std::string>& assignments, const std::vector<std::string>& models) {
     for (const std::string& item : split_list(assignments))
         if (item.starts_with('@'))

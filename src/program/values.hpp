@@ -3,6 +3,7 @@
 #include "graze/model/model.hpp"
 #include "graze/results/name_advice.hpp"
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,6 +30,9 @@ void set_parameters(Model& model, const std::vector<std::string>& assignments);
 /// Names and values of `--set NAME=NUMBER ...` for models that are not known yet: expressions without names.
 /// @throws InputError
 std::vector<std::pair<std::string, double>> parameter_values(const std::vector<std::string>& assignments);
+/// Does what may refuse one of these names or values, and tells where: the line of the file that has it, or `--set`.
+/// @throws InputError
+void with_places_of(const std::vector<std::string>& assignments, const std::function<void()>& work);
 /// @param models names of those that are used. @throws InputError if `@FILE` among the assignments was found for
 /// another
 void require_models_of_files(const std::vector<std::string>& assignments, const std::vector<std::string>& models);

@@ -233,6 +233,30 @@ void write_details(hid_t group, const StoredRun& run, const DetailTable& table, 
                 std::move(plans), path);
 }
 
+/// What a run has found from measurements. Each row has a unit of its own.
+void write_estimates(hid_t group, const StoredRun& run, const std::string& path) {
+    if (run.file->estimates(run.record.name).numbers.empty())
+        return;
+    const std::string where = " WHERE run = " + text_literal(run.record.name);
+    using enum ColumnType;
+    write_table(group, "estimates", *run.file,
+                "SELECT position, name, unit, value, error, low, high, freedom, note FROM estimates" + where +
+                    " ORDER BY position",
+                {{"position", "", whole},
+                 {"name", "", text},
+                 {"unit", "", text},
+                 {"value", "", real},
+                 {"error", "", real},
+                 {"low", "", real},
+                 {"high", "", real},
+                 {"freedom", "", real},
+                 {"note", "", text}},
+                path);
+    write_table(group, "covariances", *run.file,
+                "SELECT position, other, covariance FROM covariances" + where + " ORDER BY position, other",
+                {{"position", "", whole}, {"other", "", whole}, {"covariance", "", real}}, path);
+}
+
 void write_run(hid_t output, const StoredRun& stored, const std::string& path) {
     const RunRecord& run = stored.record;
     const Handle group(H5Gcreate2(output, run.name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path);
@@ -252,6 +276,7 @@ void write_run(hid_t output, const StoredRun& stored, const std::string& path) {
     for (const DetailTable& table : detail_tables())
         if (run.is_branch() || !table.of_branches)
             write_details(group.id(), stored, table, path);
+    write_estimates(group.id(), stored, path);
 }
 
 Handle make_file(const std::string& path) {

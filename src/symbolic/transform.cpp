@@ -1,6 +1,6 @@
 #include "graze/symbolic/transform.hpp"
 
-#include "symbolic/function_table.hpp"
+#include "symbolic/derivative.hpp"
 #include "symbolic/subgraph.hpp"
 
 #include <algorithm>
@@ -10,68 +10,6 @@
 namespace graze {
 
 namespace {
-
-/// Sum in which an empty expression stands for an absent (zero) term.
-Expression sum(const Expression& a, const Expression& b) {
-    if (a.empty())
-        return b;
-    return b.empty() ? a : a + b;
-}
-
-/// Derivative of base^exponent. A constant exponent brings no logarithm, so that powers of negative bases have
-/// derivatives too.
-Expression derivative_of_power(const Expression& value, const Expression& base, const Expression& exponent,
-                               const Expression& base_rate, const Expression& exponent_rate) {
-    Expression result;
-    if (!base_rate.empty())
-        result = exponent * pow(base, exponent - 1) * base_rate;
-    if (!exponent_rate.empty())
-        result = sum(result, value * log(base) * exponent_rate);
-    return result;
-}
-
-Expression square(const Expression& x) {
-    return pow(x, 2);
-}
-Expression one_minus_square(const Expression& x) {
-    return 1 - square(x);
-}
-
-/// d/da of an operation of one operand a, in terms of it and of the value y.
-Expression slope_of(Operation operation, const Expression& y, const Expression& a) {
-    switch (operation) {
-    case Operation::negate:
-        return a.graph()->number(-1);
-#define GRAZE_ROW(name, recurrence, slope)                                                                             \
-    case Operation::name:                                                                                              \
-        return slope;
-        GRAZE_FUNCTIONS(GRAZE_ROW)
-#undef GRAZE_ROW
-    default:
-        throw std::invalid_argument("an operation of one operand was expected");
-    }
-}
-
-/// Derivative of a node from those of its operands, which are empty where they are zero (but not all).
-Expression derivative(Operation operation, const Expression& value, const Expression& left, const Expression& right,
-                      const Expression& left_rate, const Expression& right_rate) {
-    switch (operation) {
-    case Operation::add:
-        return sum(left_rate, right_rate);
-    case Operation::subtract:
-        return sum(left_rate, right_rate.empty() ? right_rate : -right_rate);
-    case Operation::multiply:
-        return sum(left_rate.empty() ? left_rate : left_rate * right,
-                   right_rate.empty() ? right_rate : left * right_rate);
-    case Operation::divide:
-        return sum(left_rate, right_rate.empty() ? right_rate : -(value * right_rate)) / right;
-    case Operation::power:
-        return derivative_of_power(value, left, right, left_rate, right_rate);
-    default:
-        break;
-    }
-    return slope_of(operation, value, left) * left_rate;
-}
 
 /// @throws std::invalid_argument unless it is a symbol of the graph of some expressions, if there are any
 void require_variable(const Expression& symbol, const std::shared_ptr<Graph>& graph) {
@@ -107,9 +45,9 @@ private:
     Expression of_operation(const Subgraph::Item& item, int operands) const {
         const Subgraph::Item& left = part_.items[item.left];
         const Subgraph::Item& right = part_.items[operands == 2 ? item.right : item.left];
-        Expression result =
-            derivative(part_.node(item).operation, part_.expression(item), part_.expression(left),
-                       part_.expression(right), rates_[item.left], operands == 2 ? rates_[item.right] : Expression());
+        Expression result = derivative_of(part_.node(item).operation, part_.expression(item), part_.expression(left),
+                                          part_.expression(right), rates_[item.left],
+                                          operands == 2 ? rates_[item.right] : Expression());
         return result.is_number(0) ? Expression() : result;
     }
 

@@ -11,15 +11,20 @@ namespace {
 /// Applies to each place in a tape where a constant is named.
 template <class Visit>
 void visit_constants(Tape& tape, Visit&& visit) {
-    for (Instruction& instruction : tape.code) {
-        if (instruction.operation == SeriesOperation::linear_combination)
-            visit(instruction.third);
-        else if (instruction.operation == SeriesOperation::power_constant)
-            visit(instruction.right);
-    }
+    const auto visit_code = [&](std::vector<Instruction>& code) {
+        for (Instruction& instruction : code) {
+            if (instruction.operation == SeriesOperation::linear_combination)
+                visit(instruction.third);
+            else if (instruction.operation == SeriesOperation::power_constant)
+                visit(instruction.right);
+        }
+    };
+    visit_code(tape.code);
+    for (std::vector<Instruction>& code : tape.follower_code)
+        visit_code(code);
     for (Term& term : tape.terms)
         visit(term.coefficient);
-    for (auto* locations : {&tape.rates, &tape.outputs})
+    for (auto* locations : {&tape.rates, &tape.outputs, &tape.followers})
         for (Tape::Location& location : *locations)
             if (location.constant)
                 visit(location.index);

@@ -77,31 +77,30 @@ inline double guarded(const Guards& guards, int order, int lane, double step) {
 /// Shortens steps that are too long: first it is seen, for all lanes at once, that nearly none is.
 template <class V>
 void guard(const Guards& guards, int order, double* steps) {
-    using L = Plain<V>;
-    const L step = Numbers<L>::load(steps);
+    const V step = Numbers<V>::load(steps);
     double excess[Numbers<V>::width];
-    L most = number<L>(0);
+    V most = number<V>(0);
     const auto at = [](const Series& series, int k) __attribute__((always_inline)) {
-        return absolute(Numbers<L>::load(series.first + static_cast<std::size_t>(k) * Numbers<V>::width));
+        return absolute(Numbers<V>::load(series.first + static_cast<std::size_t>(k) * Numbers<V>::width));
     };
     for (std::size_t i = 0; i < guards.argument_count; ++i) {
         const GuardedArgument& argument = guards.arguments[i];
-        L change = at(argument.series, order);
+        V change = at(argument.series, order);
         for (int k = order; k-- > 1;)
             change = multiply_add(change, step, at(argument.series, k));
-        const L allowed = at(argument.series, 0) * argument.relative + number<L>(argument.absolute);
+        const V allowed = at(argument.series, 0) * argument.relative + number<V>(argument.absolute);
         most = greater(most, multiply_add(change, step, -allowed));
     }
     if (guards.quotient_count > 0) {
-        const L power = integer_power(step, order - 1);
+        const V power = integer_power(step, order - 1);
         for (std::size_t i = 0; i < guards.quotient_count; ++i) {
             const Series& series = guards.quotients[i];
-            const L last = greater(at(series, order) * step, at(series, order - 1)) * power;
+            const V last = greater(at(series, order) * step, at(series, order - 1)) * power;
             // Only the least that its size may be: `guarded` sees to the rest.
             most = greater(most, last - at(series, 0) * largest_share.of[order - 1]);
         }
     }
-    Numbers<L>::store(excess, most);
+    Numbers<V>::store(excess, most);
     for (int lane = 0; lane < Numbers<V>::width; ++lane)
         if (!(excess[lane] <= 0))
             steps[lane] = guarded(guards, order, lane, steps[lane]);

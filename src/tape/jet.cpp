@@ -2,7 +2,7 @@
 
 #include "graze/symbolic/require.hpp"
 #include "tape/aligned_numbers.hpp"
-#include "tape/step_finder.hpp"
+#include "tape/kernel_program.hpp"
 #include "tape/tape_analysis.hpp"
 
 #include <algorithm>
@@ -25,34 +25,24 @@ const KernelTable& kernel_table(LaneKind kind, [[maybe_unused]] InstructionSet s
     return baseline::kernels(kind);
 }
 
+const TangentKernels& tangent_kernels(std::size_t directions, [[maybe_unused]] InstructionSet set) {
+#if defined(__x86_64__)
+    if (set == InstructionSet::avx2)
+        return avx2::tangent_kernels(directions);
+    if (set == InstructionSet::avx512)
+        return avx512::tangent_kernels(directions);
+#endif
+    return baseline::tangent_kernels(directions);
+}
+
 namespace {
 
-/// Where kernels do not jump but call each other, as without optimisation, this bounds the depth of the stack.
-constexpr std::size_t longest_chain = 64;
 /// Logarithm of what is lost beside one.
 constexpr double nothing = 40;
 
-void end_of_chain(const KernelOperands*, const KernelLink*, Order) {}
-
-bool same_operands(const KernelStep& one, const KernelStep& other) {
-    const KernelOperands& a = one.operands;
-    const KernelOperands& b = other.operands;
-    return a.result == b.result && a.left == b.left && a.right == b.right && a.third == b.third && a.terms == b.terms;
-}
-
-/// Which constants depend on parameters, and so may have derivatives.
-std::vector<char> movable_constants(const Tape& tape) {
-    std::vector<char> movable(tape.constants, 0);
-    std::fill_n(movable.begin(), tape.parameters, 1);
-    for (const ConstantInstruction& instruction : tape.constant_code)
-        if (movable[instruction.left] != 0 || movable[instruction.right] != 0)
-            movable[instruction.result] = 1;
-    return movable;
-}
-
 class TapeJet final : public Jet {
 public:
-    TapeJet(const Tape& tape, int order, LaneKind kind, const KernelTable& table);
+    TapeJet(const Tape& tape, int order, const KernelTable& table);
 
     int order() const override { return order_; }
     int width() const override { return static_cast<int>(layout_.number); }
@@ -67,9 +57,15 @@ public:
         require_index(index, outputs_.size(), "output");
         return outputs_[index];
     }
+    void follow(std::span<const std::uint32_t> groups) override;
+    void begin_followers(std::span<const std::uint32_t> groups) override;
+    const double* follower(std::size_t index) const override {
+        require_index(index, followers_.size(), "follower");
+        return followers_[index];
+    }
+    std::size_t followers() const override { return followers_.size(); }
     std::span<const Series> series() const override { return series_; }
     void find_steps(double log_tolerance, std::span<const double> references, std::span<double> steps) const override {
-        require_single_values("steps");
         require_lanes(references);
         require_lanes(steps);
         table_.steps(to_follow_, order_, log_tolerance, references.data(), steps.data());
@@ -78,11 +74,6 @@ public:
     void find_disagreement(const Jet& end, const EndAllowance& allowance, std::span<const double> lengths,
                            std::span<const double> values, std::span<const double> slopes,
                            std::span<double> worst) const override;
-    double tangent_tails(std::size_t states, std::size_t count, double step,
-                         std::span<const double> floors) const override;
-    std::size_t find_tangent_misfit(const Jet& end, const EndAllowance& allowance, std::size_t states,
-                                    std::size_t count, double length, std::span<const double> values,
-                                    std::span<const double> slopes, std::size_t from) const override;
     void guard_steps(std::span<double> steps) const override {
         require_lanes(steps);
         if (guards_.argument_count + guards_.quotient_count > 0)
@@ -108,7 +99,6 @@ public:
     }
     void bound_outputs(std::span<const double> lengths, std::span<double> least,
                        std::span<double> sizes) const override {
-        require_single_values("bounds");
         require_lanes(lengths);
         require_room(outputs_.size() * layout_.number, least.size(), "bounds of outputs");
         require_size(sizes.size(), least.size(), "sizes of outputs");
@@ -117,60 +107,26 @@ public:
     }
 
 private:
-    /// The first of a chain of at most `longest_chain` kernels, behind which is one that only returns. It may go on
-    /// from one order to the next.
-    struct Chain {
-        const KernelLink* link;
-        const KernelOperands* operands;
-        Order order;
-    };
-    static void run(std::span<const Chain> chains) {
-        for (const Chain& chain : chains)
-            chain.link->kernel(chain.operands, chain.link + 1, chain.order);
-    }
-    /// Steps at one order, and where the operands are that they share with those of the order before.
-    struct Segment {
-        std::vector<KernelStep> steps;
-        Order order;
-        bool begins; ///< a chain of its own
-        std::size_t operands = 0;
-    };
     struct Copy {
         const double* from;
         double* to;
     };
-    /// A linear combination, of which one kernel or the other is right for what its coefficients are now.
-    struct Choice {
-        std::size_t link;
-        const KernelOperands* operands;
-        Kernel moving, fixed;
-    };
-
     void require_lanes(std::span<const double> values) const {
         require_room(values.size(), layout_.number, "numbers, one for each lane,");
     }
     void require_states(std::span<const double> values) const {
         require_room(values.size(), states_ * layout_.number, "numbers, states for each lane,");
     }
-    TangentStates tangents_of(std::size_t states, std::size_t count) const;
     const TapeJet& of_same_tape(const Jet& other) const;
-    void require_single_values(const char* what) const {
-        if (tangent_)
-            throw std::invalid_argument(std::string("a tangent jet has no ") + what + ": its lanes are derivatives");
-    }
-    void find_operands(std::vector<Segment>& segments);
-    void find_chains(const std::vector<Segment>& segments, const Tape& tape);
     void find_constants(const Tape& tape, const KernelTable& table);
     void compute_constants();
-    bool moves(const double* constant) const;
-    bool has_any(const KernelOperands& combination, const std::vector<char>& constants) const;
-    void choose_kernels();
+    template <class Run>
+    void run_followers(std::span<const std::uint32_t> groups, Run&& run);
     void set_states(std::span<const double> states);
     bool has_states(std::span<const double> states) const;
     void sort_series(const Tape& tape);
 
     const KernelTable& table_;
-    bool tangent_;
     int order_;
     std::size_t states_;
     std::size_t parameters_;
@@ -178,16 +134,14 @@ private:
     JetLayout layout_;
     AlignedNumbers memory_;
     std::vector<TermOperands> terms_;
-    std::vector<KernelLink> kernels_;
-    std::vector<KernelOperands> operands_;
-    std::vector<Choice> choices_;
-    std::vector<std::uint32_t> movable_; ///< constants that may have derivatives
-    std::vector<char> moving_;           ///< of each constant, whether it had derivatives when kernels were chosen
-    std::vector<Chain> chains_;          ///< in their order
-    std::size_t beginning_ = 0;          ///< chains of orders 0 and 1
+    std::vector<KernelProgram> programs_; ///< of states and outputs, then of each part of what follows
+    /// How far each part of what follows has been computed.
+    enum class Progress : unsigned char { none, begun, computed };
+    std::vector<Progress> progress_;
+    bool computed_ = false; ///< all coefficients of states and outputs
     std::vector<KernelStep> constant_code_;
     std::vector<Copy> constant_copies_; ///< to rates and outputs that are constants
-    std::vector<const double*> outputs_;
+    std::vector<const double*> outputs_, followers_;
     std::vector<Series> series_;           ///< states and outputs
     std::vector<Series> followed_, lines_; ///< the same, sorted as steps want them
     FollowedSeries to_follow_{};           ///< both
@@ -200,10 +154,9 @@ private:
     std::vector<int> degrees_;                               ///< of states, at least 1
 };
 
-TapeJet::TapeJet(const Tape& tape, int order, LaneKind kind, const KernelTable& table)
-    : table_(table), tangent_(kind == LaneKind::tangent), order_(order), states_(tape.states),
-      parameters_(tape.parameters), layout_(tape, order, table.width), memory_(layout_.size),
-      moving_(tape.constants, 0) {
+TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
+    : table_(table), order_(order), states_(tape.states), parameters_(tape.parameters),
+      layout_(tape, order, table.width), memory_(layout_.size + read_behind) {
     const auto register_at = [&](std::uint32_t index) {
         return memory_.data() + layout_.registers + index * layout_.series;
     };
@@ -211,17 +164,13 @@ TapeJet::TapeJet(const Tape& tape, int order, LaneKind kind, const KernelTable& 
     for (const Term& term : tape.terms)
         terms_.push_back({register_at(term.series), memory_.data() + term.coefficient * layout_.number});
 
-    const StepFinder finder(tape, table, layout_, memory_.data(), terms_);
-    std::vector<Segment> segments;
-    for (int k = 0; k <= order; ++k) {
-        if (k == 2)
-            segments.push_back({finder.before_all(), order, true});
-        segments.push_back({finder.steps(k), k, k % 2 == 0 && k <= 2});
-    }
-    if (order > 1)
-        segments.push_back({finder.after_all(), order, true});
-    find_operands(segments);
-    find_chains(segments, tape);
+    programs_.reserve(1 + tape.follower_code.size());
+    programs_.emplace_back(StepFinder(tape, table, layout_, memory_.data(), terms_), table, order,
+                           KernelProgram::Sequence::by_order);
+    for (std::size_t part = 0; part < tape.follower_code.size(); ++part)
+        programs_.emplace_back(StepFinder(tape, part, table, layout_, memory_.data(), terms_), table, order,
+                               KernelProgram::Sequence::by_instruction);
+    progress_.assign(tape.follower_code.size(), Progress::none);
 
     std::size_t constant_outputs = 0;
     for (const Tape::Location& location : tape.outputs) {
@@ -233,6 +182,9 @@ TapeJet::TapeJet(const Tape& tape, int order, LaneKind kind, const KernelTable& 
         constant_copies_.push_back({memory_.data() + location.index * layout_.number, series});
         outputs_.push_back(series);
     }
+    for (const Tape::Location& location : tape.followers)
+        followers_.push_back(location.constant ? memory_.data() + location.index * layout_.number
+                                               : register_at(location.index));
     for (std::size_t i = 0; i < states_; ++i)
         series_.push_back({state(i), layout_.number});
     for (const double* output : outputs_)
@@ -284,64 +236,6 @@ void TapeJet::sort_series(const Tape& tape) {
                    compared_outputs_.data(), compared_outputs_.size(), order_};
 }
 
-void TapeJet::find_operands(std::vector<Segment>& segments) {
-    const Segment* last = nullptr;
-    for (Segment& segment : segments) {
-        if (last && std::ranges::equal(segment.steps, last->steps, same_operands)) {
-            segment.operands = last->operands;
-        } else {
-            segment.operands = operands_.size();
-            for (const KernelStep& step : segment.steps)
-                operands_.push_back(step.operands);
-        }
-        last = &segment;
-    }
-}
-
-void TapeJet::find_chains(const std::vector<Segment>& segments, const Tape& tape) {
-    const std::vector<char> movable = movable_constants(tape);
-    for (std::uint32_t i = 0; i < tape.constants; ++i)
-        if (movable[i] != 0)
-            movable_.push_back(i);
-    std::size_t most = 0;
-    for (const Segment& segment : segments)
-        most += 2 * segment.steps.size() + 3;
-    kernels_.reserve(most); // chains point to them
-    std::size_t length = 0; // of the present chain
-    for (const Segment& segment : segments) {
-        const KernelOperands* operands = operands_.data() + segment.operands;
-        if (!segment.begins && length > 0 && length + segment.steps.size() < longest_chain) {
-            kernels_.push_back({.kernel = table_.next_order});
-            kernels_.push_back({.operands = operands});
-        } else {
-            length = longest_chain;
-        }
-        for (const KernelStep& step : segment.steps) {
-            if (step.kernel && length == longest_chain) {
-                kernels_.push_back({.kernel = end_of_chain});
-                chains_.push_back({kernels_.data() + kernels_.size(), operands, segment.order});
-                length = 0;
-            }
-            if (step.kernel) {
-                const bool may_move = step.fixed && has_any(*operands, movable);
-                if (may_move)
-                    choices_.push_back({kernels_.size(), operands, step.kernel, step.fixed});
-                // At first parameters are zero, without derivatives.
-                kernels_.push_back({.kernel = step.fixed ? step.fixed : step.kernel});
-                ++length;
-            }
-            ++operands;
-        }
-        if (segment.order <= 1)
-            beginning_ = chains_.size();
-    }
-    // Those of one combination, at all orders, side by side.
-    std::stable_sort(choices_.begin(), choices_.end(), [](const Choice& a, const Choice& b) {
-        return std::pair(a.operands->third, a.operands->terms) < std::pair(b.operands->third, b.operands->terms);
-    });
-    kernels_.push_back({.kernel = end_of_chain});
-}
-
 void TapeJet::find_constants(const Tape& tape, const KernelTable& table) {
     const auto constant_at = [&](std::uint32_t index) { return memory_.data() + index * layout_.number; };
     for (const auto& [index, value] : tape.literals)
@@ -366,51 +260,13 @@ void TapeJet::compute_constants() {
         step.kernel(&step.operands, &end, 0);
     for (const Copy& copy : constant_copies_)
         std::copy_n(copy.from, layout_.number, copy.to);
-    if (tangent_)
-        choose_kernels();
-}
-
-/// Whether a constant has derivatives.
-bool TapeJet::moves(const double* constant) const {
-    return std::any_of(constant + 1, constant + layout_.number, [](double derivative) { return derivative != 0; });
-}
-
-/// Most coefficients are the same whatever parameters do: half of the products of their combinations are zero.
-void TapeJet::choose_kernels() {
-    bool changed = false;
-    for (const std::uint32_t i : movable_) {
-        const char now = moves(memory_.data() + i * layout_.number) ? 1 : 0;
-        changed = changed || now != moving_[i];
-        moving_[i] = now;
-    }
-    if (!changed)
-        return;
-    const KernelOperands* last = nullptr;
-    bool moving = false;
-    for (const Choice& choice : choices_) {
-        const KernelOperands& o = *choice.operands;
-        if (!last || last->third != o.third || last->terms != o.terms)
-            moving = has_any(o, moving_);
-        last = &o;
-        kernels_[choice.link].kernel = moving ? choice.moving : choice.fixed;
-    }
-}
-
-/// Whether one of some constants is a coefficient of a linear combination.
-bool TapeJet::has_any(const KernelOperands& combination, const std::vector<char>& constants) const {
-    const auto is_one = [&](const double* coefficient) {
-        return constants[static_cast<std::size_t>(coefficient - memory_.data()) / layout_.number] != 0;
-    };
-    return combination.third ? is_one(combination.third)
-                             : std::any_of(combination.terms, combination.terms_end,
-                                           [&](const TermOperands& term) { return is_one(term.coefficient); });
 }
 
 void TapeJet::set_parameters(std::span<const double> parameters) {
     require_size(parameters.size(), parameters_ * layout_.number, "parameters of a jet");
     if (parameters.empty() || std::memcmp(parameters.data(), memory_.data(), parameters.size_bytes()) == 0)
         return;
-    begun_ = false;
+    begun_ = computed_ = false;
     std::ranges::copy(parameters, memory_.data());
     compute_constants();
 }
@@ -454,16 +310,57 @@ bool TapeJet::has_states(std::span<const double> states) const {
 }
 
 void TapeJet::compute(std::span<const double> states) {
-    if (!begun_ || states.size() != states_ * layout_.number || !has_states(states))
-        begin(states);
+    begin(states);
     begun_ = false;
-    run(std::span(chains_).subspan(beginning_));
+    programs_.front().go_on();
+    computed_ = true;
 }
 
 void TapeJet::begin(std::span<const double> states) {
+    if (begun_ && states.size() == states_ * layout_.number && has_states(states))
+        return;
     set_states(states);
-    run(std::span(chains_).first(beginning_));
+    programs_.front().begin();
     begun_ = true;
+    computed_ = false;
+    std::ranges::fill(progress_, Progress::none);
+}
+
+/// Applies to each part that has something of some groups: what all need, what several share, and their own.
+template <class Run>
+void TapeJet::run_followers(std::span<const std::uint32_t> groups, Run&& run) {
+    if (progress_.empty())
+        return;
+    run(0);
+    for (const std::uint32_t group : groups) {
+        if (group > 0 && 1 + group < progress_.size()) {
+            run(1);
+            run(1 + group);
+        }
+    }
+}
+
+void TapeJet::begin_followers(std::span<const std::uint32_t> groups) {
+    if (!begun_ && !computed_)
+        throw std::logic_error("followers begin where a jet has begun");
+    run_followers(groups, [this](std::size_t part) {
+        if (progress_[part] == Progress::none) {
+            programs_[1 + part].begin();
+            progress_[part] = Progress::begun;
+        }
+    });
+}
+
+void TapeJet::follow(std::span<const std::uint32_t> groups) {
+    if (!computed_)
+        throw std::logic_error("followers follow what a jet has computed");
+    begin_followers(groups);
+    run_followers(groups, [this](std::size_t part) {
+        if (progress_[part] == Progress::begun) {
+            programs_[1 + part].go_on();
+            progress_[part] = Progress::computed;
+        }
+    });
 }
 
 /// Another jet of the same tape, kind and order.
@@ -484,37 +381,6 @@ void TapeJet::find_disagreement(const Jet& end, const EndAllowance& allowance, s
     require_lanes(worst);
     table_.disagreement(comparison_, {memory_.data(), other.memory_.data(), values.data(), slopes.data(), allowance},
                         lengths.data(), worst.data());
-}
-
-TangentStates TapeJet::tangents_of(std::size_t states, std::size_t count) const {
-    if (!tangent_)
-        throw std::invalid_argument("only tangent jets have derivatives");
-    require_index(count, layout_.number, "number of derivatives");
-    require_room(states_, states, "states of a jet");
-    return {series_.data(), states, static_cast<int>(count), order_};
-}
-
-double TapeJet::tangent_tails(std::size_t states, std::size_t count, double step,
-                              std::span<const double> floors) const {
-    const TangentStates tangents = tangents_of(states, count);
-    if (!floors.empty())
-        require_room(floors.size(), states * layout_.number, "floors of derivatives");
-    return table_.tangent_tails(tangents, step, floors.empty() ? nullptr : floors.data());
-}
-
-std::size_t TapeJet::find_tangent_misfit(const Jet& end, const EndAllowance& allowance, std::size_t states,
-                                         std::size_t count, double length, std::span<const double> values,
-                                         std::span<const double> slopes, std::size_t from) const {
-    const TangentStates tangents = tangents_of(states, count);
-    require_states(values);
-    require_states(slopes);
-    const TangentEnds ends{of_same_tape(end).series_.data(),
-                           values.data(),
-                           slopes.data(),
-                           std::abs(length),
-                           allowance.rates,
-                           allowance.smallest};
-    return table_.tangent_misfit(tangents, ends, from);
 }
 
 } // namespace
@@ -560,7 +426,7 @@ std::string_view name_of(InstructionSet set) {
 namespace {
 
 void require_known(LaneKind kind, InstructionSet set) {
-    if (kind != LaneKind::single && kind != LaneKind::ensemble && kind != LaneKind::tangent)
+    if (kind != LaneKind::single && kind != LaneKind::ensemble)
         throw std::invalid_argument("there is no such kind of lanes");
     if (set != InstructionSet::baseline && set != InstructionSet::avx2 && set != InstructionSet::avx512)
         throw std::invalid_argument("there is no such instruction set");
@@ -570,8 +436,7 @@ void require_known(LaneKind kind, InstructionSet set) {
 
 int lanes_of(LaneKind kind, InstructionSet set) {
     require_known(kind, set);
-    const int width = kernel_table(kind, set).width;
-    return kind == LaneKind::tangent ? width - 1 : width;
+    return kernel_table(kind, set).width;
 }
 
 std::unique_ptr<Jet> make_jet(const Tape& tape, int order, LaneKind kind, InstructionSet set) {
@@ -580,7 +445,7 @@ std::unique_ptr<Jet> make_jet(const Tape& tape, int order, LaneKind kind, Instru
         throw std::invalid_argument("the order of a jet must be between 1 and " + std::to_string(highest_order));
     if (!is_supported(set))
         throw std::invalid_argument("this processor does not have the instruction set " + std::string(name_of(set)));
-    return std::make_unique<TapeJet>(tape, order, kind, kernel_table(kind, set));
+    return std::make_unique<TapeJet>(tape, order, kernel_table(kind, set));
 }
 
 } // namespace graze

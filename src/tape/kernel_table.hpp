@@ -87,17 +87,49 @@ struct EndValues {
     const EndAllowance& allowance;
 };
 
-/// Series of the states in a tangent jet, whose lanes 1 .. lanes hold derivatives.
-struct TangentStates {
-    const Series* series;
+/// A product in a row of the first variational equations: a series of the motion, times one of what changes by it.
+struct TangentTerm {
+    std::ptrdiff_t series;     ///< from the jet's first number on; its coefficients are side by side
+    std::size_t source;        ///< where the other series is among those of the directions
+    int degree, source_degree; ///< above which coefficients are zero
+};
+/// The row of a state's rate, or of an intermediate quantity that rows behind it are made of.
+struct TangentRow {
+    std::size_t result; ///< where its series is
+    bool is_rate;
+    /// In this sequence: coefficients that are constant; others of which there are few products; all others.
+    const TangentTerm *fixed, *few, *many, *end;
+};
+/// Changes in some directions, in lanes: [row][order][lane].
+struct TangentOperands {
+    const TangentRow* rows; ///< those of intermediate quantities first
     std::size_t count;
-    int lanes, order;
+    double* numbers;
+};
+
+/// The changes of the states alone, row after row in their sequence.
+struct TangentStates {
+    const double* numbers;
+    std::size_t states, size; ///< numbers in a series
+    int count, order;         ///< lanes that are in use
 };
 /// What these are compared with at the end of a step.
 struct TangentEnds {
-    const Series* there;         ///< of the jet that has been begun there
+    const double* there;         ///< as `TangentStates::numbers`, begun there
     const double *sums, *slopes; ///< of the polynomials, [state * width + lane]
     double length, allowed, smallest;
+};
+/// What is done for directions, as many side by side as fit. (One kernel for each order.)
+struct TangentKernels {
+    int width;
+    /// Coefficients of this order of the intermediate quantities, and so the next ones of the states.
+    void (*order[highest_order])(const TangentOperands& operands, const double* jet);
+    void (*sums_and_slopes)(const TangentStates& states, double time, double* values, double* slopes);
+    /// The largest share that the last two terms have in their sizes, the latter at least as given.
+    /// @param floors [state * width + lane], or null
+    double (*tails)(const TangentStates& states, double step, const double* floors);
+    /// The first state, from one on, of which a slope differs by more than is allowed; their number if there is none.
+    std::size_t (*misfit)(const TangentStates& states, const TangentEnds& ends, std::size_t from);
 };
 /// What is so small against anything a double can hold that nothing may be said of its relative accuracy.
 inline constexpr double smallest_derivative = 1e-200;
@@ -138,6 +170,9 @@ struct CombinationKernels {
     Kernel state_combination_value[combination_kernels]; ///< ... for coefficient 1 of the state
 };
 
+/// So many numbers there have to be behind the last series.
+inline constexpr int read_behind = 8;
+
 struct KernelTable {
     int width; ///< doubles for each number
     /// Row `linear_combination` is empty.
@@ -145,8 +180,6 @@ struct KernelTable {
     /// Instead of those, where not null, at the last order of a series: nothing is done there for the next.
     Kernel closing[series_operation_count][highest_order + 1];
     CombinationKernels combinations;
-    /// The same where no coefficient has derivatives; only for tangent jets.
-    CombinationKernels fixed_combinations;
     Kernel state;                    ///< coefficients of a state from those of its rate, which is a series
     Kernel multiply_linear;          ///< left operand of degree 1; orders above 0
     Kernel function_of_linear;       ///< y' = a' w, a of degree 1; orders above 0
@@ -155,6 +188,9 @@ struct KernelTable {
     Kernel sine_and_cosine;
     /// All coefficients from 2 to the order that they are called with, of an argument of degree 1, found likewise.
     Kernel whole_sine_and_cosine, whole_hyperbolic_pair, whole_exponential;
+    /// All coefficients from 2 to the order of the product of two known series; only for one lane, or null. It may read
+    /// `read_behind` numbers behind them.
+    Kernel whole_product;
     /// Goes on with the next order and the operands found in the link that follows.
     Kernel next_order;
     // Of two steps, one after the other; null where there is no such kernel.
@@ -173,12 +209,6 @@ struct KernelTable {
                   double* steps);
     /// Shortens steps that are too long for intermediate series: see `guard_kernels.hpp`.
     void (*guard)(const Guards& guards, int order, double* steps);
-    /// The largest share that the last two terms of derivatives have in their sizes, the latter at least as given.
-    /// (These two only for tangent jets.)
-    double (*tangent_tails)(const TangentStates& states, double step, const double* floors);
-    /// The first state, from one on, of which a derivative's slope differs by more than is allowed; their number if
-    /// there is none.
-    std::size_t (*tangent_misfit)(const TangentStates& states, const TangentEnds& ends, std::size_t from);
     /// Coefficients 1 .. highest of the columns from coefficient 0. (Only for ensembles.)
     void (*columns)(const ColumnOperands& operands, Order highest);
     /// The largest share, of all columns, that a column's last two terms have in its first three. (So are these two.)
@@ -192,15 +222,20 @@ struct KernelTable {
 
 /// That of an instruction set, which the processor must have.
 const KernelTable& kernel_table(LaneKind kind, InstructionSet set);
+/// For so many directions, or the most that are worth computing together.
+const TangentKernels& tangent_kernels(std::size_t directions, InstructionSet set);
 
 namespace baseline {
 const KernelTable& kernels(LaneKind kind);
-}
+const TangentKernels& tangent_kernels(std::size_t directions);
+} // namespace baseline
 namespace avx2 {
 const KernelTable& kernels(LaneKind kind);
-}
+const TangentKernels& tangent_kernels(std::size_t directions);
+} // namespace avx2
 namespace avx512 {
 const KernelTable& kernels(LaneKind kind);
-}
+const TangentKernels& tangent_kernels(std::size_t directions);
+} // namespace avx512
 
 } // namespace graze

@@ -124,9 +124,8 @@ private:
     V b_; ///< the last one loaded
 };
 
-/// Derivatives gain from pairs only where one register holds them all.
 template <class V>
-inline constexpr bool has_pairs = std::is_same_v<V, Ensemble> || (std::is_same_v<V, Tangent> && Tangent::parts == 1);
+inline constexpr bool has_pairs = std::is_same_v<V, Ensemble>;
 /// From this order on, the convolutions of an even and the next odd order are computed together. What is known of the
 /// odd one waits where its coefficient will be.
 inline constexpr int first_pair = 4;
@@ -369,6 +368,43 @@ GRAZE_INLINE void whole_pair(const KernelOperands& o, Order highest) {
         put(o.third, k, other);
     }
 }
+#if defined(__FMA__)
+/// Numbers from one on, without the first `missing` of them, which are zero and not read.
+GRAZE_INLINE Pack load_behind(const double* from, Order missing) {
+#if defined(__AVX512F__)
+    return _mm512_maskz_loadu_pd(static_cast<__mmask8>(0xffU << missing), from);
+#else
+    const __m256i place = _mm256_setr_epi64x(0, 1, 2, 3);
+    return _mm256_maskload_pd(from, _mm256_cmpgt_epi64(place, _mm256_set1_epi64x(missing - 1)));
+#endif
+}
+
+/// The product of two series of one lane of which all coefficients are known: those of many orders side by side. (It
+/// reads behind the last coefficient, what it makes of which is left out.)
+GRAZE_INLINE void whole_product(const KernelOperands& o, Order highest) {
+    const double *const a = o.left, *const b = o.right;
+    for (Order first = 2; first <= highest; first += lanes) {
+        Pack one = splat(0), other = splat(0);
+        const auto term = [&](Order j) __attribute__((always_inline)) {
+            Pack numbers;
+            __builtin_memcpy(&numbers, b + first - j, sizeof(Pack));
+            return numbers;
+        };
+        Order j = 0;
+        for (; j < first; j += 2) { // it is even
+            one = multiply_add(splat(a[j]), term(j), one);
+            other = multiply_add(splat(a[j + 1]), term(j + 1), other);
+        }
+        one = multiply_add(splat(a[j]), term(j), one);
+        const Order left = highest + 1 - first, count = left < lanes ? left : lanes;
+        for (Order missing = 1; missing < count; ++missing)
+            other = multiply_add(splat(a[first + missing]), load_behind(b - missing, missing), other);
+        const Pack sum = one + other;
+        __builtin_memcpy(o.result + first, &sum, sizeof(double) * static_cast<std::size_t>(count));
+    }
+}
+#endif
+
 /// And of one that is its own.
 template <class V>
 GRAZE_INLINE void whole_exponential(const KernelOperands& o, Order highest) {
@@ -421,11 +457,6 @@ struct OneOrder {
     GRAZE_INLINE static V zero() { return Numbers<V>::of(0); }
     GRAZE_INLINE static V coefficient(const double* from) { return at<V>(from, 0); }
     GRAZE_INLINE static V term(const double* series, Order k) { return at<V>(series, k); }
-};
-/// ... the same with coefficients that have no derivatives ...
-template <class V>
-struct FixedCoefficients : OneOrder<V> {
-    GRAZE_INLINE static Factor coefficient(const double* from) { return {splat(*from)}; }
 };
 /// ... and those of one lane at as many orders as a register has room for.
 struct ManyOrders {

@@ -85,6 +85,9 @@ constexpr void fill_with_multiple(KernelTable& table, SeriesOperation operation)
 }
 /// Only for a single lane: where there are more, each step has work enough for itself.
 constexpr void fill_twos(KernelTable& table) {
+#if defined(__FMA__)
+    table.whole_product = &chained<&whole_product>;
+#endif
     table.two_states = &chained_two<&two_states<double>>;
     fill_with_multiple<Multiply<double>>(table, SeriesOperation::multiply);
     fill_with_multiple<Divide<double>>(table, SeriesOperation::divide);
@@ -121,8 +124,6 @@ constexpr KernelTable make_table() {
 #undef GRAZE_ROW
     constexpr auto counts = std::make_integer_sequence<int, combination_kernels>{};
     fill_combinations<V, OneOrder<V>>(table.combinations, counts);
-    if constexpr (std::is_same_v<V, Tangent>)
-        fill_combinations<V, FixedCoefficients<V>>(table.fixed_combinations, counts);
     table.state = &chained<&state<V>>;
     table.multiply_linear = &chained<&multiply_linear<V>>;
     table.function_of_linear = &chained<&function_of_linear<V, false>>;
@@ -146,10 +147,6 @@ constexpr KernelTable make_table() {
         table.column_tails = &column_tails<V>;
         table.column_misfit = &column_misfit<V>;
     }
-    if constexpr (std::is_same_v<V, Tangent>) {
-        table.tangent_tails = &tangent_tails<V>;
-        table.tangent_misfit = &tangent_misfit<V>;
-    }
 #define GRAZE_ROW(name, recurrence, slope) , Operation::name
     fill_constants<V, Operation::add, Operation::subtract, Operation::multiply, Operation::divide, Operation::power,
                    Operation::negate GRAZE_FUNCTIONS(GRAZE_ROW)>(table);
@@ -159,17 +156,17 @@ constexpr KernelTable make_table() {
 
 inline constexpr KernelTable single_table = make_table<double>();
 inline constexpr KernelTable ensemble_table = make_table<Ensemble>();
-inline constexpr KernelTable tangent_table = make_table<Tangent>();
 
 const KernelTable& kernels(LaneKind kind) {
-    switch (kind) {
-    case LaneKind::ensemble:
-        return ensemble_table;
-    case LaneKind::tangent:
-        return tangent_table;
-    default:
-        return single_table;
-    }
+    return kind == LaneKind::ensemble ? ensemble_table : single_table;
+}
+
+inline constexpr TangentKernels one_tangent = make_tangent_kernels<double>();
+inline constexpr TangentKernels few_tangents = make_tangent_kernels<Packs<1>>();
+inline constexpr TangentKernels many_tangents = make_tangent_kernels<Packs<2>>();
+
+const TangentKernels& tangent_kernels(std::size_t directions) {
+    return directions <= 1 ? one_tangent : directions <= lanes ? few_tangents : many_tangents;
 }
 
 } // namespace graze::GRAZE_INSTRUCTION_SET

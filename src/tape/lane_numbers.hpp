@@ -2,7 +2,7 @@
 
 // The numbers that kernels compute with. To be included only by the translation unit of one instruction set, which
 // defines GRAZE_INSTRUCTION_SET (the namespace, so that no two sets share a function) and GRAZE_LANES.
-// Arithmetic on values is the same operation by operation for all three types: this makes lanes agree bit for bit.
+// Arithmetic is the same operation by operation for both types: this makes lanes agree bit for bit.
 
 #include "symbolic/function_table.hpp"
 
@@ -28,13 +28,6 @@ struct Packs {
 };
 /// Independent trajectories. While one pack waits for what its operations need, processors work on the other.
 using Ensemble = Packs<2>;
-/// A number (lane 0 of the first part) and its derivatives in some directions (all other lanes).
-struct Tangent {
-    static constexpr int width = lanes == 2 ? 4 : 8;
-    static constexpr int parts = width / lanes;
-    Pack part[parts];
-};
-
 GRAZE_INLINE double multiply_add(double a, double b, double c) {
 #if defined(__FMA__)
     return __builtin_fma(a, b, c);
@@ -62,16 +55,6 @@ GRAZE_INLINE Pack splat(double value) {
     return Pack{value, value, value, value};
 #else
     return Pack{value, value};
-#endif
-}
-
-/// Lane 0 of one and the other lanes of another.
-GRAZE_INLINE Pack with_first(Pack first, Pack others) {
-#if defined(__FMA__) && !defined(__AVX512F__)
-    return _mm256_blend_pd(others, first, 1);
-#else
-    others[0] = first[0];
-    return others;
 #endif
 }
 
@@ -119,6 +102,18 @@ template <int n>
 GRAZE_INLINE Packs<n> operator*(Packs<n> a, Packs<n> b) {
     return GRAZE_FOR_PARTS(Packs<n>, a.part[i] * b.part[i]);
 }
+/// A number that is the same in all lanes.
+struct Factor {
+    Pack of;
+};
+template <int n>
+GRAZE_INLINE Packs<n> operator*(Factor a, Packs<n> b) {
+    return GRAZE_FOR_PARTS(Packs<n>, a.of * b.part[i]);
+}
+template <int n>
+GRAZE_INLINE Packs<n> multiply_add(Factor a, Packs<n> b, Packs<n> c) {
+    return GRAZE_FOR_PARTS(Packs<n>, multiply_add(a.of, b.part[i], c.part[i]));
+}
 template <int n>
 GRAZE_INLINE Packs<n> operator*(Packs<n> a, double b) {
     return GRAZE_FOR_PARTS(Packs<n>, a.part[i] * b);
@@ -130,55 +125,6 @@ GRAZE_INLINE Packs<n> operator/(Packs<n> a, Packs<n> b) {
 template <int n>
 GRAZE_INLINE Packs<n> multiply_add(Packs<n> a, Packs<n> b, Packs<n> c) {
     return GRAZE_FOR_PARTS(Packs<n>, multiply_add(a.part[i], b.part[i], c.part[i]));
-}
-
-GRAZE_INLINE Tangent operator+(Tangent a, Tangent b) {
-    return GRAZE_FOR_PARTS(Tangent, a.part[i] + b.part[i]);
-}
-GRAZE_INLINE Tangent operator-(Tangent a, Tangent b) {
-    return GRAZE_FOR_PARTS(Tangent, a.part[i] - b.part[i]);
-}
-GRAZE_INLINE Tangent operator-(Tangent a) {
-    return GRAZE_FOR_PARTS(Tangent, -a.part[i]);
-}
-GRAZE_INLINE Tangent operator*(Tangent a, double b) {
-    return GRAZE_FOR_PARTS(Tangent, a.part[i] * b);
-}
-/// The value of c, and its directions increased by those of a times b.
-GRAZE_INLINE Tangent add_directions(Tangent a, Pack b, Tangent c) {
-#if defined(__AVX512F__)
-    static_assert(Tangent::parts == 1);
-    return Tangent{{_mm512_mask3_fmadd_pd(a.part[0], b, c.part[0], 0xfe)}};
-#else
-    Tangent result = GRAZE_FOR_PARTS(Tangent, multiply_add(a.part[i], b, c.part[i]));
-    result.part[0] = with_first(c.part[0], result.part[0]);
-    return result;
-#endif
-}
-GRAZE_INLINE Tangent operator*(Tangent a, Tangent b) {
-    const Pack value = splat(a.part[0][0]);
-    const Tangent product = GRAZE_FOR_PARTS(Tangent, value * b.part[i]);
-    return add_directions(a, splat(b.part[0][0]), product);
-}
-GRAZE_INLINE Tangent operator/(Tangent a, Tangent b) {
-    const Pack divisor = splat(b.part[0][0]);
-    const Tangent numerator = add_directions(b, splat(-(a.part[0][0] / b.part[0][0])), a);
-    return GRAZE_FOR_PARTS(Tangent, numerator.part[i] / divisor);
-}
-GRAZE_INLINE Tangent multiply_add(Tangent a, Tangent b, Tangent c) {
-    const Pack value = splat(a.part[0][0]);
-    const Tangent sum = GRAZE_FOR_PARTS(Tangent, multiply_add(value, b.part[i], c.part[i]));
-    return add_directions(a, splat(b.part[0][0]), sum);
-}
-/// A number that has no derivatives, in all lanes.
-struct Factor {
-    Pack of;
-};
-GRAZE_INLINE Tangent operator*(Factor a, Tangent b) {
-    return GRAZE_FOR_PARTS(Tangent, a.of * b.part[i]);
-}
-GRAZE_INLINE Tangent multiply_add(Factor a, Tangent b, Tangent c) {
-    return GRAZE_FOR_PARTS(Tangent, multiply_add(a.of, b.part[i], c.part[i]));
 }
 
 template <class V>
@@ -213,18 +159,6 @@ struct Numbers<Packs<n>> {
     GRAZE_INLINE static Packs<n> of(double number) { return GRAZE_FOR_PARTS(Packs<n>, ((void)i, splat(number))); }
 };
 
-template <>
-struct Numbers<Tangent> {
-    static constexpr int width = Tangent::width;
-    GRAZE_INLINE static Tangent load(const double* from) { return load_parts<Tangent>(from); }
-    GRAZE_INLINE static void store(double* to, Tangent number) { store_parts(to, number); }
-    GRAZE_INLINE static Tangent of(double number) {
-        Tangent result{};
-        result.part[0][0] = number;
-        return result;
-    }
-};
-
 /// Coefficient of a series.
 template <class V>
 GRAZE_INLINE V at(const double* series, std::ptrdiff_t order) {
@@ -250,41 +184,6 @@ inline double value_of(double a) {
     }
 }
 
-inline double square(double x) {
-    return x * x;
-}
-inline double one_minus_square(double x) {
-    return (1 - x) * (1 + x);
-}
-
-/// Derivative of a function at a, where its value is y.
-template <Operation function>
-inline double slope_of(double a, double y) {
-#define GRAZE_ROW(name, recurrence, slope) using ::name;
-    GRAZE_FUNCTIONS(GRAZE_ROW) // not those of expressions
-#undef GRAZE_ROW
-#define GRAZE_ROW(name, recurrence, slope)                                                                             \
-    if constexpr (function == Operation::name)                                                                         \
-        return slope;                                                                                                  \
-    else
-    GRAZE_FUNCTIONS(GRAZE_ROW)
-#undef GRAZE_ROW
-    {
-        static_assert(function == Operation::negate);
-        return -1;
-    }
-}
-
-/// A function's value, and slope * directions, but 0 in a direction in which nothing changes even where the slope is
-/// infinite.
-inline Tangent along(double value, double slope, Tangent directions) {
-    for (Pack& part : directions.part)
-        for (int lane = 0; lane < lanes; ++lane)
-            part[lane] = part[lane] == 0 ? 0.0 : slope * part[lane];
-    directions.part[0][0] = value;
-    return directions;
-}
-
 template <Operation function>
 inline double evaluate(double a) {
     return value_of<function>(a);
@@ -296,12 +195,6 @@ inline Ensemble evaluate(Ensemble a) {
             part[lane] = value_of<function>(part[lane]);
     return a;
 }
-template <Operation function>
-inline Tangent evaluate(Tangent a) {
-    const double value = value_of<function>(a.part[0][0]);
-    return along(value, slope_of<function>(a.part[0][0], value), a);
-}
-
 inline double power(double a, double exponent) {
     return ::pow(a, exponent);
 }
@@ -310,15 +203,6 @@ inline Ensemble power(Ensemble a, Ensemble exponent) {
         for (int lane = 0; lane < lanes; ++lane)
             a.part[i][lane] = ::pow(a.part[i][lane], exponent.part[i][lane]);
     return a;
-}
-inline Tangent power(Tangent a, Tangent exponent) {
-    const double base = a.part[0][0];
-    const double c = exponent.part[0][0];
-    const double value = ::pow(base, c);
-    Tangent result =
-        along(value, c * ::pow(base, c - 1), a) + along(value, value == 0 ? 0.0 : value * ::log(base), exponent);
-    result.part[0][0] = value;
-    return result;
 }
 
 } // namespace graze::GRAZE_INSTRUCTION_SET

@@ -112,8 +112,11 @@ LinearForm SeriesBuilder::divide(LinearForm left, const LinearForm& right) {
         return scaled({constants_.apply(Operation::divide, left.constant, b.coefficient),
                        emit(SeriesOperation::reciprocal, b.reg)});
     const Scaled a = split(left);
-    return scaled({constants_.apply(Operation::divide, a.coefficient, b.coefficient),
-                   emit(SeriesOperation::divide, a.reg, b.reg)});
+    const bool known = known_.count(Key{static_cast<std::uint32_t>(SeriesOperation::divide), a.reg, b.reg, 0}) > 0;
+    const std::uint32_t quotient = prefers_reciprocals_ && !known
+                                       ? multiply(a.reg, emit(SeriesOperation::reciprocal, b.reg))
+                                       : emit(SeriesOperation::divide, a.reg, b.reg);
+    return scaled({constants_.apply(Operation::divide, a.coefficient, b.coefficient), quotient});
 }
 
 LinearForm SeriesBuilder::power(LinearForm base, LinearForm exponent) {

@@ -26,6 +26,9 @@ public:
     LinearForm series(std::uint32_t reg) const { return {zero_, {{reg, one_}}}; }
 
     LinearForm apply(Operation operation, LinearForm left, LinearForm right);
+    /// From now on quotients that are not known yet are products with reciprocals, of which many are the same.
+    void prefer_reciprocals() { prefers_reciprocals_ = true; }
+
     /// The same form, but as at most one register, so that to use it many times costs no repetition.
     LinearForm shared(LinearForm form);
     /// Where the form is found, after the instruction that computes it, if one is needed.
@@ -62,6 +65,7 @@ private:
     std::uint32_t one_and_square(std::uint32_t a, double sign);
 
     using Key = std::vector<std::uint32_t>;
+    bool prefers_reciprocals_ = false;
     std::uint32_t registers_;
     ConstantPool constants_;
     std::uint32_t zero_;

@@ -113,11 +113,5 @@ inline void evaluate_sine_and_cosine(Ensemble a, Ensemble& sine, Ensemble& cosin
     for (int i = 0; i < Ensemble::parts; ++i)
         evaluate_sine_and_cosine(a.part[i], sine.part[i], cosine.part[i]);
 }
-inline void evaluate_sine_and_cosine(Tangent a, Tangent& sine, Tangent& cosine) {
-    double s = 0, c = 0;
-    evaluate_sine_and_cosine(a.part[0][0], s, c);
-    sine = along(s, c, a);
-    cosine = along(c, -s, a);
-}
 
 } // namespace graze::GRAZE_INSTRUCTION_SET

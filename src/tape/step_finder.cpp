@@ -6,51 +6,79 @@
 
 namespace graze {
 
+namespace {
+
+std::uint32_t reciprocals_in(const std::vector<Instruction>& code) {
+    return static_cast<std::uint32_t>(std::ranges::count_if(code, [](const Instruction& instruction) {
+        return instruction.operation == SeriesOperation::divide || instruction.operation == SeriesOperation::sqrt ||
+               instruction.operation == SeriesOperation::power_constant;
+    }));
+}
+
+/// How often each register is read by code.
+void add_uses(const Tape& tape, const std::vector<Instruction>& code, std::vector<std::uint32_t>& uses) {
+    for (const Instruction& instruction : code)
+        visit_operands(tape, instruction, [&](std::uint32_t reg) { ++uses[reg]; });
+}
+void add_uses(std::span<const Tape::Location> locations, std::vector<std::uint32_t>& uses) {
+    for (const Tape::Location& location : locations)
+        if (!location.constant)
+            ++uses[location.index];
+}
+
+} // namespace
+
 JetLayout::JetLayout(const Tape& tape, int highest, int width)
     : order(static_cast<std::uint32_t>(highest)), number(static_cast<std::size_t>(width)) {
     series = (order + 1) * number;
     registers = (tape.constants * number + 7) / 8 * 8;
     reciprocals = registers + tape.registers * series;
-    const auto keeps_reciprocal = [](const Instruction& instruction) {
-        return instruction.operation == SeriesOperation::divide || instruction.operation == SeriesOperation::sqrt ||
-               instruction.operation == SeriesOperation::power_constant;
-    };
-    constant_outputs =
-        reciprocals + static_cast<std::size_t>(std::ranges::count_if(tape.code, keeps_reciprocal)) * number;
+    std::size_t kept = reciprocals_in(tape.code);
+    for (const std::vector<Instruction>& code : tape.follower_code)
+        kept += reciprocals_in(code);
+    constant_outputs = reciprocals + kept * number;
     const auto is_constant = [](const Tape::Location& location) { return location.constant; };
     size = constant_outputs + static_cast<std::size_t>(std::ranges::count_if(tape.outputs, is_constant)) * series;
 }
 
 StepFinder::StepFinder(const Tape& tape, const KernelTable& table, const JetLayout& layout, double* memory,
                        const std::vector<TermOperands>& terms)
-    : tape_(tape), table_(table), layout_(layout), memory_(memory), terms_(terms) {
-    // By instructions, rates and outputs.
+    : tape_(tape), code_(tape.code), has_states_(true), table_(table), layout_(layout), memory_(memory), terms_(terms) {
     std::vector<std::uint32_t> uses(tape.registers, 0);
-    const auto use = [&](std::uint32_t reg) { ++uses[reg]; };
-    for (const Instruction& instruction : tape.code)
-        visit_operands(tape, instruction, use);
-    for (const Tape::Location& rate : tape.rates)
-        if (!rate.constant)
-            use(rate.index);
+    add_uses(tape, code_, uses);
+    add_uses(tape.rates, uses);
     find_times(uses);
-    for (const Tape::Location& output : tape.outputs)
-        if (!output.constant)
-            use(output.index);
+    add_uses(tape.outputs, uses);
+    add_uses(tape.followers, uses);
+    for (const std::vector<Instruction>& code : tape.follower_code)
+        add_uses(tape, code, uses);
     find_private_rates(uses);
+}
+
+StepFinder::StepFinder(const Tape& tape, std::size_t part, const KernelTable& table, const JetLayout& layout,
+                       double* memory, const std::vector<TermOperands>& terms)
+    : tape_(tape), code_(tape.follower_code[part]), has_states_(false), reciprocals_(reciprocals_in(tape.code)),
+      table_(table), layout_(layout), memory_(memory), terms_(terms), combination_of_(tape.registers, none) {
+    for (std::size_t before = 0; before < part; ++before)
+        reciprocals_ += reciprocals_in(tape.follower_code[before]);
+    std::vector<std::uint32_t> uses(tape.registers, 0);
+    for (const std::vector<Instruction>& code : tape.follower_code)
+        add_uses(tape, code, uses);
+    find_times(uses);
 }
 
 std::vector<KernelStep> StepFinder::steps(int order) const {
     std::vector<KernelStep> steps;
-    if (order > 0)
+    if (order > 0 && has_states_)
         add_states(order, steps);
     add_instructions(order, steps);
     return steps;
 }
 
 void StepFinder::find_times(const std::vector<std::uint32_t>& uses) {
-    times_.assign(tape_.code.size(), Time::at_each_order);
-    for (std::size_t i = 0; i < tape_.code.size(); ++i) {
-        const Instruction& instruction = tape_.code[i];
+    times_.assign(code_.size(), Time::at_each_order);
+    for (std::size_t i = 0; i < code_.size(); ++i) {
+        const Instruction& instruction = code_[i];
         if (tape_.degrees[instruction.result] != Tape::unbounded)
             continue;
         if (whole_kernel(i)) {
@@ -69,9 +97,9 @@ void StepFinder::find_private_rates(const std::vector<std::uint32_t>& uses) {
         if (!rate.constant)
             is_rate[rate.index] = true;
     combination_of_.assign(tape_.registers, none);
-    for (std::uint32_t i = 0; i < tape_.code.size(); ++i) {
-        const std::uint32_t result = tape_.code[i].result;
-        if (tape_.code[i].operation == SeriesOperation::linear_combination && is_rate[result] && uses[result] == 1)
+    for (std::uint32_t i = 0; i < code_.size(); ++i) {
+        const std::uint32_t result = code_[i].result;
+        if (code_[i].operation == SeriesOperation::linear_combination && is_rate[result] && uses[result] == 1)
             combination_of_[result] = i;
     }
 }
@@ -92,18 +120,22 @@ void StepFinder::add_states(int order, std::vector<KernelStep>& steps) const {
             steps.push_back({kernel, {register_at(i), register_at(rate.index), {}, {}, {}, {}}});
             continue;
         }
-        combinations.push_back(
-            combination_step(tape_.code[combination], order == 1 ? &CombinationKernels::state_combination_value
-                                                                 : &CombinationKernels::state_combination));
+        combinations.push_back(combination_step(code_[combination], order == 1
+                                                                        ? &CombinationKernels::state_combination_value
+                                                                        : &CombinationKernels::state_combination));
         combinations.back().operands.result = register_at(i);
     }
     steps.insert(steps.end(), combinations.begin(), combinations.end());
 }
 
 void StepFinder::add_instructions(int order, std::vector<KernelStep>& steps) const {
-    std::uint32_t reciprocals = 0;
-    for (std::size_t i = 0; i < tape_.code.size(); ++i) {
-        const Instruction& instruction = tape_.code[i];
+    add_instructions(order, 0, code_.size(), reciprocals_, steps);
+}
+
+void StepFinder::add_instructions(int order, std::size_t first, std::size_t behind, std::uint32_t reciprocals,
+                                  std::vector<KernelStep>& steps) const {
+    for (std::size_t i = first; i < behind; ++i) {
+        const Instruction& instruction = code_[i];
         KernelStep step{nullptr, operands_of(instruction, reciprocals)};
         if (combination_of_[instruction.result] != none ||
             static_cast<std::uint32_t>(order) > tape_.degrees[instruction.result] ||
@@ -112,11 +144,11 @@ void StepFinder::add_instructions(int order, std::vector<KernelStep>& steps) con
         if (order == 0 && starts_pair(i)) {
             steps.push_back(
                 {table_.sine_and_cosine,
-                 {step.operands.result, step.operands.third, {}, register_at(tape_.code[i + 1].result), {}, {}}});
+                 {step.operands.result, step.operands.third, {}, register_at(code_[i + 1].result), {}, {}}});
             ++i;
             continue;
         }
-        const Kernel joint = order > 0 && i > 0 && !steps.empty() ? joint_kernel(i, order, steps.back()) : nullptr;
+        const Kernel joint = order > 0 && i > first && !steps.empty() ? joint_kernel(i, order, steps.back()) : nullptr;
         if (joint)
             steps.back().kernel = joint;
         else if (instruction.operation == SeriesOperation::linear_combination)
@@ -128,15 +160,65 @@ void StepFinder::add_instructions(int order, std::vector<KernelStep>& steps) con
     }
 }
 
+/// One past the last instruction that has to be computed with the first, order by order: a function waits for one
+/// behind it, such as the sine for the cosine.
+/// @param behind one past the instruction that computes each register
+std::size_t StepFinder::end_of_run(std::size_t first, const std::vector<std::size_t>& behind) const {
+    std::size_t end = first + 1;
+    for (std::size_t i = first; i < end; ++i)
+        visit_operands(tape_, code_[i], [&](std::uint32_t operand) { end = std::max(end, behind[operand]); });
+    return end;
+}
+
+std::vector<StepFinder::Run> StepFinder::runs() const {
+    std::vector<Run> runs;
+    std::vector<std::size_t> behind(tape_.registers, 0);
+    for (std::size_t i = 0; i < code_.size(); ++i)
+        behind[code_[i].result] = i + 1;
+    std::uint32_t reciprocals = reciprocals_;
+    const auto highest = static_cast<int>(layout_.order);
+    for (std::size_t first = 0; first < code_.size();) {
+        const Instruction& one = code_[first];
+        const std::size_t end = end_of_run(first, behind);
+        Run run;
+        std::uint32_t unused = reciprocals;
+        const bool product = (one.operation == SeriesOperation::multiply || one.operation == SeriesOperation::square) &&
+                             table_.whole_product != nullptr && tape_.degrees[one.result] == Tape::unbounded;
+        const bool sum =
+            one.operation == SeriesOperation::linear_combination && tape_.degrees[one.result] == Tape::unbounded;
+        if (sum) {
+            run = {true, {{combination_step(one, &CombinationKernels::whole_combination)}}};
+        } else if (times_[first] == Time::before_all) {
+            run = {true, {{whole_step(first)}}};
+        } else if (product) {
+            KernelOperands operands = operands_of(one, unused);
+            if (one.operation == SeriesOperation::square)
+                operands.right = operands.left;
+            run = {true, {{{table_.whole_product, operands}}}};
+        } else {
+            for (int order = 2; order <= highest; ++order)
+                add_instructions(order, first, end, reciprocals, run.steps.emplace_back());
+        }
+        runs.push_back(std::move(run));
+        for (; first < end; ++first)
+            static_cast<void>(operands_of(code_[first], reciprocals)); // counts what they keep
+    }
+    return runs;
+}
+
+/// Of a function of an argument of degree 1, and the other if it is one of a pair.
+KernelStep StepFinder::whole_step(std::size_t i) const {
+    const Instruction& one = code_[i];
+    return {whole_kernel(i), {register_at(one.result), register_at(one.third), {}, register_at(one.right), {}, {}}};
+}
+
 std::vector<KernelStep> StepFinder::before_all() const {
     std::vector<KernelStep> steps;
-    for (std::size_t i = 0; i < tape_.code.size(); ++i) {
+    for (std::size_t i = 0; i < code_.size(); ++i) {
         if (times_[i] != Time::before_all)
             continue;
-        const Instruction& one = tape_.code[i];
-        steps.push_back(
-            {whole_kernel(i), {register_at(one.result), register_at(one.third), {}, register_at(one.right), {}, {}}});
-        if (one.right != one.result)
+        steps.push_back(whole_step(i));
+        if (code_[i].right != code_[i].result)
             ++i;
     }
     return steps;
@@ -144,17 +226,17 @@ std::vector<KernelStep> StepFinder::before_all() const {
 
 std::vector<KernelStep> StepFinder::after_all() const {
     std::vector<KernelStep> steps;
-    for (std::size_t i = 0; i < tape_.code.size(); ++i)
+    for (std::size_t i = 0; i < code_.size(); ++i)
         if (times_[i] == Time::after_all)
-            steps.push_back(combination_step(tape_.code[i], &CombinationKernels::whole_combination));
+            steps.push_back(combination_step(code_[i], &CombinationKernels::whole_combination));
     return steps;
 }
 
 Kernel StepFinder::whole_kernel(std::size_t i) const {
-    const Instruction& one = tape_.code[i];
+    const Instruction& one = code_[i];
     const auto is_pair = [&](SeriesOperation first, SeriesOperation second) {
-        return one.operation == first && i + 1 < tape_.code.size() && tape_.code[i + 1].operation == second &&
-               one.right == tape_.code[i + 1].result && tape_.code[i + 1].right == one.result;
+        return one.operation == first && i + 1 < code_.size() && code_[i + 1].operation == second &&
+               one.right == code_[i + 1].result && code_[i + 1].right == one.result;
     };
     const bool is_function = one.operation == SeriesOperation::sin || one.operation == SeriesOperation::sinh ||
                              one.operation == SeriesOperation::exp;
@@ -168,7 +250,7 @@ Kernel StepFinder::whole_kernel(std::size_t i) const {
 }
 
 Kernel StepFinder::joint_kernel(std::size_t i, int order, const KernelStep& before) const {
-    const Instruction &one = tape_.code[i - 1], &other = tape_.code[i];
+    const Instruction &one = code_[i - 1], &other = code_[i];
     if (before.operands.result != register_at(one.result))
         return nullptr;
     if (other.operation == SeriesOperation::linear_combination) {
@@ -181,8 +263,8 @@ Kernel StepFinder::joint_kernel(std::size_t i, int order, const KernelStep& befo
 }
 
 bool StepFinder::starts_pair(std::size_t i) const {
-    return tape_.code[i].operation == SeriesOperation::sin && i + 1 < tape_.code.size() &&
-           tape_.code[i + 1].operation == SeriesOperation::cos && tape_.code[i].third == tape_.code[i + 1].third;
+    return code_[i].operation == SeriesOperation::sin && i + 1 < code_.size() &&
+           code_[i + 1].operation == SeriesOperation::cos && code_[i].third == code_[i + 1].third;
 }
 
 KernelOperands StepFinder::combination_operands(const Instruction& instruction) const {
@@ -227,8 +309,7 @@ std::size_t StepFinder::combination_row(const Instruction& instruction) {
 
 KernelStep StepFinder::combination_step(const Instruction& instruction, CombinationRow row) const {
     const std::size_t count = combination_row(instruction);
-    return {(table_.combinations.*row)[count], combination_operands(instruction),
-            (table_.fixed_combinations.*row)[count]};
+    return {(table_.combinations.*row)[count], combination_operands(instruction)};
 }
 
 Kernel StepFinder::kernel_of(const Instruction& instruction, int order, KernelOperands& operands) const {

@@ -21,7 +21,6 @@ struct JetLayout {
 struct KernelStep {
     Kernel kernel;
     KernelOperands operands;
-    Kernel fixed = nullptr; ///< instead, where no coefficient of a linear combination has derivatives; null: none
 };
 
 /// Finds the kernels and operands of the steps to be taken at each order, from orders 0 and 1 on; and of what can be
@@ -29,12 +28,24 @@ struct KernelStep {
 /// them, for nothing depends on it.
 class StepFinder {
 public:
+    /// Of states and outputs.
     StepFinder(const Tape& tape, const KernelTable& table, const JetLayout& layout, double* memory,
+               const std::vector<TermOperands>& terms);
+    /// Of one part of what follows them. @param part index in Tape::follower_code
+    StepFinder(const Tape& tape, std::size_t part, const KernelTable& table, const JetLayout& layout, double* memory,
                const std::vector<TermOperands>& terms);
 
     std::vector<KernelStep> steps(int order) const;
     std::vector<KernelStep> before_all() const;
     std::vector<KernelStep> after_all() const;
+
+    /// One instruction after the other, or some that wait for one another, all orders above 1: what does not go back
+    /// into what it is made of waits less that way.
+    struct Run {
+        bool whole = false;                         ///< all orders by one kernel
+        std::vector<std::vector<KernelStep>> steps; ///< of each order from 2 on
+    };
+    std::vector<Run> runs() const;
 
 private:
     static constexpr std::uint32_t none = 0xffffffff;
@@ -50,11 +61,16 @@ private:
     void find_times(const std::vector<std::uint32_t>& uses);
     void add_states(int order, std::vector<KernelStep>& steps) const;
     void add_instructions(int order, std::vector<KernelStep>& steps) const;
+    /// Those from one on, and before another.
+    void add_instructions(int order, std::size_t first, std::size_t behind, std::uint32_t reciprocals,
+                          std::vector<KernelStep>& steps) const;
+    std::size_t end_of_run(std::size_t first, const std::vector<std::size_t>& behind) const;
 
     /// Whether an instruction is a sine and the next the cosine of the same argument.
     bool starts_pair(std::size_t i) const;
     /// Of a function and, if it is one of a pair, the other; null where it needs more than its argument.
     Kernel whole_kernel(std::size_t i) const;
+    KernelStep whole_step(std::size_t i) const;
     /// Of an instruction and the one before, whose step is given; null where there is none.
     Kernel joint_kernel(std::size_t i, int order, const KernelStep& before) const;
 
@@ -67,6 +83,9 @@ private:
     Kernel kernel_of(const Instruction& instruction, int order, KernelOperands& operands) const;
 
     const Tape& tape_;
+    const std::vector<Instruction>& code_;
+    bool has_states_;               ///< they are computed with it
+    std::uint32_t reciprocals_ = 0; ///< kept by the code before
     const KernelTable& table_;
     const JetLayout& layout_;
     double* memory_;

@@ -184,53 +184,52 @@ GRAZE_INLINE L logarithm_of_step(L high, L low, double log_tolerance, int order)
 /// @param steps infinity where the last two terms are all zero, NaN where something is not finite
 template <class V>
 void steps(const FollowedSeries& followed, int order, double log_tolerance, const double* references, double* steps) {
-    using L = Plain<V>;
     constexpr int width = Numbers<V>::width;
     constexpr double infinity = __builtin_inf();
     const auto n = static_cast<std::size_t>(order);
     double limits[2][width], sums[width], growths[width];
-    const L reference = Numbers<L>::load(references);
-    L high = number<L>(0), low = high, sum = high;
+    const V reference = Numbers<V>::load(references);
+    V high = number<V>(0), low = high, sum = high;
     const Series* const series = followed.series;
     const std::size_t count = followed.count, stride = count > 0 ? series[0].stride : 0;
     const auto at = [&](std::size_t i, std::size_t k) __attribute__((always_inline)) {
-        return Numbers<L>::load(series[i].first + k * stride);
+        return Numbers<V>::load(series[i].first + k * stride);
     };
     for (std::size_t i = 0; i < followed.line_count; ++i) {
         const Series& line = followed.lines[i];
-        sum = sum + (Numbers<L>::load(line.first) + Numbers<L>::load(line.first + line.stride)) * 0.0;
+        sum = sum + (Numbers<V>::load(line.first) + Numbers<V>::load(line.first + line.stride)) * 0.0;
     }
     for (std::size_t i = 0; i < count; ++i) {
-        const L c0 = at(i, 0), c1 = at(i, 1), c2 = at(i, 2);
-        const L last = absolute(at(i, n)), before = absolute(at(i, n - 1));
+        const V c0 = at(i, 0), c1 = at(i, 1), c2 = at(i, 2);
+        const V last = absolute(at(i, n)), before = absolute(at(i, n - 1));
         // Not finite as soon as one is not; a logarithm of a negative number has only a first coefficient that
         // is not.
         sum = sum + (last + before) + (c0 + c1 + c2) * 0.0;
-        const L first_terms = absolute(c0) + reference * (absolute(c1) + reference * absolute(c2));
-        const L size = first_terms_or(
+        const V first_terms = absolute(c0) + reference * (absolute(c1) + reference * absolute(c2));
+        const V size = first_terms_or(
             first_terms, [&]() __attribute__((always_inline)) {
                 return (before + reference * last) * integer_power(reference, order - 1);
             });
-        const L measure = greater(size, number<L>(smallest_size));
+        const V measure = greater(size, number<V>(smallest_size));
         high = greater(high, last / measure);
         low = greater(low, before / measure);
     }
-    const L limit = logarithm_of_step(high, low, log_tolerance, order);
-    const L step = power_of_two(greater(lesser(limit, number<L>(1000)), number<L>(-1000)));
+    const V limit = logarithm_of_step(high, low, log_tolerance, order);
+    const V step = power_of_two(greater(lesser(limit, number<V>(1000)), number<V>(-1000)));
     // Where the last terms grow from one to the next, the terms left out are larger still, however small all of
     // them are: so it is with exp(-100 x^2) far from its peak, over which a step must not lead. In pairs, since
     // every other term of an even or odd function is zero.
-    L growth = number<L>(0);
+    V growth = number<V>(0);
     for (std::size_t i = 0; i < count; ++i) {
-        const L end = greater(absolute(at(i, n)) * step, absolute(at(i, n - 1))) * (step * step);
-        const L start = greater(absolute(at(i, n - 2)) * step, absolute(at(i, n - 3)));
+        const V end = greater(absolute(at(i, n)) * step, absolute(at(i, n - 1))) * (step * step);
+        const V start = greater(absolute(at(i, n - 2)) * step, absolute(at(i, n - 3)));
         growth = greater(growth, where_zero(start, start, end - start * largest_growth));
     }
-    Numbers<L>::store(limits[0], high);
-    Numbers<L>::store(limits[1], low);
-    Numbers<L>::store(sums, sum);
-    Numbers<L>::store(growths, growth);
-    Numbers<L>::store(steps, step);
+    Numbers<V>::store(limits[0], high);
+    Numbers<V>::store(limits[1], low);
+    Numbers<V>::store(sums, sum);
+    Numbers<V>::store(growths, growth);
+    Numbers<V>::store(steps, step);
     for (int lane = 0; lane < width; ++lane) {
         if (!(sums[lane] < infinity))
             steps[lane] = __builtin_nan("");

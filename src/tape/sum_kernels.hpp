@@ -8,18 +8,6 @@
 
 namespace graze::GRAZE_INSTRUCTION_SET {
 
-/// Lanes side by side whatever they mean: in a sum, derivatives are numbers like others.
-template <class V>
-struct PlainNumbers {
-    using Type = Packs<V::parts>;
-};
-template <>
-struct PlainNumbers<double> {
-    using Type = double;
-};
-template <class V>
-using Plain = typename PlainNumbers<V>::Type;
-
 GRAZE_INLINE double absolute(double a) {
     return __builtin_fabs(a);
 }
@@ -45,12 +33,11 @@ GRAZE_INLINE Packs<n> lesser(Packs<n> a, Packs<n> b) {
 /// Sum of the series at a time of its own in each lane, by Horner's rule.
 template <class V>
 void sum(const double* series, int order, const double* times, double* values) {
-    using L = Plain<V>;
-    const L time = Numbers<L>::load(times);
-    L value = at<L>(series, order);
+    const V time = Numbers<V>::load(times);
+    V value = at<V>(series, order);
     for (int k = order; k-- > 0;)
-        value = multiply_add(value, time, at<L>(series, k));
-    Numbers<L>::store(values, value);
+        value = multiply_add(value, time, at<V>(series, k));
+    Numbers<V>::store(values, value);
 }
 
 /// The same of several series, and their derivatives there.
@@ -58,21 +45,20 @@ void sum(const double* series, int order, const double* times, double* values) {
 template <class V>
 void sums_and_slopes(const Series* series, const int* degrees, std::size_t count, const double* times, double* values,
                      double* slopes) {
-    using L = Plain<V>;
     constexpr std::size_t width = Numbers<V>::width;
-    const L time = Numbers<L>::load(times);
+    const V time = Numbers<V>::load(times);
     for (std::size_t i = 0; i < count; ++i) {
         const double* const first = series[i].first;
         const double* coefficient = first + degrees[i] * static_cast<std::ptrdiff_t>(width);
-        L value = Numbers<L>::load(coefficient);
-        L slope = value;
+        V value = Numbers<V>::load(coefficient);
+        V slope = value;
 #pragma GCC unroll 4
         for (coefficient -= width; coefficient != first; coefficient -= width) {
-            value = multiply_add(value, time, Numbers<L>::load(coefficient));
+            value = multiply_add(value, time, Numbers<V>::load(coefficient));
             slope = multiply_add(slope, time, value);
         }
-        Numbers<L>::store(slopes + i * width, slope);
-        Numbers<L>::store(values + i * width, multiply_add(value, time, at<L>(first, 0)));
+        Numbers<V>::store(slopes + i * width, slope);
+        Numbers<V>::store(values + i * width, multiply_add(value, time, at<V>(first, 0)));
     }
 }
 
@@ -80,42 +66,41 @@ void sums_and_slopes(const Series* series, const int* degrees, std::size_t count
 /// states by h |slope - rate|, values of outputs by themselves. What is not finite is infinite.
 template <class V>
 void disagreement(const EndComparison& comparison, const EndValues& ends, const double* lengths, double* worst) {
-    using L = Plain<V>;
     constexpr int width = Numbers<V>::width;
     constexpr double round_off = 0x1p-49;
-    const L length = Numbers<L>::load(lengths);
-    L most = Numbers<L>::of(0), sum = most;
+    const V length = Numbers<V>::load(lengths);
+    V most = Numbers<V>::of(0), sum = most;
     for (std::size_t i = 0; i < comparison.state_count; ++i) {
         const double* series = comparison.states[i].first;
         const std::size_t from = comparison.state_indices[i] * width;
-        const L end_rate = at<L>(ends.there + (series - ends.here), 1);
-        const L rates = greater(absolute(at<L>(series, 1)), absolute(end_rate)) * length;
-        const L size = greater(absolute(at<L>(series, 0)), absolute(Numbers<L>::load(ends.values + from))) +
-                       Numbers<L>::of(ends.allowance.smallest) + rates * 0.25;
-        const L difference = absolute(Numbers<L>::load(ends.slopes + from) - end_rate) * length;
-        const L excess = difference - size * ends.allowance.rates;
+        const V end_rate = at<V>(ends.there + (series - ends.here), 1);
+        const V rates = greater(absolute(at<V>(series, 1)), absolute(end_rate)) * length;
+        const V size = greater(absolute(at<V>(series, 0)), absolute(Numbers<V>::load(ends.values + from))) +
+                       Numbers<V>::of(ends.allowance.smallest) + rates * 0.25;
+        const V difference = absolute(Numbers<V>::load(ends.slopes + from) - end_rate) * length;
+        const V excess = difference - size * ends.allowance.rates;
         most = greater(most, excess);
         sum = sum + excess;
     }
     for (std::size_t j = 0; j < comparison.output_count; ++j) {
         const double* series = comparison.outputs[j].first;
-        L value = at<L>(series, comparison.order);
-        L terms = absolute(value);
+        V value = at<V>(series, comparison.order);
+        V terms = absolute(value);
         for (int k = comparison.order; k-- > 0;) {
-            value = multiply_add(value, length, at<L>(series, k));
-            terms = multiply_add(terms, length, absolute(at<L>(series, k)));
+            value = multiply_add(value, length, at<V>(series, k));
+            terms = multiply_add(terms, length, absolute(at<V>(series, k)));
         }
-        const L size =
-            absolute(at<L>(series, 0)) + length * (absolute(at<L>(series, 1)) + length * absolute(at<L>(series, 2)));
-        const L difference = absolute(value - at<L>(ends.there + (series - ends.here), 0));
-        const L excess =
-            difference - ((size + Numbers<L>::of(ends.allowance.smallest)) * ends.allowance.values + terms * round_off);
+        const V size =
+            absolute(at<V>(series, 0)) + length * (absolute(at<V>(series, 1)) + length * absolute(at<V>(series, 2)));
+        const V difference = absolute(value - at<V>(ends.there + (series - ends.here), 0));
+        const V excess =
+            difference - ((size + Numbers<V>::of(ends.allowance.smallest)) * ends.allowance.values + terms * round_off);
         most = greater(most, excess);
         sum = sum + excess;
     }
     double sums[width];
-    Numbers<L>::store(worst, most);
-    Numbers<L>::store(sums, sum * 0.0);
+    Numbers<V>::store(worst, most);
+    Numbers<V>::store(sums, sum * 0.0);
     for (int lane = 0; lane < width; ++lane)
         if (sums[lane] != 0)
             worst[lane] = __builtin_inf();
@@ -128,23 +113,22 @@ void disagreement(const EndComparison& comparison, const EndValues& ends, const 
 /// them all.
 template <class V>
 void bound(const double* series, int order, const double* lengths, double* least, double* sizes) {
-    using L = Plain<V>;
     constexpr int width = Numbers<V>::width;
     const double share = -0x1p-53 * (2 * order + 10);
-    const L length = Numbers<L>::load(lengths);
-    L partial = at<L>(series, 0), bound = partial, size = absolute(partial), power = length;
+    const V length = Numbers<V>::load(lengths);
+    V partial = at<V>(series, 0), bound = partial, size = absolute(partial), power = length;
     const double* const end = series + (order + std::ptrdiff_t{1}) * width;
 #pragma GCC unroll 4
     for (const double* coefficient = series + width; coefficient != end; coefficient += width) {
-        const L term = Numbers<L>::load(coefficient) * power;
+        const V term = Numbers<V>::load(coefficient) * power;
         partial = partial + term;
         size = size + absolute(term);
         bound = lesser(bound, partial);
         power = power * length;
     }
     bound = bound + size * share;
-    Numbers<L>::store(sizes, size);
-    Numbers<L>::store(least, bound);
+    Numbers<V>::store(sizes, size);
+    Numbers<V>::store(least, bound);
     for (int lane = 0; lane < width; ++lane)
         if (!(sizes[lane] <= 0x1.fffffffffffffp1023))
             least[lane] = -__builtin_inf();

@@ -1,12 +1,16 @@
 #pragma once
 
-// What is asked of the derivatives in a tangent jet: all lanes are looked at together, and one by one only where they
-// matter. To be included only by the translation unit of an instruction set.
+// The first variational equations along one motion, for several directions side by side or for one alone. What the
+// motion gives them are series without lanes. To be included only by the translation unit of an instruction set.
 
+#include "tape/kernels.hpp"
 #include "tape/sum_kernels.hpp"
 
 namespace graze::GRAZE_INSTRUCTION_SET {
 
+GRAZE_INLINE unsigned lanes_above(double a, double b) {
+    return a <= b ? 0U : 1U;
+}
 template <int n>
 GRAZE_INLINE unsigned lanes_above(Packs<n> a, Packs<n> b) {
     unsigned bits = 0;
@@ -14,60 +18,221 @@ GRAZE_INLINE unsigned lanes_above(Packs<n> a, Packs<n> b) {
         bits |= lanes_above(a.part[i], b.part[i]) << (i * lanes);
     return bits;
 }
-/// Bits of the lanes 1 .. count, which hold derivatives.
-GRAZE_INLINE unsigned lanes_of_derivatives(int count) {
-    return ((2U << count) - 1U) & ~1U;
+
+/// A row's coefficient of order k, as a sum in parts that do not wait for each other.
+template <class V>
+class TangentSum {
+public:
+    GRAZE_INLINE TangentSum() {
+        for (V& part : parts_)
+            part = Numbers<V>::of(0);
+    }
+    GRAZE_INLINE void add(double a, V w) { add_to<0>(a, w); }
+    GRAZE_INLINE void add_beside(double a, V w) { add_to<1>(a, w); }
+    /// Terms j = 0 .. k of a_j w_{k-j}.
+    template <int k>
+    GRAZE_INLINE void add_all(const double* a, const double* w) {
+        [&]<int... j>(Indices<j...>) __attribute__((always_inline)) {
+            (add_to<j % 4>(a[j], at<V>(w, k - j)), ...);
+        }
+        (std::make_integer_sequence<int, k + 1>{});
+    }
+    /// Of products of single coefficients alone.
+    GRAZE_INLINE V total_of_few() const { return parts_[0] + parts_[1]; }
+    GRAZE_INLINE V total() const { return (parts_[0] + parts_[1]) + (parts_[2] + parts_[3]); }
+
+private:
+    template <int part>
+    GRAZE_INLINE void add_to(double a, V w) {
+        parts_[part] = multiply_add(Factor{splat(a)}, w, parts_[part]);
+    }
+    V parts_[4];
+};
+
+/// The same of one direction, where terms are side by side.
+template <>
+class TangentSum<double> {
+public:
+    GRAZE_INLINE void add(double a, double w) { sums_[0] = multiply_add(a, w, sums_[0]); }
+    GRAZE_INLINE void add_beside(double a, double w) { sums_[1] = multiply_add(a, w, sums_[1]); }
+    template <int k>
+    GRAZE_INLINE void add_all(const double* a, const double* w) {
+#if defined(__FMA__)
+        constexpr int blocks = k / 4;
+#else
+        constexpr int blocks = 0;
+#endif
+        // The newest coefficient by itself: it is still on its way to memory, from where four cannot be read at once.
+        sums_[0] = multiply_add(a[0], w[k], sums_[0]);
+        [&]<int... block>(Indices<block...>) __attribute__((always_inline)) {
+            (add_four(a + 1 + 4 * block, w + k - 4 * block - 4), ...);
+        }
+        (std::make_integer_sequence<int, blocks>{});
+        [&]<int... j>(Indices<j...>) __attribute__((always_inline)) {
+            ((sums_[(j + 1) % 2] = multiply_add(a[1 + 4 * blocks + j], w[k - 1 - 4 * blocks - j], sums_[(j + 1) % 2])),
+             ...);
+        }
+        (std::make_integer_sequence<int, k - 4 * blocks>{});
+    }
+    GRAZE_INLINE double total_of_few() const {
+        return sums_[0] + sums_[1];
+    }
+    GRAZE_INLINE double total() const {
+#if defined(__FMA__)
+        const __m128d halves = _mm256_castpd256_pd128(four_) + _mm256_extractf128_pd(four_, 1);
+        return (sums_[0] + sums_[1]) + (halves[0] + halves[1]);
+#else
+        return sums_[0] + sums_[1];
+#endif
+    }
+
+private:
+#if defined(__FMA__)
+    /// @param w the last of the four first
+    GRAZE_INLINE void add_four(const double* a, const double* w) {
+        four_ = _mm256_fmadd_pd(_mm256_loadu_pd(a), _mm256_permute4x64_pd(_mm256_loadu_pd(w), 0x1b), four_);
+    }
+    __m256d four_ = _mm256_setzero_pd();
+#else
+    GRAZE_INLINE void add_four(const double*, const double*) {}
+#endif
+    double sums_[2] = {0, 0};
+};
+
+/// Coefficient k of each intermediate quantity, and k + 1 of each state.
+template <class V, int k>
+void tangent_order(const TangentOperands& o, const double* jet) {
+    const TangentRow* const end = o.rows + o.count;
+    for (const TangentRow* row = o.rows; row != end; ++row) {
+        TangentSum<V> sum;
+        const TangentTerm* term = row->fixed;
+        for (; row->few - term >= 2; term += 2) {
+            sum.add(jet[term[0].series], at<V>(o.numbers + term[0].source, k));
+            sum.add_beside(jet[term[1].series], at<V>(o.numbers + term[1].source, k));
+        }
+        if (term != row->few) {
+            sum.add(jet[term->series], at<V>(o.numbers + term->source, k));
+            ++term;
+        }
+        for (; term != row->many; ++term) {
+            const int last = term->degree < k ? term->degree : k;
+            for (int j = k > term->source_degree ? k - term->source_degree : 0; j <= last; ++j)
+                sum.add(jet[term->series + j], at<V>(o.numbers + term->source, k - j));
+        }
+        V change;
+        if (term == row->end) {
+            change = sum.total_of_few();
+        } else {
+            for (; term != row->end; ++term)
+                sum.template add_all<k>(jet + term->series, o.numbers + term->source);
+            change = sum.total();
+        }
+        if (row->is_rate)
+            put(o.numbers + row->result, k + 1, change * inverse.of[k + 1]);
+        else
+            put(o.numbers + row->result, k, change);
+    }
 }
 
+/// Sums of the states' changes and of their derivatives with respect to time.
 template <class V>
-double tangent_tails(const TangentStates& states, double step, const double* floors) {
-    using L = Plain<V>;
+void tangent_sums_and_slopes(const TangentStates& states, double time, double* values, double* slopes) {
     constexpr std::size_t width = Numbers<V>::width;
-    const unsigned derivatives = lanes_of_derivatives(states.lanes);
-    const int order = states.order;
-    double power = 1, worst = 0;
-    for (int k = 1; k < order; ++k)
-        power *= step;
-    for (std::size_t i = 0; i < states.count; ++i) {
-        const double* c = states.series[i].first;
-        L size = absolute(at<L>(c, 0)) + (absolute(at<L>(c, 1)) + absolute(at<L>(c, 2)) * step) * step;
-        if (floors != nullptr)
-            size = greater(size, Numbers<L>::load(floors + i * width));
-        const L last = greater(absolute(at<L>(c, order - 1)), absolute(at<L>(c, order)) * step) * power;
-        unsigned above = lanes_above(last, size * worst) & derivatives;
-        if (above == 0)
-            continue;
-        double sizes[width], lasts[width];
-        Numbers<L>::store(sizes, size);
-        Numbers<L>::store(lasts, last);
-        for (std::size_t lane = 1; lane <= static_cast<std::size_t>(states.lanes); ++lane) {
-            if (lasts[lane] > 0 && !(sizes[lane] > 0)) {
-                sizes[lane] = 0;
-                for (int k = order; k >= 0; --k)
-                    sizes[lane] = sizes[lane] * step + absolute(c[static_cast<std::size_t>(k) * width + lane]);
-            }
-            if (lasts[lane] > worst * sizes[lane] && sizes[lane] > smallest_derivative)
-                worst = lasts[lane] / sizes[lane];
+    const V at_time = Numbers<V>::of(time);
+    for (std::size_t i = 0; i < states.states; ++i) {
+        const double* const c = states.numbers + i * states.size;
+        V value = at<V>(c, states.order);
+        V slope = value;
+#pragma GCC unroll 4
+        for (int k = states.order - 1; k > 0; --k) {
+            value = multiply_add(value, at_time, at<V>(c, k));
+            slope = multiply_add(slope, at_time, value);
         }
+        Numbers<V>::store(slopes + i * width, slope);
+        Numbers<V>::store(values + i * width, multiply_add(value, at_time, at<V>(c, 0)));
+    }
+}
+
+/// Where a size is that of nothing, the share is not known this way.
+GRAZE_INLINE double share_of(double last, double size) {
+    return size > smallest_derivative ? last / size : 0;
+}
+template <int n>
+GRAZE_INLINE Packs<n> share_of(Packs<n> last, Packs<n> size) {
+    return GRAZE_FOR_PARTS(Packs<n>, size.part[i] > smallest_derivative ? last.part[i] / size.part[i] : splat(0));
+}
+/// Share of the last two terms in the sum of all, in lanes where the first three are zero.
+template <class V>
+GRAZE_INLINE double share_of_all(const double* c, int order, double step, V last, V size) {
+    constexpr int width = Numbers<V>::width;
+    double sizes[width], lasts[width], worst = 0;
+    Numbers<V>::store(sizes, size);
+    Numbers<V>::store(lasts, last);
+    for (int lane = 0; lane < width; ++lane) {
+        if (!(lasts[lane] > 0) || sizes[lane] > 0)
+            continue;
+        double all = 0;
+        for (int k = order; k >= 0; --k)
+            all = all * step + absolute(c[k * width + lane]);
+        worst = greater(worst, share_of(lasts[lane], all));
     }
     return worst;
 }
 
 template <class V>
+double tangent_tails(const TangentStates& states, double step, const double* floors) {
+    constexpr int width = Numbers<V>::width;
+    const int order = states.order;
+    double power = 1, worst_of_all = 0;
+    for (int k = 1; k < order; ++k)
+        power *= step;
+    V worst = Numbers<V>::of(0);
+    for (std::size_t i = 0; i < states.states; ++i) {
+        const double* c = states.numbers + i * states.size;
+        V size = absolute(at<V>(c, 0)) + (absolute(at<V>(c, 1)) + absolute(at<V>(c, 2)) * step) * step;
+        if (floors != nullptr)
+            size = greater(size, Numbers<V>::load(floors + i * static_cast<std::size_t>(width)));
+        const V last = greater(absolute(at<V>(c, order - 1)), absolute(at<V>(c, order)) * step) * power;
+        worst = greater(worst, share_of(last, size));
+        if (lanes_above(last, size * 0x1p+1000) != 0) // where there is no size
+            worst_of_all = greater(worst_of_all, share_of_all(c, order, step, last, size));
+    }
+    double shares[width];
+    Numbers<V>::store(shares, worst);
+    for (const double share : shares)
+        worst_of_all = greater(worst_of_all, share);
+    return worst_of_all;
+}
+
+template <class V>
 std::size_t tangent_misfit(const TangentStates& states, const TangentEnds& ends, std::size_t from) {
-    using L = Plain<V>;
     constexpr std::size_t width = Numbers<V>::width;
-    const unsigned derivatives = lanes_of_derivatives(states.lanes);
-    for (std::size_t i = from; i < states.count; ++i) {
-        const double* c = states.series[i].first;
-        const L rate = at<L>(ends.there[i].first, 1), end = Numbers<L>::load(ends.sums + i * width);
-        const L size = Numbers<L>::of(ends.smallest) + greater(absolute(at<L>(c, 0)), absolute(end)) +
-                       greater(absolute(at<L>(c, 1)), absolute(rate)) * (0.25 * ends.length);
-        const L apart = absolute(Numbers<L>::load(ends.slopes + i * width) - rate) * ends.length;
-        if ((lanes_above(apart, size * ends.allowed) & derivatives) != 0)
+    const unsigned in_use = (1U << states.count) - 1U;
+    for (std::size_t i = from; i < states.states; ++i) {
+        const double* c = states.numbers + i * states.size;
+        const V rate = at<V>(ends.there + i * states.size, 1), end = Numbers<V>::load(ends.sums + i * width);
+        const V size = Numbers<V>::of(ends.smallest) + greater(absolute(at<V>(c, 0)), absolute(end)) +
+                       greater(absolute(at<V>(c, 1)), absolute(rate)) * (0.25 * ends.length);
+        const V apart = absolute(Numbers<V>::load(ends.slopes + i * width) - rate) * ends.length;
+        if ((lanes_above(apart, size * ends.allowed) & in_use) != 0)
             return i;
     }
-    return states.count;
+    return states.states;
+}
+
+template <class V, int... k>
+constexpr void fill_tangent_orders(TangentKernels& kernels, Indices<k...>) {
+    ((kernels.order[k] = &tangent_order<V, k>), ...);
+}
+template <class V>
+constexpr TangentKernels make_tangent_kernels() {
+    TangentKernels kernels{};
+    kernels.width = Numbers<V>::width;
+    fill_tangent_orders<V>(kernels, std::make_integer_sequence<int, highest_order>{});
+    kernels.sums_and_slopes = &tangent_sums_and_slopes<V>;
+    kernels.tails = &tangent_tails<V>;
+    kernels.misfit = &tangent_misfit<V>;
+    return kernels;
 }
 
 } // namespace graze::GRAZE_INSTRUCTION_SET

@@ -18,6 +18,13 @@ std::vector<Expression> joined(std::span<const Expression> one, std::span<const 
     return all;
 }
 
+std::vector<Expression> values_of(std::span<const TapeFollower> followers) {
+    std::vector<Expression> values;
+    for (const TapeFollower& follower : followers)
+        values.push_back(follower.value);
+    return values;
+}
+
 using Symbols = std::unordered_map<NodeIndex, LinearForm>;
 
 /// Registers of the states and constants of the parameters.
@@ -80,18 +87,22 @@ void check(const Subgraph& subgraph, std::span<const Expression> symbols) {
 } // namespace
 
 Tape compile_tape(std::span<const Expression> states, std::span<const Expression> parameters,
-                  std::span<const Expression> rates, std::span<const Expression> outputs) {
+                  std::span<const Expression> rates, std::span<const Expression> outputs,
+                  std::span<const TapeFollower> followers) {
     if (states.size() != rates.size())
         throw std::invalid_argument("there must be as many rates as states");
-    const Subgraph subgraph = subgraph_of(joined(rates, outputs));
-    check(subgraph, states);
-    check(subgraph, parameters);
+    const Subgraph subgraph = subgraph_of(joined(rates, outputs)), behind = subgraph_of(values_of(followers));
+    for (const Subgraph* part : {&subgraph, &behind}) {
+        check(*part, states);
+        check(*part, parameters);
+    }
 
     Tape tape;
     tape.states = static_cast<std::uint32_t>(states.size());
     tape.parameters = static_cast<std::uint32_t>(parameters.size());
     SeriesBuilder builder(tape.states, tape.parameters);
-    const std::vector<LinearForm> forms = compile(builder, subgraph, symbols(builder, states, parameters));
+    const Symbols known = symbols(builder, states, parameters);
+    const std::vector<LinearForm> forms = compile(builder, subgraph, known);
     std::vector<bool> rate_is_zero;
     for (std::size_t i = 0; i < subgraph.roots.size(); ++i) {
         const Tape::Location location = builder.location(forms[subgraph.roots[i]]);
@@ -102,9 +113,19 @@ Tape compile_tape(std::span<const Expression> states, std::span<const Expression
             tape.outputs.push_back(location);
         }
     }
+    // Compiled by themselves, they find registers in which something of theirs is already, and make no others of what
+    // rates and outputs need.
+    builder.prefer_reciprocals();
+    const std::vector<LinearForm> more = compile(builder, behind, known);
+    std::vector<std::uint32_t> groups;
+    for (std::size_t i = 0; i < followers.size(); ++i) {
+        tape.followers.push_back(builder.location(more[behind.roots[i]]));
+        groups.push_back(followers[i].group);
+    }
     builder.move_to(tape);
     find_degrees(tape, rate_is_zero);
     remove_unneeded(tape);
+    set_followers_apart(tape, groups);
     builder.constants().move_to(tape);
     return tape;
 }

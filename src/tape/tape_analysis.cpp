@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numeric>
 
 namespace graze {
@@ -65,31 +66,91 @@ void find_degrees(Tape& tape, const std::vector<bool>& rate_is_zero) {
     }
 }
 
-std::vector<bool> needed_registers(const Tape& tape) {
-    constexpr std::uint32_t none = 0xffffffff;
+namespace {
+
+constexpr std::uint32_t none = 0xffffffff;
+
+/// The instruction that computes each register.
+std::vector<std::uint32_t> definitions_of(const Tape& tape) {
     std::vector<std::uint32_t> definition(tape.registers, none);
     for (std::uint32_t i = 0; i < tape.code.size(); ++i)
         definition[tape.code[i].result] = i;
-    std::vector<bool> needed(tape.registers, false);
-    std::vector<std::uint32_t> pending;
-    const auto need = [&](std::uint32_t reg) {
-        if (!needed[reg])
-            pending.push_back(reg);
-        needed[reg] = true;
-    };
-    for (std::uint32_t i = 0; i < tape.states; ++i)
-        need(i);
-    for (const auto* locations : {&tape.rates, &tape.outputs})
-        for (const Tape::Location& location : *locations)
-            if (!location.constant)
-                need(location.index);
+    return definition;
+}
+
+/// Visits registers, and those on which they depend as long as that is wanted.
+/// @param enter a register: whether to go on behind it
+template <class Enter>
+void visit_dependences(const Tape& tape, const std::vector<std::uint32_t>& definition,
+                       std::vector<std::uint32_t> pending, Enter&& enter) {
     while (!pending.empty()) {
-        const std::uint32_t index = definition[pending.back()];
+        const std::uint32_t reg = pending.back();
         pending.pop_back();
-        if (index != none)
-            visit_operands(tape, tape.code[index], need);
+        if (enter(reg) && definition[reg] != none)
+            visit_operands(tape, tape.code[definition[reg]],
+                           [&](std::uint32_t operand) { pending.push_back(operand); });
     }
+}
+
+std::vector<std::uint32_t> registers_at(std::span<const Tape::Location> locations) {
+    std::vector<std::uint32_t> registers;
+    for (const Tape::Location& location : locations)
+        if (!location.constant)
+            registers.push_back(location.index);
+    return registers;
+}
+
+std::vector<bool> registers_behind(const Tape& tape, std::initializer_list<std::span<const Tape::Location>> ends) {
+    std::vector<bool> needed(tape.registers, false);
+    std::vector<std::uint32_t> pending(tape.states);
+    std::iota(pending.begin(), pending.end(), 0U);
+    for (const std::span<const Tape::Location> locations : ends)
+        for (const std::uint32_t reg : registers_at(locations))
+            pending.push_back(reg);
+    visit_dependences(tape, definitions_of(tape), std::move(pending), [&](std::uint32_t reg) {
+        const bool is_new = !needed[reg];
+        needed[reg] = true;
+        return is_new;
+    });
     return needed;
+}
+
+} // namespace
+
+std::vector<bool> needed_registers(const Tape& tape) {
+    return registers_behind(tape, {tape.rates, tape.outputs, tape.followers});
+}
+
+void set_followers_apart(Tape& tape, std::span<const std::uint32_t> groups) {
+    if (groups.empty())
+        return;
+    constexpr std::uint32_t value = 0xfffffffe; // of rates and outputs
+    const std::uint32_t count = *std::max_element(groups.begin(), groups.end()) + 1;
+    constexpr std::uint32_t first = 0, shared = 1; // in `follower_code`; the others are one behind their groups
+    std::vector<std::uint32_t> owner(tape.registers, none);
+    const std::vector<bool> of_value = registers_behind(tape, {tape.rates, tape.outputs});
+    for (std::uint32_t reg = 0; reg < tape.registers; ++reg)
+        if (of_value[reg])
+            owner[reg] = value;
+    const std::vector<std::uint32_t> definition = definitions_of(tape);
+    std::vector<std::vector<Tape::Location>> ends(count);
+    for (std::size_t i = 0; i < groups.size(); ++i)
+        ends[groups[i]].push_back(tape.followers[i]);
+    for (std::uint32_t group = 0; group < count; ++group) {
+        const std::uint32_t own = group == 0 ? first : 1 + group;
+        visit_dependences(tape, definition, registers_at(ends[group]), [&](std::uint32_t reg) {
+            if (owner[reg] == value || owner[reg] == first || owner[reg] == shared || owner[reg] == own)
+                return false;
+            owner[reg] = owner[reg] == none ? own : shared;
+            return true;
+        });
+    }
+    tape.follower_code.resize(count + 1);
+    std::vector<Instruction> code;
+    for (const Instruction& instruction : tape.code)
+        (owner[instruction.result] == value ? code : tape.follower_code[owner[instruction.result]])
+            .push_back(instruction);
+    tape.code = std::move(code);
 }
 
 namespace {
@@ -213,7 +274,7 @@ void remove_unneeded(Tape& tape) {
         }
         code.push_back(instruction);
     }
-    for (auto* locations : {&tape.rates, &tape.outputs})
+    for (auto* locations : {&tape.rates, &tape.outputs, &tape.followers})
         for (Tape::Location& location : *locations)
             if (!location.constant)
                 location.index = number[location.index];

@@ -4,6 +4,8 @@
 #include "tape/kernel_table.hpp"
 #include "tape/recurrence.hpp"
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace graze {
@@ -43,7 +45,7 @@ void visit_operands(const Tape& tape, const Instruction& instruction, Visit&& vi
 /// Fills in `degrees`: the smallest that are consistent with the rates. Degrees above 4 are not told from unbounded.
 void find_degrees(Tape& tape, const std::vector<bool>& rate_is_zero);
 
-/// The registers that rates and outputs depend on; states are always among them.
+/// The registers that rates, outputs and followers depend on; states are always among them.
 std::vector<bool> needed_registers(const Tape& tape);
 
 /// Registers that are states or sums of multiples of them, and constants: at the ends of steps these have the values
@@ -67,5 +69,9 @@ GuardingRegisters guarding_registers(const Tape& tape);
 
 /// Removes instructions that nothing needs and renumbers registers.
 void remove_unneeded(Tape& tape);
+
+/// Moves instructions that only followers need from `code` to `follower_code`.
+/// @param groups of the followers
+void set_followers_apart(Tape& tape, std::span<const std::uint32_t> groups);
 
 } // namespace graze

@@ -104,7 +104,7 @@ bool Ensemble::refill(std::size_t slot, const Again& again) {
 /// One step of all that are seated. @return whether all of them can make another one in this mode
 bool Ensemble::step_lanes(std::size_t mode) {
     load_states();
-    const Jet& jet = jets_.computed(mode, states_);
+    Jet& jet = jets_.computed(mode, states_);
     const std::span<double> lengths = outlook_.lengths();
     for (std::size_t lane = 0; lane < lanes_; ++lane)
         lengths[lane] = seats_[lane] != nobody ? slots_[seats_[lane]]->previous_step() : 1;

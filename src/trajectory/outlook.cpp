@@ -56,7 +56,9 @@ void Outlook::find_steps(const Jet& jet) {
     jet.find_steps(log_tolerance_, lengths_, lengths_);
 }
 
-void Outlook::look(const Jet& jet, Jet& next, std::size_t mode) {
+void Outlook::look(Jet& jet, Jet& next, std::size_t mode) {
+    jet_ = &jet;
+    next_ = &next;
     jet.evaluate_states(lengths_, states_, slopes_);
     const std::size_t watched = simulation_.system().mode(mode).watched.size(), bounds = watched * width_;
     if (width_ == 1 && watched > few_events)

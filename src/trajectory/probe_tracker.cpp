@@ -1,6 +1,7 @@
 #include "trajectory/probe_tracker.hpp"
 
 #include "flow/kept_sign.hpp"
+#include "flow/lone_crossing.hpp"
 #include "trajectory/series.hpp"
 
 #include <algorithm>
@@ -15,12 +16,22 @@ ProbeTracker::ProbeTracker(const Simulation& simulation, std::span<const double>
       work_(static_cast<std::size_t>(simulation.order()) + 1), gathered_(work_.size()) {
     for (std::size_t p = 0; p < tracked_.size(); ++p) {
         const Probe& probe = simulation.probes()[p];
-        const bool phase = probe.kind == Probe::Kind::phase;
-        followed_.push_back({probe.kind, phase ? probe.state : simulation.series_of_probe(p), {}});
-        for (std::size_t mode = 0; phase && mode < simulation.model().modes.size(); ++mode) {
-            const std::size_t degree = simulation.system().mode(mode).tape.degrees[probe.state];
-            followed_.back().sizes.push_back(std::min(work_.size() - 1, degree) + 1);
+        if (probe.kind != Probe::Kind::phase) {
+            followed_.push_back({probe.kind, probe.direction, simulation.series_of_probe(p)});
+            expressions_.push_back(p);
+            continue;
         }
+        followed_.push_back({probe.kind, Direction::both, probe.state});
+        auto phase = std::find_if(phases_.begin(), phases_.end(),
+                                  [&](const Phase& known) { return known.state == probe.state; });
+        if (phase == phases_.end()) {
+            phase = phases_.insert(phase, Phase{probe.state, {}, {}});
+            for (std::size_t mode = 0; mode < simulation.model().modes.size(); ++mode) {
+                const std::size_t degree = simulation.system().mode(mode).tape.degrees[probe.state];
+                phase->sizes.push_back(std::min(work_.size() - 1, degree) + 1);
+            }
+        }
+        phase->probes.push_back(p);
     }
     found_.reserve(16);
     changes_.reserve(16);
@@ -38,6 +49,7 @@ void ProbeTracker::start(std::span<const double> state) {
 }
 
 void ProbeTracker::locate(std::size_t index, double value) {
+    bounds_known_ = false;
     const double period = periods_[simulation_.probes()[index].state];
     const double target = phase_values_[index];
     const double slack = roundoff * period;
@@ -55,13 +67,12 @@ void ProbeTracker::locate(std::size_t index, double value) {
 }
 
 /// Beginning on the section is not a passage of it, whichever way the phase goes.
-void ProbeTracker::leave_section(std::size_t index, const Step& step) {
-    const Probe& probe = simulation_.probes()[index];
-    const double period = periods_[probe.state];
-    const std::span<const double> c = series_of_phase(index, step);
-    const std::size_t leading = leading_index(c, step.length, roundoff * period);
+void ProbeTracker::leave_section(std::size_t index, std::span<const double> c, double length) {
+    const double period = periods_[simulation_.probes()[index].state];
+    const std::size_t leading = leading_index(c, length, roundoff * period);
     if (leading == 0)
         return;
+    bounds_known_ = false;
     Tracked& tracked = tracked_[index];
     tracked.on_section = false;
     if (c[leading] > 0) {
@@ -74,11 +85,13 @@ void ProbeTracker::leave_section(std::size_t index, const Step& step) {
 }
 
 void ProbeTracker::shift(std::size_t state, double shift) {
-    for (std::size_t p = 0; p < tracked_.size(); ++p)
-        if (const Probe& probe = simulation_.probes()[p]; probe.kind == Probe::Kind::phase && probe.state == state) {
-            tracked_[p].lower += shift;
-            tracked_[p].upper += shift;
-        }
+    bounds_known_ = false;
+    for (const Phase& phase : phases_)
+        if (phase.state == state)
+            for (const std::size_t probe : phase.probes) {
+                tracked_[probe].lower += shift;
+                tracked_[probe].upper += shift;
+            }
 }
 
 void ProbeTracker::relocate(std::size_t state, double before, double after) {
@@ -87,58 +100,100 @@ void ProbeTracker::relocate(std::size_t state, double before, double after) {
     // A jump by whole periods moves the sections along: a passage that is due must be neither lost nor doubled.
     if (std::abs(after - before - turns * period) <= 16 * roundoff * period)
         return shift(state, turns * period);
-    for (std::size_t p = 0; p < tracked_.size(); ++p)
-        if (const Probe& probe = simulation_.probes()[p]; probe.kind == Probe::Kind::phase && probe.state == state)
-            locate(p, after);
+    for (const Phase& phase : phases_)
+        if (phase.state == state)
+            for (const std::size_t probe : phase.probes)
+                locate(probe, after);
 }
 
-void ProbeTracker::remember_start() {
-    if (!remembered_)
-        tracked_at_start_ = tracked_;
-    remembered_ = true;
-}
-
-void ProbeTracker::cut(double s) {
-    if (!remembered_)
-        return;
-    tracked_ = tracked_at_start_;
+void ProbeTracker::cut(const Step& step, double s) {
+    bounds_known_ = false;
+    for (std::size_t i = changes_.size(); i-- > 0;)
+        tracked_[changes_[i].probe] = changes_[i].before;
     for (const Change& one : changes_)
-        if (one.at <= s)
+        if ((one.at == unplaced ? place(one.probe, step) : one.at) <= s)
             change(one.probe, one.direction);
 }
 
 std::span<const ProbeTracker::Found> ProbeTracker::search(const Step& step) {
     found_.clear();
     changes_.clear();
-    remembered_ = false;
-    constexpr std::size_t none = static_cast<std::size_t>(-1);
-    std::size_t phase = none; // whose reach is known
-    double reach = 0;
-    for (std::size_t p = 0; p < followed_.size(); ++p) {
-        const std::size_t index = followed_[p].index;
-        const Tracked& tracked = tracked_[p];
-        if (followed_[p].kind == Probe::Kind::phase) {
-            if (index != phase)
-                reach = size_beyond_start(series_of_phase(p, step), step.length) * (1 + roundoff);
-            phase = index;
-            if (tracked.on_section || tracked.is_near(step.states[index][0], reach))
-                search_phase(p, step, reach);
-            continue;
-        }
-        const std::span<const double> c = without_gaps(step.observed[index], work_.size());
-        if (followed_[p].kind == Probe::Kind::crossing) {
-            search_series(p, c, step.length, false);
-        } else if (tracked.side == 0 || RootFinder::trend(c, step.length) != tracked.side) {
-            for (std::size_t k = 0; k + 1 < c.size(); ++k)
-                work_[k] = static_cast<double>(k + 1) * c[k + 1];
-            search_series(p, {work_.data(), c.size() - 1}, step.length, true);
-        }
+    if (!bounds_known_)
+        find_bounds();
+    for (const Phase& phase : phases_) {
+        const double* const series = step.states[phase.state].first;
+        const double now = series[0], end = now + series[step.states[phase.state].stride] * step.length;
+        if (!phase.is_line(step.mode) || !(std::min(now, end) > phase.low && std::max(now, end) < phase.high))
+            search_phases(phase, step);
     }
+    for (const std::size_t probe : expressions_)
+        search_expression(probe, step);
     arc_start_ = false;
-    const auto is_before = [](const Found& a, const Found& b) { return a.at < b.at; };
+    if (found_.size() > 1)
+        sort_found();
+    return found_;
+}
+
+void ProbeTracker::sort_found() {
+    const auto is_before = [](const Found& a, const Found& b) {
+        return a.at < b.at || (a.at == b.at && a.probe < b.probe);
+    };
     if (!std::is_sorted(found_.begin(), found_.end(), is_before)) // sorting asks for memory
         std::stable_sort(found_.begin(), found_.end(), is_before);
-    return found_;
+}
+
+/// Where no value is near for sure, with more to spare than round-off and slack can take. Nearer, those of each probe
+/// decide.
+void ProbeTracker::find_bounds() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (Phase& phase : phases_) {
+        phase.low = -infinity;
+        phase.high = infinity;
+        for (const std::size_t probe : phase.probes) {
+            const Tracked& tracked = tracked_[probe];
+            const double margin = 4 * roundoff * (std::abs(tracked.lower) + std::abs(tracked.upper));
+            phase.low = std::max(phase.low, tracked.on_section ? infinity : tracked.lower + margin);
+            phase.high = std::min(phase.high, tracked.upper - margin);
+        }
+    }
+    bounds_known_ = true;
+}
+
+ProbeTracker::Reach ProbeTracker::reach_of_line(double change) {
+    const double most = std::abs(change) * (1 + roundoff);
+    return {change < 0 ? 0 : most, change > 0 ? 0 : most, most};
+}
+
+ProbeTracker::Reach ProbeTracker::reach_of_series(std::span<const double> c, double length) {
+    const double most = size_beyond_start(c, length) * (1 + roundoff);
+    return {most, most, most};
+}
+
+void ProbeTracker::search_phases(const Phase& phase, const Step& step) {
+    const std::span<const double> c = without_gaps(step.states[phase.state], phase.sizes[step.mode]);
+    const Reach reach = phase.is_line(step.mode) ? reach_of_line(step.states[phase.state][1] * step.length)
+                                                 : reach_of_series(c, step.length);
+    for (const std::size_t probe : phase.probes)
+        if (tracked_[probe].on_section || tracked_[probe].is_near(c[0], reach))
+            search_phase(probe, step, c, reach);
+}
+
+/// Most steps are left at a first glance.
+void ProbeTracker::search_expression(std::size_t probe, const Step& step) {
+    const Followed& followed = followed_[probe];
+    const std::span<const double> c = without_gaps(step.observed[followed.index], work_.size());
+    const bool crossing = followed.kind == Probe::Kind::crossing;
+    const roots::ClearSign clear =
+        crossing ? roots::clear_sign<false>(c, step.length) : roots::clear_sign<true>(c, step.length);
+    if (clear.sign == 0 || clear.sign != tracked_[probe].side)
+        search_series(probe, crossing ? c : rate_of(c), step.length, clear);
+}
+
+/// Coefficients of the derivative; valid until those of another are asked for.
+std::span<const double> ProbeTracker::rate_of(std::span<const double> c) {
+    for (std::size_t k = 0; k + 1 < c.size(); ++k)
+        work_[k] = static_cast<double>(k + 1) * c[k + 1];
+    return {work_.data(), c.size() - 1};
 }
 
 void ProbeTracker::change(std::size_t index, int direction) {
@@ -148,6 +203,7 @@ void ProbeTracker::change(std::size_t index, int direction) {
         tracked.side = direction;
         return;
     }
+    bounds_known_ = false;
     const double period = periods_[probe.state];
     tracked.lower += direction * period;
     tracked.upper += direction * period;
@@ -156,82 +212,99 @@ void ProbeTracker::change(std::size_t index, int direction) {
 }
 
 void ProbeTracker::note(std::size_t probe, double at, int direction, bool at_contact) {
-    changes_.push_back({probe, at, direction});
+    changes_.push_back({probe, at, direction, tracked_[probe]});
     change(probe, direction);
-    const Direction wanted = simulation_.probes()[probe].direction;
-    if (simulation_.probes()[probe].kind == Probe::Kind::phase || wanted == Direction::both ||
-        (wanted == Direction::rising) == (direction > 0))
+    if (followed_[probe].wants(direction))
         found_.push_back({probe, at, direction, at_contact});
 }
 
-void ProbeTracker::search_series(std::size_t probe, std::span<const double> c, double length, bool extremum) {
+/// A function on one side at the start of a step that was last known on the other has passed in between, unless an arc
+/// begins: what a jump does makes an extremum, but is no crossing by the motion.
+void ProbeTracker::begin_on(int side, std::size_t probe) {
     Tracked& tracked = tracked_[probe];
-    int now = c[0] > 0 ? 1 : -1;
-    if (now == tracked.side && roots::kept_sign(c, length) == now)
-        return;
-    remember_start();
-    const double noise = roundoff * (std::abs(c[0]) + size_beyond_start(c, length));
-    RootStart start = RootStart::as_is;
-    if (std::abs(c[0]) <= noise) {
-        const std::size_t leading = leading_index(c, length, noise);
-        if (leading == 0)
-            return; // zero throughout, to within round-off
-        now = c[leading] > 0 ? 1 : -1;
-        c = c.subspan(leading - 1);
-        start = RootStart::deflate;
+    if (tracked.side != 0 && side != tracked.side && (!arc_start_ || followed_[probe].kind == Probe::Kind::extremum))
+        note(probe, 0, side, arc_start_);
+    tracked.side = side;
+}
+
+/// @param clear what a glance has shown
+void ProbeTracker::search_series(std::size_t probe, std::span<const double> c, double length, roots::ClearSign clear) {
+    if (clear.sign != 0)
+        return begin_on(clear.sign, probe);
+    const int now = c[0] > 0 ? 1 : -1;
+    const bool as_before = now == tracked_[probe].side;
+    if (std::abs(c[0]) <= 2 * roundoff * clear.size) {
+        const double noise = roundoff * (std::abs(c[0]) + size_beyond_start(c, length));
+        if (std::abs(c[0]) <= noise)
+            return search_from_zero(probe, c, length, noise);
     }
-    // A changed sign at the start is a passage that fell between two steps; at the start of an arc it is the
-    // doing of a jump, which makes an extremum but is no crossing by the motion.
-    if (tracked.side != 0 && now != tracked.side && (!arc_start_ || extremum))
-        note(probe, 0, now, arc_start_);
-    tracked.side = tracked_at_start_[probe].side = now;
+    begin_on(now, probe);
+    if (const auto lone = roots::lone_crossing(c, length)) {
+        if (lone->crosses)
+            note(probe, followed_[probe].wants(-now) ? lone->place(c, length) : unplaced, -now, false);
+    } else if (!as_before || roots::kept_sign(c, length) != now) {
+        note_crossings(probe, c, length, RootStart::as_is);
+    }
+}
+
+/// A function that round-off cannot tell from zero where the step begins.
+void ProbeTracker::search_from_zero(std::size_t probe, std::span<const double> c, double length, double noise) {
+    const std::size_t leading = leading_index(c, length, noise);
+    if (leading == 0)
+        return; // zero throughout, to within round-off
+    if (const int now = c[0] > 0 ? 1 : -1; now == tracked_[probe].side && roots::kept_sign(c, length) == now)
+        return;
+    begin_on(c[leading] > 0 ? 1 : -1, probe);
+    note_crossings(probe, c.subspan(leading - 1), length, RootStart::deflate);
+}
+
+void ProbeTracker::note_crossings(std::size_t probe, std::span<const double> c, double length, RootStart start) {
     roots_.crossings(c, length, start, found_roots_);
     for (const Root& root : found_roots_) {
         const int direction = root.kind == RootKind::rising ? 1 : -1;
-        if (direction == tracked.side)
+        if (direction == tracked_[probe].side)
             continue; // leaves a zero that was already counted
         note(probe, root.at, direction, false);
     }
 }
 
-/// Coefficients of one lane, side by side; valid until the next ones are asked for.
-std::span<const double> ProbeTracker::without_gaps(const Series& series, std::size_t size) {
-    if (series.stride == 1)
-        return {series.first, size};
+/// Where a probe's lone crossing is within the step just searched.
+double ProbeTracker::place(std::size_t probe, const Step& step) {
+    const Followed& followed = followed_[probe];
+    const std::span<const double> series = without_gaps(step.observed[followed.index], work_.size());
+    const std::span<const double> c = followed.kind == Probe::Kind::crossing ? series : rate_of(series);
+    const auto lone = roots::lone_crossing(c, step.length);
+    return lone ? lone->place(c, step.length) : unplaced;
+}
+
+std::span<const double> ProbeTracker::gather(const Series& series, std::size_t size) {
     for (std::size_t k = 0; k < size; ++k)
         gathered_[k] = series[k];
     return {gathered_.data(), size};
 }
 
-/// Without the coefficients that are zero: the rate of a phase may be constant.
-std::span<const double> ProbeTracker::series_of_phase(std::size_t probe, const Step& step) {
-    const Followed& followed = followed_[probe];
-    return without_gaps(step.states[followed.index], followed.sizes[step.mode]);
-}
-
-void ProbeTracker::search_phase(std::size_t index, const Step& step, double reach) {
-    remember_start();
+void ProbeTracker::search_phase(std::size_t index, const Step& step, std::span<const double> c, const Reach& reach) {
     Tracked& tracked = tracked_[index];
     if (tracked.on_section) {
-        leave_section(index, step);
-        tracked_at_start_[index] = tracked;
+        leave_section(index, c, step.length);
         if (tracked.on_section)
             return;
     }
-    const std::span<const double> c = series_of_phase(index, step);
     for (double from = 0; tracked.is_near(c[0], reach);) {
         int direction = 0;
         double at = 0;
         const auto try_target = [&](double offset, int towards) {
-            if (std::abs(offset) > reach)
+            if (std::abs(offset) > reach.most)
                 return;
-            std::copy(c.begin(), c.end(), work_.begin());
-            work_[0] = offset;
             if (from == 0 && offset * towards >= 0) { // passed between two steps
                 direction = towards;
                 at = 0;
                 return;
             }
+            if ((towards > 0 ? reach.up : reach.down) == 0)
+                return;
+            std::copy(c.begin(), c.end(), work_.begin());
+            work_[0] = offset;
             roots_.crossings(std::span(work_).first(c.size()), step.length, RootStart::as_is, found_roots_);
             for (const Root& root : found_roots_)
                 if ((root.kind == RootKind::rising) == (towards > 0) && root.at >= from &&

@@ -36,11 +36,12 @@ bool Trajectory::make_step(double& length) {
             report_passage(found.probe, found.at, found.direction, found.at_contact);
             if (observer_->stop() && !stopped) {
                 stopped = true;
-                length = step.length = found.at;
+                length = found.at;
             }
         }
         if (stopped)
-            probes_->cut(length);
+            probes_->cut(step, length);
+        step.length = length;
     }
     observer_->step(step);
     if (simulation_.options().minima)

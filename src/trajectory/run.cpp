@@ -11,10 +11,12 @@ bool run_until(Trajectory& trajectory, JetSet& jets, const std::function<bool()>
         throw std::invalid_argument("one trajectory cannot run on jets of several lanes");
     if (!trajectory.is_started())
         throw std::logic_error("a trajectory has to be started before it can run");
+    if (!trajectory.tangents().empty())
+        jets.add_tangents();
     jets.set_parameters(trajectory.parameters());
     Outlook outlook(trajectory.simulation(), 1);
     while (!trajectory.finished()) {
-        const Jet& jet = jets.computed(trajectory.mode(), trajectory.state());
+        Jet& jet = jets.computed(trajectory.mode(), trajectory.state());
         outlook.lengths()[0] = trajectory.previous_step();
         outlook.find_steps(jet);
         outlook.lengths()[0] = trajectory.propose(jet, outlook.length(0));

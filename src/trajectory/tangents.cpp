@@ -3,13 +3,15 @@
 #include "trajectory/saltation.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace graze {
 
 Tangents::Tangents(const Simulation& simulation, std::span<const double> parameters, std::span<const double> seeds,
                    std::size_t directions)
-    : states_(simulation.system().states()), parameter_count_(parameters.size()), directions_(directions),
-      steps_(simulation.system(), simulation.order(), simulation.options().tolerance, directions),
+    : simulation_(simulation), parameters_(parameters.begin(), parameters.end()), states_(simulation.system().states()),
+      parameter_count_(parameters.size()), directions_(directions),
+      steps_(simulation.system(), simulation.options().tolerance, directions),
       parameter_seeds_(parameter_count_ * directions), matrix_(states_ * directions), next_(states_ * directions) {
     for (std::size_t d = 0; d < directions; ++d) {
         const auto seed = seeds.subspan(d * (states_ + parameter_count_), states_ + parameter_count_);
@@ -46,28 +48,40 @@ void Tangents::set_back(std::size_t state, double periods) {
         matrix_[state * directions_ + d] -= periods * period_rates_[state * directions_ + d];
 }
 
-void Tangents::coefficient(std::size_t mode, std::span<const double> state, std::size_t series, int k,
-                           std::span<double> row) {
-    for (std::size_t first = 0; first < directions_;) {
-        const Jet& jet = steps_.begin(mode, state, matrix_, first);
-        const auto width = static_cast<std::size_t>(jet.width());
-        const std::size_t count = steps_.count_from(first);
-        std::copy_n(&jet.output(series)[static_cast<std::size_t>(k) * width + 1], count, &row[first]);
-        first += count;
+/// Begins a step at a state. @return the jet that is to be begun at its end
+Jet& Tangents::begin(std::size_t mode, std::span<const double> state) {
+    Jet *const given = std::exchange(jet_, nullptr), *const next = std::exchange(next_jet_, nullptr);
+    if (given != nullptr) {
+        steps_.begin(*given, mode, state, matrix_);
+        return *next;
     }
+    if (!jets_) {
+        jets_ = std::make_unique<ModeJets>(simulation_.system(), simulation_.order(), LaneKind::single);
+        jets_->add_tangents();
+        jets_->set_parameters(parameters_);
+    }
+    steps_.begin(jets_->computed(mode, state), mode, state, matrix_);
+    return jets_->next(mode);
 }
 
-void Tangents::advance(std::size_t mode, std::span<const double> state, double s, std::size_t series,
+void Tangents::coefficient(std::size_t mode, std::span<const double> state, std::size_t watched, std::size_t k,
+                           std::span<double> row) {
+    begin(mode, state);
+    steps_.event_coefficient(watched, k, row);
+}
+
+void Tangents::advance(std::size_t mode, std::span<const double> state, double s, std::size_t watched,
                        std::span<double> row) {
     // In parts, where derivatives are faster than the states.
     for (int part = 0; part < TangentSteps::most_parts; ++part) {
-        steps_.begin(mode, state, matrix_);
-        const double length = steps_.carry(mode, state, matrix_, s, next_, series, row);
-        if (length == 0 && s != 0)
-            break;
+        Jet& next = begin(mode, state);
+        const double length = steps_.carry(next, s, next_);
         matrix_.swap(next_);
-        if (!(length < s))
+        if (!(length < s)) {
+            if (!row.empty())
+                steps_.event_at_end(next, matrix_, watched, row);
             return;
+        }
         s -= length;
         here_.assign(steps_.state().begin(), steps_.state().end());
         state = here_;

@@ -4,13 +4,14 @@
 #include "graze/trajectory/simulation.hpp"
 #include "graze/trajectory/trajectory.hpp"
 
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace graze {
 
-/// Derivatives of one trajectory in several directions (of initial state and parameters), carried along arcs by
-/// tangent lanes and through contacts by the saltation formulas (Aizerman and Gantmakher 1958; di Bernardo et
+/// Derivatives of one trajectory in several directions (of initial state and parameters), carried along arcs by the
+/// first variational equations and through contacts by the saltation formulas (Aizerman and Gantmakher 1958; di Bernardo et
 /// al. 2008, section 2.5), with the field *before* the jump in the projection.
 ///
 /// Matrices are row by row, [row * directions + direction]. They hold derivatives at fixed time.
@@ -25,13 +26,20 @@ public:
     bool valid() const { return valid_; }
     void invalidate() { valid_ = false; }
 
-    /// Derivatives of coefficient k of an output at the start of the arc.
-    void coefficient(std::size_t mode, std::span<const double> state, std::size_t series, int k, std::span<double> row);
+    /// Jets on which the trajectory runs: the first has been computed at the present state, and has tangents. They are
+    /// used once for what comes next; without them the motion's series are computed again.
+    void use(Jet* jet, Jet* next) {
+        jet_ = jet;
+        next_jet_ = next;
+    }
+
+    /// Derivatives of coefficient k (at most 2) of the function of a watched event at the start of the arc.
+    void coefficient(std::size_t mode, std::span<const double> state, std::size_t watched, std::size_t k,
+                     std::span<double> row);
 
     /// Moves along the arc that starts at `state`, by a time s.
-    /// @param row derivatives at its end of the output `series` of the mode's tape (its watched events, then observed
-    ///        expressions), directions; may be empty
-    void advance(std::size_t mode, std::span<const double> state, double s, std::size_t series = 0,
+    /// @param row derivatives at its end of the function of an event that the mode watches, directions; may be empty
+    void advance(std::size_t mode, std::span<const double> state, double s, std::size_t watched = 0,
                  std::span<double> row = {});
     /// Passes a jump that comes `shift` (derivatives, directions) later than time says: at a contact, minus the
     /// derivatives of the event function over its rate.
@@ -46,12 +54,17 @@ public:
 
 private:
     void find_period_rates(const System& system, std::span<const double> parameters);
+    Jet& begin(std::size_t mode, std::span<const double> state);
 
+    Simulation simulation_;
+    std::vector<double> parameters_;
     std::size_t states_, parameter_count_, directions_;
     TangentSteps steps_;
     std::vector<double> parameter_seeds_, matrix_, next_;
     std::vector<double> period_rates_; ///< derivatives of the states' periods; empty: no direction changes any
     std::vector<double> here_;         ///< state, within arcs that are followed in parts
+    Jet *jet_ = nullptr, *next_jet_ = nullptr; ///< those of the trajectory, while they are at its state
+    std::unique_ptr<ModeJets> jets_;           ///< of its own, where these are not to be had
     bool valid_ = true;
 };
 

@@ -292,6 +292,11 @@ void Trajectory::advance(const Outlook& outlook, std::size_t lane) {
         announce_contact();
         return branch_ahead_ < states_ ? finish_at_branch(branch_ahead_) : finish_singular();
     }
+    if (tangents_) {
+        Jet* const jet = outlook.jet();
+        const bool usable = jet != nullptr && jet->width() == 1 && jet->followers() > 0;
+        tangents_->use(usable ? jet : nullptr, outlook.next());
+    }
     double step = outlook.length(lane);
     const std::size_t jumping = limit_to_branch(step);
     const double limited = step;

@@ -1,6 +1,7 @@
 #include "graze/flow/tangent_steps.hpp"
 
 #include "graze/flow/mode_flow.hpp"
+#include "graze/flow/variational_system.hpp"
 #include "graze/model/model_file.hpp"
 #include "graze/symbolic/input_error.hpp"
 
@@ -186,10 +187,11 @@ TEST(TangentSteps, AreHardlyMoreThanThoseOfTheMotion) {
     }
 }
 
-/// Directions that are faster than the motion and than the first ones, which make its steps: they take parts of these.
-TEST(TangentSteps, AreDividedForDirectionsThatAreFaster) {
+/// Directions that are faster than the motion, and come after others: all take their steps.
+TEST(TangentSteps, AreShortenedForDirectionsThatAreFaster) {
     std::string states, rates;
-    constexpr std::size_t slow = 15; // as many as two jets have lanes, at least
+    constexpr std::size_t slow = 33; // more than are computed side by side
+    ASSERT_LT(TangentSteps::together(slow), slow);
     for (std::size_t i = 0; i < slow; ++i) {
         states += fmt::format("x{} = {}\n", i, 1 + i);
         rates += fmt::format("x{0} = \"-x{0}\"\n", i);
@@ -203,7 +205,7 @@ TEST(TangentSteps, AreDividedForDirectionsThatAreFaster) {
     const std::size_t n = model.states.size();
     std::vector<double> state = model.initial_state(), derivatives(n * n);
     ASSERT_EQ(flow.run(0, state, time, derivatives), ModeFlow::Ending::done);
-    EXPECT_LE(flow.steps(), 5u);
+    EXPECT_LE(flow.steps(), 200u); // a radian is no long step
     for (std::size_t i = 0; i < slow; ++i)
         EXPECT_NEAR(derivatives[i * n + i], std::exp(-time), 10 * tolerance);
     // Two hundred radians, each as good as a tolerance.
@@ -214,20 +216,69 @@ TEST(TangentSteps, AreDividedForDirectionsThatAreFaster) {
     EXPECT_EQ(derivatives[slow * n], 0);
 }
 
+/// Oscillators that all feel a mean of all, which so is a quantity of its own in their first variational equations.
+std::string mean_field(std::size_t count) {
+    std::string states, rates, mean;
+    for (std::size_t i = 0; i < count; ++i) {
+        states += fmt::format("x{0} = {1}\nv{0} = {2}\n", i, 0.3 + 0.05 * static_cast<double>(i), 0.1);
+        rates += fmt::format("x{0} = \"v{0}\"\nv{0} = \"-{1}*x{0} - 0.1*v{0} + K*mean*cos(x{0}) + exp(-mean^2)\"\n", i,
+                             1 + 0.1 * static_cast<double>(i));
+        mean += fmt::format("{}sin(x{})*v{}", i == 0 ? "" : " + ", i, (i + 1) % count);
+    }
+    return fmt::format("name = \"mean-field\"\n[parameters]\nK = 0.4\n[definitions]\nmean = \"({})/{}\"\n[states]\n{}"
+                       "[modes.m.rates]\n{}[initial]\nmode = \"m\"\n",
+                       mean, count, states, rates);
+}
+
+/// The tangent as states of a larger system, which needs no derivatives of flows.
+TEST(TangentSteps, AgreeWithTheVariationalSystemOfAMeanField) {
+    constexpr double tolerance = 1e-13, time = 3;
+    const Model model = parse_model(mean_field(12), "mean_field.toml");
+    const System system(model);
+    ASSERT_GT(system.linear(0).equations.intermediates, 0u);
+    const std::size_t n = system.states();
+    const std::vector<ParameterId> free = {model.independent_parameter("K")};
+    ModeFlow flow(system, tolerance, 0, free);
+    flow.set_parameters(model.parameter_values());
+    std::vector<double> state = model.initial_state(), derivatives(n * (n + 1));
+    ASSERT_EQ(flow.run(0, state, time, derivatives), ModeFlow::Ending::done);
+    const VariationalSystem variational(system, free);
+    ModeFlow larger(variational.modes(), tolerance, 0, {}, std::vector<std::size_t>{});
+    for (const std::size_t d : {std::size_t{0}, std::size_t{7}, n - 1, n}) {
+        std::vector<double> parameters = model.parameter_values(), both = model.initial_state();
+        parameters.push_back(d == n ? 1 : 0);
+        both.resize(2 * n, 0.0);
+        if (d < n)
+            both[n + d] = 1;
+        larger.set_parameters(parameters);
+        ASSERT_EQ(larger.run(0, both, time), ModeFlow::Ending::done);
+        for (std::size_t i = 0; i < n; ++i)
+            // Derivatives are allowed fifty tolerances, of which they take few.
+            EXPECT_NEAR(derivatives[i * (n + 1) + d], both[n + i], 20 * tolerance) << i << ' ' << d;
+    }
+}
+
 TEST(TangentSteps, RefuseWhatDoesNotFit) {
     const Model model = parse_model(chain_of(1, 1, 1, 1).model(), "chain.toml");
-    TangentSteps steps(model, 10, 1e-9, 2);
+    TangentSteps steps(model, 1e-9, 2);
+    ModeJets jets(model, 10, LaneKind::single), without(model, 10, LaneKind::single);
+    jets.add_tangents();
     EXPECT_THROW(steps.set_parameters({}, {}), InputError);
     EXPECT_THROW(steps.set_parameters(std::vector{1.0}, std::vector{1.0}), InputError);
     steps.set_parameters(std::vector{1.0}, std::vector{1.0, 0.0});
     std::vector<double> state(3, 0.1), matrix(6, 1.0), after(6), few(5);
-    EXPECT_THROW(steps.begin(1, state, matrix), InputError);
-    EXPECT_THROW(steps.begin(0, few, matrix), InputError);
-    EXPECT_THROW(steps.begin(0, state, few), InputError);
-    EXPECT_THROW(steps.begin(0, state, matrix, 2), InputError);
-    steps.begin(0, state, matrix);
-    EXPECT_THROW(steps.carry(0, state, matrix, 0.1, few), InputError);
-    EXPECT_EQ(steps.carry(0, state, matrix, 0.01, after), 0.01);
+    for (ModeJets* all : {&jets, &without})
+        all->set_parameters(std::vector{1.0});
+    Jet &jet = jets.computed(0, state), &next = jets.next(0);
+    EXPECT_THROW(steps.carry(next, 0.1, after), std::logic_error);
+    EXPECT_THROW(steps.begin(jet, 1, state, matrix), InputError);
+    EXPECT_THROW(steps.begin(jet, 0, few, matrix), InputError);
+    EXPECT_THROW(steps.begin(jet, 0, state, few), InputError);
+    EXPECT_THROW(steps.begin(without.computed(0, state), 0, state, matrix), InputError);
+    EXPECT_THROW(steps.begin(next, 0, state, matrix), std::logic_error); // nothing is computed there
+    steps.begin(jet, 0, state, matrix);
+    EXPECT_THROW(steps.carry(next, 0.1, few), InputError);
+    EXPECT_EQ(steps.carry(next, 0.01, after), 0.01);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "graze/model/model_file.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "identify/dropped_ball.hpp"
 #include "identify/recorded_motion.hpp"
 #include "identify/wall_model.hpp"
 
@@ -200,43 +201,6 @@ rates = { x = "v", v = "cos(w*tau) - 4*x - c*v", tau = 1 }
     motion.forget_states();
     expect_found(motion);
 }
-
-namespace {
-
-/// A ball that is dropped: it comes to rest after infinitely many bounces.
-Model dropped_ball(const std::string& chatter = "chatter = { jump = \"stop\", mode = \"rest\" }") {
-    return parse_model(R"(
-name = "drop"
-[parameters]
-g = 9.81
-e = 0.6
-[states]
-x = { initial = 1 }
-v = { initial = 0 }
-[initial]
-mode = "fall"
-[modes.fall]
-rates = { x = "v", v = "-g" }
-watch = ["floor"]
-[modes.rest]
-rates = { x = 0, v = 0 }
-[events.floor]
-function = "x"
-[jumps.bounce]
-v = "-e*v"
-[jumps.stop]
-v = 0
-x = 0
-[[transitions]]
-mode = "fall"
-event = "floor"
-jump = "bounce"
-next = "fall"
-)" + chatter,
-                       "drop.toml");
-}
-
-} // namespace
 
 /// More than half of the record is rest, with readings on both sides of the floor.
 TEST(Fit, BearsRestAfterChatter) {

@@ -7,7 +7,7 @@
 #include "graze/flow/second_order_flow.hpp"
 #include "graze/flow/step_check.hpp"
 #include "graze/flow/step_size.hpp"
-#include "graze/flow/tangent_reach.hpp"
+#include "graze/flow/tangent_steps.hpp"
 #include "graze/symbolic/transform.hpp"
 
 namespace graze {
@@ -88,7 +88,7 @@ void tapes(WrongUses& wrong) {
 }
 
 void jets(WrongUses& wrong) {
-    for (const LaneKind kind : {LaneKind::single, LaneKind::ensemble, LaneKind::tangent}) {
+    for (const LaneKind kind : {LaneKind::single, LaneKind::ensemble}) {
         const std::string of = "jet_" + std::to_string(static_cast<int>(kind)) + "_";
         const std::size_t width =
             kind == LaneKind::single ? 1 : static_cast<std::size_t>(Pendulum().jet(kind)->width());
@@ -141,24 +141,6 @@ void jets(WrongUses& wrong) {
                 jet.evaluate_output(i, Numbers(width, 0.1), values);
             });
         }
-        if (kind == LaneKind::tangent) {
-            const auto not_for_tangents = [&](const std::string& name, const std::function<void(Jet&)>& use) {
-                wrong(of + name + "_not_for_tangents", [use] { use(*Pendulum().jet(LaneKind::tangent)); });
-            };
-            not_for_tangents("find_steps", [width](Jet& jet) {
-                Numbers steps(width);
-                jet.find_steps(-40, Numbers(width, 0.1), steps);
-            });
-            not_for_tangents("guard_steps", [width](Jet& jet) {
-                Numbers steps(width, 0.1);
-                jet.guard_steps(steps);
-            });
-            not_for_tangents("bound_outputs", [width](Jet& jet) {
-                Numbers least(2 * width), sizes(2 * width);
-                jet.bound_outputs(Numbers(width, 0.1), least, sizes);
-            });
-            continue;
-        }
         count("find_steps_references", width, [](Jet& jet, Numbers& n, std::size_t w) {
             Numbers steps(w);
             jet.find_steps(-40, n, steps);
@@ -193,8 +175,9 @@ void jets(WrongUses& wrong) {
         disagreement("slopes", width, 2 * width, 0, width);
         disagreement("worst", width, 2 * width, 2 * width, 0);
         wrong(of + "find_disagreement_of_another_kind", [kind, width] {
+            const LaneKind other = kind == LaneKind::single ? LaneKind::ensemble : LaneKind::single;
             Numbers result(width);
-            Pendulum().jet(kind)->find_disagreement(*Pendulum().jet(LaneKind::tangent), {1, 1, 1}, Numbers(width),
+            Pendulum().jet(kind)->find_disagreement(*Pendulum().jet(other), {1, 1, 1}, Numbers(width),
                                                     Numbers(2 * width), Numbers(2 * width), result);
         });
         wrong(of + "find_disagreement_of_another_order", [kind, width] {
@@ -210,26 +193,51 @@ void jets(WrongUses& wrong) {
                                                     Numbers(2 * width), result);
         });
     }
-    const auto reach = [&](const std::string& name, LaneKind kind, std::size_t states, std::size_t count) {
-        wrong("tangent_reach_" + name, [=] { keep(tangent_reach(*Pendulum().jet(kind), states, count, 1e-6, 0.1)); });
+    for (const auto& [how, index] : wrong_indices(0))
+        wrong("jet_follower_" + how, [index = index] { keep(Pendulum().jet()->follower(index)); });
+    wrong("jet_follow_before_it_is_computed", [] {
+        constexpr std::uint32_t group = 0;
+        make_jet(Pendulum().tape(), 8, LaneKind::single)->follow({&group, 1});
+    });
+}
+
+/// Derivatives in two directions along a step of an oscillator with two states.
+void tangents(WrongUses& wrong) {
+    struct Step {
+        System system = oscillator();
+        ModeJets jets = ModeJets(system, 8, LaneKind::single);
+        TangentSteps steps = TangentSteps(system, 1e-6, 2);
+        std::vector<double> state = std::vector<double>(system.states(), 0.1),
+                            matrix = std::vector<double>(2 * system.states(), 1.0), after = matrix;
+        Step() {
+            const std::vector<double> parameters(system.parameters(), 1.0);
+            jets.add_tangents();
+            jets.set_parameters(parameters);
+            steps.set_parameters(parameters, std::vector<double>(2 * system.parameters(), 0.0));
+        }
+        void begin() { steps.begin(jets.computed(0, state), 0, state, matrix); }
     };
-    reach("states_too_many", LaneKind::tangent, 3, 1);
-    reach("states_huge", LaneKind::tangent, huge, 1);
-    reach("lanes_too_many", LaneKind::tangent, 2, 100);
-    reach("lanes_huge", LaneKind::tangent, 2, huge);
-    reach("single_jet", LaneKind::single, 2, 1);
-    const auto follow = [&](const std::string& name, LaneKind kind, std::size_t states, std::size_t count,
-                            std::size_t room) {
-        wrong("follow_tangents_" + name, [=] {
-            const auto jet = Pendulum().jet(kind), next = Pendulum().jet(kind);
-            std::vector<double> times(room), sums(room), slopes(room);
-            keep(follow_tangents(*jet, *next, states, count, 1e-6, 0.1, times, sums, slopes));
+    const auto use = [&](const std::string& name, const std::function<void(Step&)>& spoil) {
+        wrong("tangent_steps_" + name, [spoil] {
+            Step step;
+            spoil(step);
         });
     };
-    follow("without_room", LaneKind::tangent, 2, 1, 0);
-    follow("little_room", LaneKind::tangent, 2, 1, 1);
-    follow("states_too_many", LaneKind::tangent, 3, 1, 64);
-    follow("lanes_too_many", LaneKind::tangent, 2, 100, 64);
+    use("carry_before_a_step", [](Step& s) { s.steps.carry(s.jets.next(0), 0.1, s.after); });
+    use("begin_without_tangents", [](Step& s) {
+        ModeJets plain(s.system, 8, LaneKind::single);
+        s.steps.begin(plain.computed(0, s.state), 0, s.state, s.matrix);
+    });
+    use("begin_where_nothing_is_computed", [](Step& s) { s.steps.begin(s.jets(0), 0, s.state, s.matrix); });
+    for (const auto& [how, mode] : wrong_indices(1))
+        use("begin_mode_" + how,
+            [mode = mode](Step& s) { s.steps.begin(s.jets.computed(0, s.state), mode, s.state, s.matrix); });
+    for (const auto& [how, length] : wrong_lengths(2))
+        use("carry_" + how, [length = length](Step& s) {
+            s.begin();
+            std::vector<double> after(length);
+            s.steps.carry(s.jets.next(0), 0.1, after);
+        });
 }
 
 void steps(WrongUses& wrong) {
@@ -449,6 +457,7 @@ std::vector<WrongUse> wrong_uses() {
     WrongUses wrong;
     tapes(wrong);
     jets(wrong);
+    tangents(wrong);
     steps(wrong);
     systems(wrong);
     mode_flows(wrong);

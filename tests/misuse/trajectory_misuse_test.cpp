@@ -288,10 +288,6 @@ void order_of_calls(WrongUses& wrong) {
         JetSet jets(m.simulation, LaneKind::ensemble);
         run(m.begun(), jets);
     });
-    of_motion("run_with_tangent_jets", [](Motion& m) {
-        JetSet jets(m.simulation, LaneKind::tangent);
-        run(m.begun(), jets);
-    });
     const auto moved = [&](const std::string& name, const std::function<void(Motion&)>& use) {
         of_motion("moved_trajectory_" + name, [use](Motion& m) {
             const Trajectory taken = std::move(m.begun());

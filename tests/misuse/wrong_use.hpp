@@ -49,7 +49,6 @@ inline constexpr std::string_view accepted[] = {
     "*_section_in_no_direction",
     "probe_of_no_kind",
     "probe_in_no_direction",
-    "jet_set_no_set",
     "microbeam_no_quadrature",
     "*_stop_at_nothing",
     "end_name_no_end",

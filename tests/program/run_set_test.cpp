@@ -97,6 +97,15 @@ TEST_F(RunSet, RefusesWhatHasNoEffect) {
     const Printed foreign = run({"--set", "@" + (folder / "found.toml")});
     EXPECT_EQ(foreign.code, 2);
     EXPECT_THAT(foreign.err, HasSubstr("found.toml:1:1: these values were found for the model 'another', not for '"));
+    std::ofstream(folder / "found.toml") << "[set]\nk = 2\n  wrong = 3\nx = 1\n";
+    const Printed wrong = run({"--set", "@" + (folder / "found.toml")});
+    EXPECT_EQ(wrong.code, 2);
+    EXPECT_THAT(wrong.err, HasSubstr("found.toml:3:3: no model of the study has a parameter 'wrong'; "));
+    std::ofstream(folder / "found.toml") << "[set]\nk = 2\nx = 1\n";
+    EXPECT_THAT(run({"--set", "@" + (folder / "found.toml")}).err,
+                HasSubstr("found.toml:3:1: 'x' is a state, not a parameter; "));
+    EXPECT_THAT(run({"--set", "@" + (folder / "found.toml"), "--set", "x=3"}).err,
+                HasSubstr("--set: 'x' is a state, not a parameter; "));
     const Printed results = run_graze({"run", folder / "a", "--set", "k=2"});
     EXPECT_EQ(results.code, 2);
     EXPECT_THAT(results.err, HasSubstr("name the study instead of its results"));

@@ -183,6 +183,47 @@ TEST_F(Hdf5, branches_have_orbits_segments_and_multipliers) {
     EXPECT_EQ(Column(exported, "b/end_values/segment").type(), H5T_INTEGER);
 }
 
+TEST_F(Hdf5, estimates_have_their_units_and_covariances) {
+    {
+        RunRecord run;
+        run.name = "found";
+        run.kind = "identify";
+        run.directions = {""};
+        const Model model = load_model("impact-oscillator");
+        run.model_name = model.name;
+        run.model = write_model(model);
+        for (const auto& symbol : model.parameter_symbols())
+            run.coordinates.push_back({symbol.name(), ""});
+        for (const State& state : model.states)
+            run.states.push_back({state.name, ""});
+        for (const Mode& mode : model.modes)
+            run.modes.push_back(mode.name);
+        ResultFile file(path("results.sqlite"), ResultFile::Access::write);
+        file.begin_run(run);
+        file.set_estimates("found",
+                           {{{"w0", "rad/s", {95.94, 0.01, 57}, ""}, {"zeta", "", {0.016, 0, 0}, "not determined"}},
+                            {1e-4, -2e-9, -2e-9, 4e-8}});
+        file.complete_run("found");
+    }
+    const std::string exported = path("r.h5");
+    export_hdf5(ResultFile(path("results.sqlite"), ResultFile::Access::read), {"found"}, exported);
+    const auto texts = [&](const std::string& name) { return Column(exported, "found/" + name).texts(); };
+    const auto numbers = [&](const std::string& name) { return Column(exported, "found/" + name).numbers(); };
+    EXPECT_EQ(texts("estimates/name"), (std::vector<std::string>{"w0", "zeta"}));
+    EXPECT_EQ(texts("estimates/unit"), (std::vector<std::string>{"rad/s", ""}));
+    EXPECT_EQ(texts("estimates/note"), (std::vector<std::string>{"", "not determined"}));
+    EXPECT_EQ(numbers("estimates/value"), (std::vector<double>{95.94, 0.016}));
+    EXPECT_EQ(numbers("estimates/error")[0], 0.01);
+    EXPECT_EQ(numbers("estimates/freedom")[0], 57);
+    EXPECT_TRUE(std::isnan(numbers("estimates/error")[1])) << "it is not known";
+    const Estimate known{95.94, 0.01, 57};
+    EXPECT_EQ(numbers("estimates/low")[0], 95.94 - known.half_width());
+    EXPECT_EQ(numbers("estimates/high")[0], 95.94 + known.half_width());
+    EXPECT_EQ(numbers("covariances/position"), (std::vector<double>{0, 0, 1, 1}));
+    EXPECT_EQ(numbers("covariances/other"), (std::vector<double>{0, 1, 0, 1}));
+    EXPECT_EQ(numbers("covariances/covariance"), (std::vector<double>{1e-4, -2e-9, -2e-9, 4e-8}));
+}
+
 TEST_F(Hdf5, columns_tell_their_units) {
     const std::string exported = path("all.h5");
     write_branch(path("results.sqlite"));

@@ -277,7 +277,7 @@ TEST(Ensemble, RefusesTrajectoriesOfOtherSimulations) {
     std::vector<Trajectory> trajectories;
     trajectories.emplace_back(other, other.model().parameter_values(), observer);
     EXPECT_THROW(Ensemble(one).run(trajectories), std::invalid_argument);
-    JetSet jets(one, LaneKind::single), lanes(other, LaneKind::tangent);
+    JetSet jets(one, LaneKind::single), lanes(other, LaneKind::ensemble);
     EXPECT_THROW(run(trajectories.front(), jets), std::invalid_argument);
     EXPECT_THROW(run(trajectories.front(), lanes), std::invalid_argument);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "graze/flow/couplings.hpp"
 #include "graze/flow/step_size.hpp"
+#include "graze/flow/system.hpp"
 
 #include <cstddef>
 #include <memory>
@@ -9,6 +9,8 @@
 #include <vector>
 
 namespace graze {
+
+class ModeCouplings;
 
 /// States that have hardly begun to move, such as the last of a long chain, of which only the first is pushed. Measured
 /// by what it is, each would let a step lead to little more than where the next one begins: a chain of 60 takes 450 of
@@ -18,7 +20,10 @@ namespace graze {
 /// Nothing changes for motions without such states: now and then it is looked whether steps could be far longer.
 class LateStates {
 public:
-    explicit LateStates(const System& system) : system_(system) {}
+    explicit LateStates(const System& system);
+    ~LateStates();
+    LateStates(LateStates&&) noexcept;
+    LateStates& operator=(LateStates&&) noexcept;
     /// Before the first step. @param parameters as many as the system has
     void set_parameters(std::span<const double> parameters);
     /// A motion begins, of which nothing is known.

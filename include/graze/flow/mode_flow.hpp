@@ -52,11 +52,8 @@ public:
     std::size_t steps() const { return steps_; } ///< since it was made
 
 private:
-    /// Whether polynomials and model agree at the end of a step.
-    using EndLook = bool (ModeFlow::*)(std::size_t mode, double length);
-    double step_of(std::size_t mode, const Jet& jet, double remaining, bool watched, EndLook look);
+    double step_of(std::size_t mode, const Jet& jet, double remaining, bool watched);
     bool agrees(std::size_t mode, double length);
-    bool agrees_with_tangents(std::size_t mode, double length);
     void require_fitting(std::size_t mode, std::span<const double> state) const;
 
     System system_;
@@ -66,7 +63,7 @@ private:
     StepSize step_size_;
     StepCheck step_check_;
     LateStates late_states_;
-    ModeJets single_;
+    ModeJets jets_;
     TangentSteps tangents_;
     EndAllowance allowance_;
     std::vector<double> parameters_, parameter_seeds_, sums_, slopes_, guarded_;

@@ -16,6 +16,10 @@ class ModeJets {
 public:
     /// @param order of the series
     ModeJets(const System& system, int order, LaneKind kind, InstructionSet set = best_instruction_set());
+    /// From now on jets can be followed by derivatives (see System::linear): what has been computed is forgotten, and
+    /// jets that have been handed out are gone. Again, it does nothing.
+    void add_tangents();
+    bool has_tangents() const { return has_tangents_; }
     /// The jet of a mode. @throws InputError, here and below, when there is no such mode
     Jet& operator()(std::size_t mode) { return made(jets_, mode); }
     /// The jet of a mode, computed from states, which becomes the present one: the next one has begun there if the
@@ -50,6 +54,7 @@ private:
     LaneKind kind_;
     InstructionSet set_;
     int width_;
+    bool has_tangents_ = false;
     std::vector<double> parameters_;
     Jets jets_, next_jets_;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "graze/flow/linear_mode.hpp"
 #include "graze/model/model.hpp"
 #include "graze/symbolic/function.hpp"
 #include "graze/symbolic/require.hpp"
@@ -79,8 +80,10 @@ public:
     const Model& model() const { return parts_->model; }
     std::size_t states() const { return parts_->states; }
     std::size_t parameters() const { return parts_->parameters; }
-    std::size_t observed() const { return observed_; }
+    std::size_t observed() const { return observed_.size(); }
     const CompiledMode& mode(std::size_t index) const { return at((*modes_), index, "mode"); }
+    /// The first variational equations of a mode: compiled when first asked for, by whichever thread it is.
+    const LinearMode& linear(std::size_t mode) const;
     const CompiledJump& jump(std::size_t index) const { return at(parts_->jumps, index, "jump"); }
     const CompiledTransition& transition(std::size_t index) const {
         return at(parts_->transitions, index, "transition");
@@ -134,8 +137,11 @@ private:
         Function periods, period_gradients, initial;
     };
     std::shared_ptr<const Parts> parts_;
+    struct LinearModes;
     std::shared_ptr<const std::vector<CompiledMode>> modes_;
-    std::size_t observed_ = 0, workspace_ = 0, operations_ = 0;
+    std::shared_ptr<LinearModes> linear_; ///< of these modes
+    std::vector<Expression> observed_;    ///< in a graph that does not grow
+    std::size_t workspace_ = 0, operations_ = 0;
 };
 
 } // namespace graze

@@ -20,7 +20,6 @@ std::string_view name_of(InstructionSet set);
 enum class LaneKind {
     single,   ///< one trajectory
     ensemble, ///< independent trajectories of one tape, side by side
-    tangent,  ///< one trajectory (first) and its derivatives in several directions (the others)
 };
 
 /// Highest order for which kernels exist.
@@ -34,8 +33,8 @@ struct EndAllowance {
 
 /// Computes Taylor coefficients of states and outputs of a tape (Jorba and Zou 2005; Griewank and Walther 2008,
 /// chapter 13). Every number is stored `width()` times over: coefficient k of a series, lane l, is at
-/// [k * width() + l]. The arithmetic of lane 0 of `single`, of each lane of `ensemble` and of lane 0 of `tangent`
-/// is the same bit for bit (for one instruction set).
+/// [k * width() + l]. The arithmetic of `single` and of each lane of `ensemble` is the same bit for bit (for one
+/// instruction set).
 class Jet {
 public:
     virtual ~Jet() = default;
@@ -45,7 +44,7 @@ public:
     virtual int order() const = 0;
     virtual int width() const = 0;
 
-    /// @param parameters [parameter * width() + lane]; in a tangent jet lanes 1.. are directional derivatives
+    /// @param parameters [parameter * width() + lane]
     /// @throws InputError (here and below) when there are fewer numbers than there must be, or no such state or output
     virtual void set_parameters(std::span<const double> parameters) = 0;
     /// Computes coefficients 0 .. order() from states [state * width() + lane].
@@ -58,12 +57,22 @@ public:
     virtual const double* state(std::size_t index) const = 0;
     virtual const double* output(std::size_t index) const = 0;
 
+    /// Computes the followers of some groups, once all states and outputs have been computed (or, for
+    /// `begin_followers`, once coefficients 0 and 1 have been: so many of the followers it finds). Those of group 0 are
+    /// among them, and a group may be empty.
+    /// @throws std::logic_error when they have not
+    virtual void follow(std::span<const std::uint32_t> groups) = 0;
+    virtual void begin_followers(std::span<const std::uint32_t> groups) = 0;
+    /// Coefficients of a follower as those of an output are; of one that is a constant, coefficient 0 alone.
+    virtual const double* follower(std::size_t index) const = 0;
+    virtual std::size_t followers() const = 0;
+
     /// Lane 0 of all states, then of all outputs; other lanes are that many numbers behind.
     virtual std::span<const Series> series() const = 0;
 
     /// How far the series of all states and outputs may be followed in each lane: the largest step at which the last
     /// two terms of each, relative to its size, are at most a tolerance (Jorba and Zou 2005), and do not grow, as
-    /// `guard_steps` leaves it. (Not for tangent jets: std::invalid_argument.)
+    /// `guard_steps` leaves it.
     /// @param log_tolerance to base 2; @param references [lane] lengths over which sizes are taken, such as the last
     /// step
     /// @param steps [lane] infinity where all last two terms are zero, NaN where something is not finite
@@ -71,12 +80,12 @@ public:
                             std::span<double> steps) const = 0;
     /// Shortens steps over which arguments of exponentials, sines and the like change so much, or quotients and roots
     /// come so close to their singularities, that series of this order cannot follow them, even where they are lost
-    /// beside what they are added to: far from a narrow peak or a steep slope nothing else shows it. (Not for tangent
-    /// jets.) @param steps [lane] those that are not finite are left as they are
+    /// beside what they are added to: far from a narrow peak or a steep slope nothing else shows it.
+    /// @param steps [lane] those that are not finite are left as they are
     virtual void guard_steps(std::span<double> steps) const = 0;
 
     /// Sums the series of all states, in each lane at its own time.
-    /// @param times [lane]; all equal in a tangent jet, whose other lanes are derivatives at fixed time
+    /// @param times [lane]
     /// @param values [state * width() + lane]
     virtual void evaluate_states(std::span<const double> times, std::span<double> values) const = 0;
     /// The same, and their derivatives with respect to time there. @param slopes [state * width() + lane]
@@ -90,24 +99,10 @@ public:
     virtual void find_disagreement(const Jet& end, const EndAllowance& allowance, std::span<const double> lengths,
                                    std::span<const double> values, std::span<const double> slopes,
                                    std::span<double> worst) const = 0;
-    /// The largest share that the last two terms of the states' derivatives in the first `count` directions have in
-    /// their first three, or in floors where these are larger. (Only for tangent jets, and so is the next:
-    /// std::invalid_argument.)
-    /// @param states the first ones, which count; @param floors [state * width() + lane], or none
-    virtual double tangent_tails(std::size_t states, std::size_t count, double step,
-                                 std::span<const double> floors) const = 0;
-    /// The first state, from one on, of which the slope of a derivative's polynomial at the end of a step is not the
-    /// rate that `end` has there: |h| |slope - rate| exceeds a share of the larger of both ends' sizes and |h| / 4
-    /// times the larger of both rates. As many as there are states if there is none.
-    /// @param end, values, slopes as in `find_disagreement`; @param allowance the shares of rates, and what is added
-    virtual std::size_t find_tangent_misfit(const Jet& end, const EndAllowance& allowance, std::size_t states,
-                                            std::size_t count, double length, std::span<const double> values,
-                                            std::span<const double> slopes, std::size_t from) const = 0;
     /// Sums the series of one output, in each lane at its own time. @param values [lane]
     virtual void evaluate_output(std::size_t index, std::span<const double> times, std::span<double> values) const = 0;
     /// Bounds the first outputs from below on [0, lengths[lane]] by their partial sums at the end, of which they are
-    /// convex combinations throughout, less their round-off; -infinity if they are not finite. (Not for tangent jets:
-    /// std::invalid_argument.)
+    /// convex combinations throughout, less their round-off; -infinity if they are not finite.
     /// @param least [output * width() + lane], of as many outputs as it has room for; @param sizes of the series, as
     /// many: sum |c_k| length^k
     virtual void bound_outputs(std::span<const double> lengths, std::span<double> least,
@@ -117,7 +112,7 @@ protected:
     Jet() = default;
 };
 
-/// Lanes of an ensemble jet, or directions of a tangent jet (one less than its width).
+/// Lanes of a jet.
 int lanes_of(LaneKind kind, InstructionSet set);
 
 /// The tape is not needed afterwards. Nothing is allocated while computing. Without parameters set, they are 0.

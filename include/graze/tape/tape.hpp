@@ -76,14 +76,26 @@ struct Tape {
     };
     std::vector<Location> rates;   ///< one per state
     std::vector<Location> outputs; ///< event functions and whatever else is wanted along the flow
+    /// What is computed from all that only when it is asked for, and on which neither states nor outputs depend.
+    std::vector<Location> followers;
+    /// Instructions for the followers: of group 0; of several other groups; then of each other group alone.
+    std::vector<std::vector<Instruction>> follower_code;
+};
+
+/// An expression that is wanted along the flow now and then, together with the others of its group.
+struct TapeFollower {
+    Expression value;
+    std::uint32_t group = 0; ///< what other groups share with group 0 is not computed again: it has to come first
 };
 
 /// Equal subexpressions are computed once, those of parameters only once per change of parameters, and what nothing
 /// needs not at all. Sums are gathered into linear combinations; integer powers become products (finite at 0), other
 /// constant powers obey a y' = c a' y (at a = 0 not finite, even if c happens to be a parameter equal to an integer).
-/// @param states, parameters symbols; rates and outputs may contain no others
+/// @param states, parameters symbols; all else may contain no others
+/// @param followers change nothing in how rates and outputs are computed, bit for bit
 /// @throws std::invalid_argument when they do
 Tape compile_tape(std::span<const Expression> states, std::span<const Expression> parameters,
-                  std::span<const Expression> rates, std::span<const Expression> outputs);
+                  std::span<const Expression> rates, std::span<const Expression> outputs,
+                  std::span<const TapeFollower> followers = {});
 
 } // namespace graze

@@ -22,7 +22,10 @@ public:
     std::span<double> lengths() { return lengths_; }
     void find_steps(const Jet& jet);
     /// @param next jet of the same mode, lanes and parameters, which is begun at the ends
-    void look(const Jet& jet, Jet& next, std::size_t mode);
+    void look(Jet& jet, Jet& next, std::size_t mode);
+    /// The jets that it has looked at last: null before.
+    Jet* jet() const { return jet_; }
+    Jet* next() const { return next_; }
 
     // What follows is asked at every step, and unchecked: lanes below the width, what `look` has looked at.
     double length(std::size_t lane) const { return lengths_[lane]; }
@@ -40,6 +43,7 @@ private:
     Simulation simulation_;
     std::size_t width_;
     double log_tolerance_;
+    Jet *jet_ = nullptr, *next_ = nullptr;
     EndAllowance allowance_;
     std::vector<double> lengths_, states_, slopes_, least_, sizes_, disagreement_;
     std::vector<double> powers_; ///< of the length of a single lane

@@ -3,6 +3,7 @@
 #include "graze/flow/system.hpp"
 #include "graze/tape/jet.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -17,12 +18,11 @@ namespace graze {
 /// outgrows itself by way of others, so that the sizes to which a disturbance can bring all states are well defined.
 class Couplings {
 public:
-    /// @throws InputError, here and below, for a mode or numbers that do not fit the system
+    /// Which couplings there are. @throws InputError, here and below, for a mode or numbers that do not fit the system
     Couplings(const System& system, std::size_t mode);
     /// @param parameters as many as the system has
     void set_parameters(std::span<const double> parameters);
-    /// Finds the Jacobian at a place: columns that share no row at once (Curtis, Powell and Reid 1974), side by side in
-    /// tangent lanes.
+    /// Finds the Jacobian at a place, from the coefficients of the first variational equations.
     void measure(std::span<const double> states);
 
     /// The reciprocal of a bound on the eigenvalues: of the largest sum of a row's entries among states that depend on
@@ -35,14 +35,15 @@ public:
 
     /// Raises sizes of states until no coupling, over a time, makes any larger: s_i >= time |J_ij| s_j for all i, j.
     /// @param time at most the response time
-    /// @param sizes [state * width + lane]; @param lanes the first ones, that matter
+    /// @param sizes [state * width + lane]
     /// @param through all couplings, or those alone that are the same at all places
     enum class Through { all, constant };
-    void spread(double time, std::span<double> sizes, std::size_t width, std::size_t lanes,
-                Through through = Through::all) const;
+    void spread(double time, std::span<double> sizes, std::size_t width, Through through = Through::all) const;
     /// Whether something acts on a state through a coupling that is the same at all places, and its rate is a
     /// polynomial of low degree in the states: nothing that is small may become large within a small part of a step.
     bool is_pushed_steadily(std::size_t state) const { return steady_[state]; }
+    /// Whether that is so of any state.
+    bool push_steadily() const { return std::find(steady_.begin(), steady_.end(), true) != steady_.end(); }
 
 private:
     struct Entry {
@@ -52,21 +53,29 @@ private:
         bool constant = false; ///< of a state whose rate is a polynomial of low degree
     };
 
+    /// What one state does to another, by an entry.
+    struct Pull {
+        std::size_t to, from, entry;
+    };
+    void find_ways();
     void find_entries(const Tape& tape);
     void find_constants(const Tape& tape);
-    void find_colours();
+    void find_strengths();
+    Jet& jet();
     void find_cycles();
     void sort_cycles();
     void balance();
     double largest_row() const;
 
-    std::size_t states_, width_;
-    std::unique_ptr<Jet> jet_;
+    std::size_t states_;
+    System system_;
+    std::size_t mode_;
+    std::vector<double> parameters_;
+    std::unique_ptr<Jet> jet_; ///< of the first variational equations, once something is measured
     std::vector<Entry> entries_;                    ///< row by row
     std::vector<std::size_t> row_starts_;           ///< in `entries_`
     std::vector<std::vector<std::size_t>> columns_; ///< entries of each
-    std::vector<std::size_t> colours_;              ///< of columns
-    std::size_t colour_count_ = 0;
+    std::vector<Pull> ways_[2];                     ///< all pulls, in two sequences: up and down the states
     /// Entries between states that act on each other, sorted by one of the two: `starts` has where those of each begin.
     struct Sorted {
         std::vector<std::size_t> starts, entries, others;
@@ -77,7 +86,13 @@ private:
     std::vector<bool> steady_;    ///< states
     std::vector<bool> vanishing_; ///< entries that were zero when cycles were found
     std::vector<double> units_;   ///< in which rows and columns are about as large
-    std::vector<double> seeds_, parameter_lanes_;
+    std::vector<double> row_;     ///< of the Jacobian, one number for each state
+    /// Derivatives of intermediate quantities by states.
+    struct Part {
+        std::size_t column;
+        double value;
+    };
+    std::vector<std::vector<Part>> intermediates_;
     double response_time_ = 0;
     bool fresh_ = true;
 };
@@ -87,6 +102,8 @@ class ModeCouplings {
 public:
     explicit ModeCouplings(const System& system) : system_(system), all_(system.model().modes.size()) {}
     void set_parameters(std::span<const double> parameters);
+    /// Those of a mode, measured or not.
+    Couplings& of(std::size_t mode);
     /// Those of a mode at a place.
     const Couplings& measured(std::size_t mode, std::span<const double> states);
 

@@ -1,0 +1,194 @@
+#include "tape/tangent_series.hpp"
+
+#include "graze/symbolic/require.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace graze {
+
+namespace {
+
+constexpr int unbounded = std::numeric_limits<int>::max();
+/// Degrees up to which products are looked for one by one.
+constexpr int low_degree = 4;
+
+int limited(int degree) {
+    return degree > low_degree ? unbounded : degree;
+}
+int sum_of(int a, int b) {
+    return a == unbounded || b == unbounded ? unbounded : limited(a + b);
+}
+
+int degree_of(const Tape& tape, std::size_t follower) {
+    const Tape::Location& location = tape.followers[follower];
+    if (location.constant)
+        return 0;
+    const std::uint32_t degree = tape.degrees[location.index];
+    return degree == Tape::unbounded ? unbounded : static_cast<int>(degree);
+}
+
+/// What is not moved has no row.
+constexpr std::size_t no_row = std::numeric_limits<std::size_t>::max();
+
+std::size_t rows_of(const TangentEquations& equations, std::span<const char> moving) {
+    return equations.states + equations.intermediates +
+           static_cast<std::size_t>(std::count_if(moving.begin(), moving.end(), [](char one) { return one != 0; }));
+}
+
+} // namespace
+
+TangentSeries::TangentSeries(const Tape& tape, const TangentEquations& equations, const Jet& like,
+                             std::span<const char> moving, std::size_t directions, InstructionSet set)
+    : kernels_(tangent_kernels(directions, set)), states_(equations.states), parameters_(equations.parameters),
+      intermediates_(equations.intermediates), width_(static_cast<std::size_t>(kernels_.width)), order_(like.order()),
+      size_((static_cast<std::size_t>(order_) + 1) * width_), parameter_rows_(parameters_, no_row),
+      numbers_(rows_of(equations, moving) * size_) {
+    require_size(moving.size(), parameters_, "parameters");
+    require_size(static_cast<std::size_t>(like.width()), 1, "lanes of a jet");
+    for (std::size_t j = 0; j < parameters_; ++j)
+        if (moving[j] != 0) {
+            parameter_rows_[j] = states_ + intermediates_ + moving_.size();
+            moving_.push_back(j);
+        }
+    find_rows(tape, equations, like);
+}
+
+std::size_t TangentSeries::row_of_source(std::size_t source) const {
+    if (source < states_)
+        return source;
+    source -= states_;
+    return source < parameters_ ? parameter_rows_[source] : states_ + source - parameters_;
+}
+
+/// Degrees of the polynomials in time that changes of all sources are known to be: they only grow until nothing does.
+std::vector<int> TangentSeries::degrees_of_rows(const Tape& tape, const TangentEquations& equations) const {
+    std::vector<int> degrees(states_ + intermediates_ + moving_.size(), 0);
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (const TangentEntry& entry : equations.entries) {
+            require_index(entry.row, intermediates_ + states_, "row");
+            require_index(entry.source, states_ + parameters_ + intermediates_, "source");
+            require_index(entry.follower, tape.followers.size(), "follower");
+            const std::size_t from = row_of_source(entry.source);
+            if (from == no_row)
+                continue;
+            const bool is_rate = entry.row >= intermediates_;
+            const std::size_t to = is_rate ? entry.row - intermediates_ : states_ + entry.row;
+            const int product = sum_of(degree_of(tape, entry.follower), degrees[from]),
+                      degree = is_rate ? sum_of(product, 1) : product;
+            if (degree > degrees[to]) {
+                degrees[to] = degree;
+                changed = true;
+            }
+        }
+    }
+    return degrees;
+}
+
+void TangentSeries::find_rows(const Tape& tape, const TangentEquations& equations, const Jet& like) {
+    const std::vector<int> degrees = degrees_of_rows(tape, equations);
+    const std::size_t rows = intermediates_ + states_;
+    terms_.reserve(equations.entries.size()); // rows point to them
+    auto entry = equations.entries.begin();
+    for (std::size_t row = 0; row < rows; ++row) {
+        const TangentTerm* const first = terms_.data() + terms_.size();
+        std::vector<TangentTerm> kinds[3];
+        for (; entry != equations.entries.end() && entry->row == row; ++entry) {
+            const std::size_t from = row_of_source(entry->source);
+            if (from == no_row)
+                continue;
+            const int degree = degree_of(tape, entry->follower);
+            kinds[degree == 0                                         ? 0
+                  : degree != unbounded || degrees[from] != unbounded ? 1
+                                                                      : 2]
+                .push_back({like.follower(entry->follower) - like.state(0), from * size_, degree, degrees[from]});
+        }
+        for (const std::vector<TangentTerm>& kind : kinds)
+            terms_.insert(terms_.end(), kind.begin(), kind.end());
+        const bool is_rate = row >= intermediates_;
+        const TangentTerm *const few = first + kinds[0].size(), *const many = few + kinds[1].size();
+        rows_.push_back({(is_rate ? row - intermediates_ : states_ + row) * size_, is_rate, first, few, many,
+                         many + kinds[2].size()});
+    }
+    require_size(static_cast<std::size_t>(equations.entries.end() - entry), 0, "entries behind the last row");
+    // Rates do not wait for one another. Those that are alike come together, so that branches are foreseen.
+    const auto shape = [](const TangentRow& row) {
+        return std::tuple(row.end - row.many, row.many - row.few, row.few - row.fixed);
+    };
+    std::stable_sort(rows_.begin() + static_cast<std::ptrdiff_t>(intermediates_), rows_.end(),
+                     [&](const TangentRow& a, const TangentRow& b) { return shape(a) > shape(b); });
+}
+
+void TangentSeries::load(std::span<const double> matrix, std::span<const double> seeds, std::size_t directions,
+                         std::size_t first, std::size_t count) {
+    require_index(count, width_ + 1, "number of directions");
+    require_size(matrix.size(), states_ * directions, "derivatives");
+    require_size(seeds.size(), parameters_ * directions, "directions of parameters");
+    count_ = count;
+    const auto load_row = [&](std::size_t to, const double* from) {
+        double* numbers = numbers_.data() + to * size_;
+        for (std::size_t d = 0; d < width_; ++d)
+            numbers[d] = d < count ? from[d] : 0.0;
+    };
+    for (std::size_t i = 0; i < states_; ++i)
+        load_row(i, matrix.data() + i * directions + first);
+    for (const std::size_t j : moving_)
+        load_row(parameter_rows_[j], seeds.data() + j * directions + first);
+}
+
+void TangentSeries::load(std::span<const double> states, const TangentSeries& parameters) {
+    require_room(states.size(), states_ * width_, "changes of states");
+    count_ = parameters.count_;
+    for (std::size_t i = 0; i < states_; ++i)
+        std::copy_n(&states[i * width_], width_, numbers_.data() + i * size_);
+    for (const std::size_t j : moving_)
+        std::copy_n(parameters.numbers_.data() + parameters.parameter_rows_[j] * size_, width_,
+                    numbers_.data() + parameter_rows_[j] * size_);
+}
+
+void TangentSeries::compute(const Jet& jet) {
+    const TangentOperands operands{rows_.data(), rows_.size(), numbers_.data()};
+    for (int k = 0; k < order_; ++k)
+        kernels_.order[k](operands, jet.state(0));
+}
+
+void TangentSeries::begin(const Jet& jet) {
+    kernels_.order[0]({rows_.data(), rows_.size(), numbers_.data()}, jet.state(0));
+}
+
+const double* TangentSeries::source(std::size_t index) const {
+    const std::size_t row = row_of_source(index);
+    return row == no_row ? nullptr : numbers_.data() + row * size_;
+}
+
+void TangentSeries::evaluate(double time, std::span<double> values, std::span<double> slopes) const {
+    require_room(values.size(), states_ * width_, "changes of states");
+    require_room(slopes.size(), states_ * width_, "changes of states");
+    kernels_.sums_and_slopes(in_use(), time, values.data(), slopes.data());
+}
+
+double TangentSeries::tails(double step, std::span<const double> floors) const {
+    if (!floors.empty())
+        require_room(floors.size(), states_ * width_, "floors of changes");
+    if (order_ < 2)
+        return 0; // nothing tells
+    return kernels_.tails(in_use(), step, floors.empty() ? nullptr : floors.data());
+}
+
+std::size_t TangentSeries::find_misfit(const TangentSeries& end, const EndAllowance& allowance, double length,
+                                       std::span<const double> values, std::span<const double> slopes,
+                                       std::size_t from) const {
+    require_size(end.size_, size_, "coefficients of series");
+    require_size(end.states_, states_, "states");
+    require_room(values.size(), states_ * width_, "changes of states");
+    require_room(slopes.size(), states_ * width_, "changes of states");
+    return kernels_.misfit(
+        in_use(),
+        {end.numbers_.data(), values.data(), slopes.data(), std::abs(length), allowance.rates, allowance.smallest},
+        from);
+}
+
+} // namespace graze

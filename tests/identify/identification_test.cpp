@@ -1,0 +1,211 @@
+#include "graze/identify/identification.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+
+#include <cmath>
+#include <functional>
+#include <gmock/gmock.h>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace graze::testing {
+
+using ::testing::HasSubstr;
+
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+struct NamedRecord {
+    std::string name;
+    RecordHeader header;
+    Samples samples;
+};
+
+/// @param functions of time, one for each channel
+NamedRecord record(const std::string& name, std::vector<Channel> channels, double rate, std::size_t count,
+                   const std::vector<std::function<double(double)>>& functions) {
+    NamedRecord result{name, {{"t", "s"}, std::move(channels)}, {}};
+    result.samples.clear(functions.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        result.samples.times.push_back(static_cast<double>(i) / rate);
+        for (std::size_t c = 0; c < functions.size(); ++c)
+            result.samples.values[c].push_back(functions[c](result.samples.times.back()));
+    }
+    return result;
+}
+
+EachRecord each(std::vector<NamedRecord> records) {
+    return [records = std::move(records)](const std::function<void(const std::string&, SampleSource&)>& work) {
+        for (const NamedRecord& one : records) {
+            StoredSamples source(one.header, one.samples);
+            work(one.name, source);
+        }
+    };
+}
+
+Identification::Value value_of(const Identification& found, const std::string& name) {
+    for (const Identification::Value& value : found.values)
+        if (value.name == name)
+            return value;
+    ADD_FAILURE() << name << " is not found";
+    return {};
+}
+
+std::string message_of(const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+/// Of a release, by natural frequency and damping ratio, about a rest.
+NamedRecord release(double height) {
+    constexpr double natural = 95.94, damping = 0.01626;
+    const double damped = natural * std::sqrt(1 - damping * damping);
+    return record("release", {{"v", "m/s"}}, 5000, 5000,
+                  {[=](double t) { return 0.25 + height * std::exp(-damping * natural * t) * std::sin(damped * t); }});
+}
+
+/// A ball that falls from 1 m and loses speed by a factor: its velocity is straight between impacts.
+NamedRecord drops(const std::string& name, double restitution) {
+    constexpr double g = 9.81;
+    const double first = std::sqrt(2 / g);
+    return record(name, {{"v", "m/s"}}, 1000, 3000, {[=](double t) {
+                      double begin = first, speed = std::sqrt(2 * g) * restitution;
+                      if (t < first)
+                          return -g * t;
+                      while (t >= begin + 2 * speed / g) {
+                          begin += 2 * speed / g;
+                          speed *= restitution;
+                      }
+                      return speed - g * (t - begin);
+                  }});
+}
+
+} // namespace
+
+TEST(Identification, DecrementsHaveUnitsAndCurves) {
+    const Identification found = identify_decrement(each({release(0.1), release(0.2)}), {});
+    // Parabolas through the samples around peaks are right to some 1e-6 of a period.
+    EXPECT_NEAR(value_of(found, "natural_frequency").estimate.value, 95.94, 1e-5 * 95.94);
+    EXPECT_EQ(value_of(found, "natural_frequency").unit, "rad/s");
+    EXPECT_NEAR(value_of(found, "damping_ratio").estimate.value, 0.01626, 1e-5);
+    EXPECT_EQ(value_of(found, "damping_ratio").unit, "");
+    EXPECT_NEAR(value_of(found, "rest_position").estimate.value, 0.25, 1e-5);
+    EXPECT_EQ(value_of(found, "rest_position").unit, "m/s");
+    ASSERT_EQ(found.shown.size(), 2U) << "a curve for each release";
+    for (const Identification::Shown& shown : found.shown) {
+        ASSERT_EQ(shown.measured.x.size(), 10U);
+        for (std::size_t k = 0; k < shown.measured.x.size(); ++k)
+            EXPECT_NEAR(shown.left.y[k], shown.measured.y[k] - shown.fitted.y[k], 1e-15);
+    }
+    const std::size_t count = found.values.size();
+    ASSERT_EQ(found.covariance.size(), count * count);
+    for (std::size_t i = 0; i < count; ++i)
+        EXPECT_EQ(found.covariance[i * count + i], found.values[i].estimate.error * found.values[i].estimate.error);
+}
+
+TEST(Identification, RestitutionsOfSeveralRecordsAreCombined) {
+    IdentificationSettings settings;
+    settings.least_jump = 1;
+    const Identification one = identify_restitution(each({drops("a", 0.8)}), settings);
+    // Between two samples an impact may be half a millisecond from where it is looked for: 9.81 m/s^2 make 0.005 m/s of
+    // that before it and as much behind, of 1.8 m/s and more.
+    constexpr double known = 0.005;
+    EXPECT_NEAR(value_of(one, "restitution").estimate.value, 0.8, known);
+    EXPECT_EQ(one.values.size(), 1U) << "nothing is between records";
+    const Identification both = identify_restitution(each({drops("a", 0.8), drops("b", 0.82)}), settings);
+    EXPECT_NEAR(value_of(both, "restitution of a").estimate.value, 0.8, known);
+    EXPECT_NEAR(value_of(both, "restitution of b").estimate.value, 0.82, known);
+    EXPECT_GT(value_of(both, "restitution").estimate.value, value_of(both, "restitution of a").estimate.value);
+    EXPECT_LT(value_of(both, "restitution").estimate.value, value_of(both, "restitution of b").estimate.value);
+    EXPECT_GT(value_of(both, "spread_between_records").estimate.value, 0);
+    EXPECT_EQ(both.x.name, "v before");
+    EXPECT_EQ(both.x.unit, "m/s");
+    // The line of the mean, through the origin.
+    const Identification::Curve& line = both.shown.front().fitted;
+    EXPECT_NEAR(line.y[0], -value_of(both, "restitution").estimate.value * line.x[0], 1e-12);
+}
+
+TEST(Identification, CouplingsAreOfRowsOrOfRecords) {
+    // Eq. (5.13) with the constants of Appendix C.
+    constexpr double beta1 = 1.902e-5, beta2 = 1.631e-3, gap = 0.00479102312304, stiffness = 0.6462 * 95.94 * 95.94;
+    const auto current_at = [&](double q) { return (gap + beta2 - q) * std::sqrt(2 * stiffness * q / beta1); };
+    IdentificationSettings settings;
+    settings.asked_as = "--";
+    EXPECT_THAT(message_of([&] { identify_coupling(each({}), settings); }), HasSubstr("give --gap and --stiffness"));
+    settings.gap = gap;
+    settings.stiffness = stiffness;
+    const std::vector<Channel> channels{{"q", "m"}, {"I", "A"}};
+    const auto of_time = [](double t) { return 1e-4 * (1 + t); }; // 0.1 to 1.2 mm
+    const NamedRecord rows =
+        record("loads", channels, 1, 12, {of_time, [&](double t) { return current_at(of_time(t)); }});
+    std::vector<NamedRecord> records;
+    for (int i = 1; i <= 12; ++i)
+        records.push_back(record("load", channels, 1, 5,
+                                 {[i](double) { return 1e-4 * i; }, [&, i](double) { return current_at(1e-4 * i); }}));
+    for (const bool by_record : {false, true}) {
+        settings.one_load_a_record = by_record;
+        const Identification found = identify_coupling(each(by_record ? records : std::vector{rows}), settings);
+        EXPECT_NEAR(value_of(found, "beta1").estimate.value, beta1, 1e-9 * beta1);
+        EXPECT_EQ(value_of(found, "beta1").unit, "H m");
+        EXPECT_NEAR(value_of(found, "beta2").estimate.value, beta2, 1e-9 * beta2);
+        EXPECT_EQ(value_of(found, "beta2").unit, "m");
+        ASSERT_EQ(found.shown.size(), 1U);
+        EXPECT_EQ(found.shown[0].measured.x.size(), 12U);
+        for (std::size_t i = 0; i < found.shown[0].fitted.x.size(); ++i)
+            EXPECT_NEAR(found.shown[0].fitted.x[i], current_at(found.shown[0].fitted.y[i]), 1e-8);
+        const std::size_t count = found.values.size();
+        EXPECT_EQ(found.covariance[1], found.covariance[count]);
+        EXPECT_EQ(found.covariance[2], 0) << "of a correlation no error is known";
+    }
+}
+
+TEST(Identification, ImpedancesWarnOfSigns) {
+    constexpr double resistance = 1.39, inductance = 0.0145, frequency = 6.1;
+    const double w = turn * frequency, size = std::hypot(resistance, w * inductance);
+    const double late = std::atan2(w * inductance, resistance);
+    const auto coil = [&](double sign) {
+        return record("coil", {{"V", "V"}, {"I", "A"}}, 1000, 4000,
+                      {[=](double t) { return 4 * std::sin(w * t); },
+                       [=](double t) { return sign * 4 / size * std::sin(w * t - late); }});
+    };
+    const Identification found = identify_impedance(each({coil(1)}), {});
+    EXPECT_NEAR(value_of(found, "resistance").estimate.value, resistance, 1e-9);
+    EXPECT_EQ(value_of(found, "resistance").unit, "ohm");
+    EXPECT_NEAR(value_of(found, "inductance").estimate.value, inductance, 1e-9);
+    EXPECT_EQ(value_of(found, "inductance").unit, "H");
+    EXPECT_NEAR(value_of(found, "frequency").estimate.value, frequency, 1e-9);
+    EXPECT_EQ(value_of(found, "frequency").unit, "Hz");
+    EXPECT_TRUE(found.warnings.empty());
+    EXPECT_LE(found.shown.front().measured.x.back(), 3 / frequency) << "the first periods tell enough";
+    const Identification turned = identify_impedance(each({coil(-1)}), {});
+    ASSERT_EQ(turned.warnings.size(), 2U) << "neither is that of a coil";
+    EXPECT_THAT(turned.warnings[0], HasSubstr("coil: the resistance comes out below zero"));
+    IdentificationSettings half;
+    half.asked_as = "--";
+    half.beta1 = Estimate{1.9e-5, 0, 0};
+    EXPECT_THAT(message_of([&] { identify_impedance(each({coil(1)}), half); }),
+                HasSubstr("give --beta1, --beta2 and --gap, or none"));
+}
+
+TEST(Identification, RefusesWhatNothingCanBeFoundFrom) {
+    NamedRecord none = release(0.1);
+    none.samples.clear(1);
+    EXPECT_THAT(message_of([&] { identify_decrement(each({none}), {}); }), HasSubstr("the record has no rows"));
+    NamedRecord huge = release(0.1);
+    for (double& value : huge.samples.values[0])
+        value *= 1e150;
+    EXPECT_THAT(message_of([&] { identify_decrement(each({huge}), {}); }), HasSubstr("--scale v="));
+    IdentificationSettings other;
+    other.channel = "w";
+    other.asked_as = "--";
+    EXPECT_THAT(message_of([&] { identify_decrement(each({release(0.1)}), other); }), HasSubstr("--channel"));
+}
+
+} // namespace graze::testing

@@ -1,0 +1,53 @@
+#include "identify/other_openings.hpp"
+
+#include "identify/recorded_motion.hpp"
+#include "identify/wall_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace graze::testing {
+
+namespace {
+
+/// When the wall is hit for the first time: x = -2 exp(-ct/2) (cos wt + c/(2w) sin wt) rises to 0.5, by bisection.
+double first_contact() {
+    const double c = 0.1, w = std::sqrt(4 - c * c / 4);
+    double before = 0, behind = std::acos(-1.0) / w;
+    for (int i = 0; i < 60; ++i) {
+        const double t = (before + behind) / 2;
+        const double x = -2 * std::exp(-c * t / 2) * (std::cos(w * t) + c / (2 * w) * std::sin(w * t));
+        (x < 0.5 ? before : behind) = t;
+    }
+    return before;
+}
+
+/// Of the wall model, displacement alone, from a little before an impact on.
+RecordedMotion before_contact(double lead) {
+    RecordedMotion motion(wall_model(), {"x"}, first_contact() - lead, 0.02, 300);
+    EXPECT_EQ(motion.task.records[0].mode, 0U);
+    EXPECT_GT(motion.first[1], 0) << "it still moves towards the wall";
+    int turn = 0;
+    for (const char* name : {"c", "k", "wall", "e"})
+        motion.forget(name, turn++ % 2 == 0 ? 0.95 : 1.05);
+    motion.forget_states();
+    return motion;
+}
+
+} // namespace
+
+/// The first few readings alone, or only one, are from before the impact, and velocity is not read: what begins with
+/// the velocity behind it meets all others.
+TEST(OtherOpenings, ARecordBeginsJustBeforeAContact) {
+    const double period = std::acos(-1.0);
+    for (const double part : {0.001, 0.003, 0.01, 0.02}) {
+        RecordedMotion motion = before_contact(part * period);
+        const Fit fit = fit_model(motion.model, motion.task);
+        EXPECT_EQ(name_of(fit.ending), "converged") << part << ": " << fit.detail;
+        EXPECT_LE(motion.error(fit), 1e-9) << part; // nothing but rounding is left
+        EXPECT_EQ(fit.records[0].contacts, 3U);
+    }
+}
+
+} // namespace graze::testing

@@ -1,0 +1,94 @@
+#include "graze/record/processed_record.hpp"
+
+#include "graze/symbolic/input_error.hpp"
+#include "record/waves.hpp"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <numbers>
+
+namespace graze::testing {
+
+namespace {
+
+/// x = t^2 and a wave of so many turns by unit of time, for 10 units.
+std::unique_ptr<SampleSource> record(double turns = 1) {
+    RecordHeader header = named({"x", "w"});
+    header.channels[0].unit = "mm";
+    const auto square = [](double t) { return t * t; };
+    const auto wave = [turns](double t) { return std::sin(2 * std::numbers::pi * turns * t); };
+    return std::make_unique<StoredSamples>(header, sampled(100, 1000, {square, wave}));
+}
+
+} // namespace
+
+TEST(ProcessedRecord, WithoutProcessingIsTheRecord) {
+    ProcessedRecord processed(record(), {});
+    EXPECT_EQ(processed.header().channels.size(), 2U);
+    const Samples rows = read_all(processed.source(), 2000);
+    ASSERT_EQ(rows.rows(), 1000U);
+    EXPECT_EQ(rows.values[0][300], 9);
+}
+
+/// The derivative is that of what the scale makes of the channel, within the part that is wanted.
+TEST(ProcessedRecord, ScalesBeforeItDerives) {
+    RecordProcessing processing;
+    processing.scales = {{"x", 3, 5, "um"}};
+    processing.begin = 2;
+    processing.end = 4;
+    processing.derivative = "x";
+    processing.half_width = 6;
+    ProcessedRecord processed(record(), processing);
+    ASSERT_EQ(processed.header().channels.size(), 4U);
+    EXPECT_EQ(processed.header().channels[0].unit, "um");
+    EXPECT_EQ(processed.header().channels[1].unit, "");
+    EXPECT_EQ(processed.header().channels[2].name, "x_rate");
+    const Samples rows = read_all(processed.source(), 2000);
+    ASSERT_EQ(rows.rows(), 201U - 12U) << "rows at both ends have no neighbours";
+    EXPECT_EQ(rows.times.front(), 2.06);
+    EXPECT_EQ(rows.times.back(), 3.94);
+    for (std::size_t i = 0; i < rows.rows(); ++i) {
+        const double t = rows.times[i];
+        // Values up to 53 are rounded to 1e-14, over a few samples of 0.01.
+        EXPECT_NEAR(rows.values[0][i], 3 * t * t + 5, 1e-12);
+        EXPECT_NEAR(rows.values[2][i], 6 * t, 1e-10);
+    }
+}
+
+/// A wave of 20 turns would be one of 5 where only every fourth sample is kept, if nothing took it away before.
+TEST(ProcessedRecord, FiltersWhatDroppedSamplesWouldTurnIntoOther) {
+    for (const double turns : {2.0, 20.0}) {
+        RecordProcessing processing;
+        processing.every = 4;
+        ProcessedRecord processed(record(turns), processing);
+        const Samples rows = read_all(processed.source(), 2000);
+        ASSERT_GT(rows.rows(), 200U);
+        EXPECT_NEAR(rows.times[1] - rows.times[0], 0.04, 1e-12);
+        double largest = 0;
+        for (const double value : rows.values[1])
+            largest = std::max(largest, std::abs(value));
+        // What must pass changes by 80 dB less than it is; what must not comes so far down.
+        EXPECT_NEAR(largest, turns < 10 ? 1 : 0, turns < 10 ? 0.01 : 2e-4) << turns;
+    }
+}
+
+TEST(ProcessedRecord, NamesChannelsThatAreNotThere) {
+    const auto message = [](const RecordProcessing& processing) -> std::string {
+        try {
+            ProcessedRecord processed(record(), processing);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    RecordProcessing processing;
+    processing.asked_as = "--";
+    processing.scales = {{"y", 2, 0, {}}};
+    EXPECT_THAT(message(processing), ::testing::HasSubstr("--scale"));
+    processing.scales.clear();
+    processing.derivative = "y";
+    EXPECT_THAT(message(processing), ::testing::HasSubstr("--derivative"));
+    EXPECT_THAT(message(processing), ::testing::HasSubstr("'y'"));
+}
+
+} // namespace graze::testing
