@@ -161,9 +161,11 @@ double follow_tangents(const TangentPlaces& places, double tolerance, double ste
         const double here = misfit.after(part);
         if (here <= 1)
             return part;
+        if (halving == most_halvings && !std::isfinite(here))
+            return std::numeric_limits<double>::quiet_NaN();
         if (halving == 0)
             first = here;
-        else if (halving == most_halvings && std::isfinite(here) && here > TangentCheck::least_gain * first)
+        else if (halving == most_halvings && here > TangentCheck::least_gain * first)
             break;
         else if (halving == most_halvings)
             return part;

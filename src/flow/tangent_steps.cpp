@@ -181,6 +181,8 @@ double TangentSteps::carry(Jet& next, double length, std::span<double> after, st
         const std::size_t first = go % goes * width, count = std::min(width, directions_ - first);
         load(first);
         const double part = follow(next, length);
+        if (std::isnan(part))
+            return part;
         there = part == length ? there + 1 : 1;
         length = part;
         for (std::size_t i = 0; i < states_; ++i)

@@ -3,6 +3,7 @@
 #include "trajectory/saltation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace graze {
@@ -84,6 +85,8 @@ void Tangents::advance(std::size_t mode, std::span<const double> state, double s
     for (int part = 0; part < TangentSteps::most_parts; ++part) {
         Jet& next = begin(mode, state);
         const double length = steps_.carry(next, s, next_);
+        if (std::isnan(length))
+            return invalidate();
         matrix_.swap(next_);
         if (!(length < s)) {
             if (!row.empty())
