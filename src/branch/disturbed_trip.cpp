@@ -24,7 +24,7 @@ TripTime follow(const TripOrigin& origin, const DrivenParameter& driven, const s
     parameters.insert(parameters.end(), further.begin(), further.end());
     state.push_back(0);
     const auto counts = [&](const Contact& contact) { return origin.counts(contact); };
-    EndWatch watch(end, counts, options.interrupted);
+    EndWatch watch(here, counts, options.interrupted);
     TripTime trip = run_until(simulation, parameters, state, origin.mode, longest, watch);
     trip.cycles = trip.time / origin.cycle;
     return trip;

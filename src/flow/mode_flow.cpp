@@ -196,6 +196,8 @@ ModeFlow::Ending ModeFlow::run(std::size_t mode, std::span<double> state, double
         const std::span<const double> end =
             seen_ == wanted ? std::span<const double>(sums_).first(states_) : std::span<const double>{};
         const double step = tangents_.carry(jets_.next(mode), wanted, next_, end);
+        if (std::isnan(step))
+            return Ending::undefined;
         if (std::abs(step) < std::abs(duration) * smallest_share && step != remaining)
             return Ending::singular;
         std::copy(tangents_.state().begin(), tangents_.state().end(), state.begin());

@@ -15,10 +15,6 @@ namespace {
 /// Share of a step that derivatives are content with before other sizes than their own are asked for.
 constexpr double little_shorter = 0.8;
 
-/// What is left over of a step takes as much work as the step did. Tails that would take away less than this share are
-/// let be: at the end of the step it is seen whether derivatives are right.
-constexpr double worth_a_part = 0.9;
-
 /// Excess of rates over what is allowed from which on floors are worth asking for, for each order: so much is what a
 /// step of that share would take away.
 struct FloorsWorth {
@@ -148,7 +144,7 @@ double tangent_reach(const TangentSeries& series, double tolerance, double step,
         worst = series.tails(reach, least);
         shorten(least, 0);
     }
-    return std::isfinite(reach) && reach > 0 && reach < worth_a_part * step ? reach : step;
+    return std::isfinite(reach) && reach > 0 ? reach : step;
 }
 
 double follow_tangents(const TangentPlaces& places, double tolerance, double step, const TangentFloors& floors,
@@ -165,9 +161,11 @@ double follow_tangents(const TangentPlaces& places, double tolerance, double ste
         const double here = misfit.after(part);
         if (here <= 1)
             return part;
+        if (halving == most_halvings && !std::isfinite(here))
+            return std::numeric_limits<double>::quiet_NaN();
         if (halving == 0)
             first = here;
-        else if (halving == most_halvings && std::isfinite(here) && here > TangentCheck::least_gain * first)
+        else if (halving == most_halvings && here > TangentCheck::least_gain * first)
             break;
         else if (halving == most_halvings)
             return part;

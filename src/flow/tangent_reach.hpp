@@ -42,7 +42,7 @@ struct TangentPlaces {
 /// variational equations say at the end, as StepCheck asks of states.
 /// @param tolerance that derivatives are allowed; @param noise by how much round-off may change rates, asked for only
 /// where they differ from slopes, as floors are
-/// @return the step, or the part; sums are those at its end
+/// @return the step, or the part; sums are those at its end. NaN where derivatives are not finite
 double follow_tangents(const TangentPlaces& places, double tolerance, double step, const TangentFloors& floors,
                        const TangentFloors& noise);
 

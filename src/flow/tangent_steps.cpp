@@ -15,9 +15,9 @@ std::size_t TangentSteps::together(std::size_t directions) {
     return static_cast<std::size_t>(tangent_kernels(directions, best_instruction_set()).width);
 }
 
-TangentSteps::TangentSteps(const System& system, double tolerance, std::size_t directions)
+TangentSteps::TangentSteps(const System& system, double tolerance, std::size_t directions, double whole)
     : system_(system), states_(system.states()), directions_(directions), tolerance_(allowance * tolerance),
-      moving_(system.parameters(), 0), lanes_(system.model().modes.size()), state_(states_),
+      whole_(whole), moving_(system.parameters(), 0), lanes_(system.model().modes.size()), state_(states_),
       couplings_(std::make_unique<ModeCouplings>(system)) {}
 
 TangentSteps::~TangentSteps() = default;
@@ -146,7 +146,9 @@ double TangentSteps::follow(Jet& next, double length) {
     Lanes& lanes = lanes_of_mode();
     std::span<const double> known;
     const TangentFloors least = [&] { return known.empty() ? known = floors(length) : known; };
-    const double reach = tangent_reach(*lanes.here, tolerance_, std::abs(length), least);
+    double reach = tangent_reach(*lanes.here, tolerance_, std::abs(length), least);
+    if (reach >= whole_ * std::abs(length))
+        reach = std::abs(length);
     const auto look = [&](double step) {
         if (at_ != step) {
             jet_->evaluate_states({&step, 1}, state_);
@@ -179,6 +181,8 @@ double TangentSteps::carry(Jet& next, double length, std::span<double> after, st
         const std::size_t first = go % goes * width, count = std::min(width, directions_ - first);
         load(first);
         const double part = follow(next, length);
+        if (std::isnan(part))
+            return part;
         there = part == length ? there + 1 : 1;
         length = part;
         for (std::size_t i = 0; i < states_; ++i)

@@ -4,6 +4,7 @@
 #include "graze/trajectory/trajectory.hpp"
 #include "orbit/newton.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -20,9 +21,17 @@ public:
     using Counts = std::function<bool(const Contact&)>;
     /// @param counts which contacts have the speed that counts; none: no contact does
     EndWatch(const TripEnd& end, Counts counts, const std::function<bool()>& interrupted)
-        : counts_(std::move(counts)), speed_limit_(end.speed), interrupted_(interrupted) {}
+        : counts_(std::move(counts)), speed_limit_(end.speed), interrupted_(interrupted), level_(end) {}
+
+    /// Before the trajectory starts. @param system of its model; @param parameters its own
+    void begin(const System& system, std::span<const double> parameters) {
+        level_.system.emplace(system);
+        level_.parameters.assign(parameters.begin(), parameters.end());
+    }
 
     void contact(const Contact& contact) override {
+        if (contact.kind == ContactKind::crossing && !is_over(contact.time) && level_.is_reached(contact.before))
+            note("level", contact.time);
         if (contact.kind != ContactKind::crossing || !counts_ || !counts_(contact) || is_over(contact.time))
             return;
         ++contacts_;
@@ -57,6 +66,31 @@ public:
     }
 
 private:
+    /// A level at which the motion turns round, as that of a stop: whether its passage is seen is up to round-off.
+    struct Level {
+        explicit Level(const TripEnd& end) {
+            if (end.quantity)
+                expression = *end.quantity - end.level;
+        }
+        bool is_reached(std::span<const double> state) {
+            constexpr double round_off = 64 * 0x1p-53;
+            if (!expression || !system)
+                return false;
+            if (!function)
+                function = system->with_gradient(*expression);
+            std::vector<double> inputs(state.begin(), state.end());
+            inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+            const std::vector<double> numbers = (*function)(inputs);
+            double size = 0;
+            for (std::size_t i = 0; i < inputs.size(); ++i)
+                size += std::abs(numbers[1 + i] * inputs[i]);
+            return std::abs(numbers[0]) <= round_off * size;
+        }
+        std::optional<Expression> expression{}; ///< zero at the level
+        std::optional<System> system{};
+        std::optional<Function> function{}; ///< its value and derivatives, once there is a contact
+        std::vector<double> parameters{};
+    };
     bool is_over(double time) const { return !ending_.empty() && time >= time_; }
     void note(const char* ending, double time) {
         ending_ = ending;
@@ -66,6 +100,7 @@ private:
     Counts counts_;
     double speed_limit_;
     std::function<bool()> interrupted_;
+    Level level_;
     std::string ending_;
     double time_ = 0, speed_ = 0;
     std::size_t contacts_ = 0;
@@ -91,6 +126,7 @@ inline Simulation simulation_until(const System& system, const TripEnd& end, con
 /// The motion from a state at time 0 until the watch stops it.
 inline TripTime run_until(const Simulation& simulation, std::span<const double> parameters,
                           std::span<const double> state, std::size_t mode, double longest, EndWatch& watch) {
+    watch.begin(simulation.system(), parameters);
     Trajectory trajectory(simulation, parameters, watch);
     trajectory.start(state, mode, 0, longest);
     JetSet jets(simulation, LaneKind::single);

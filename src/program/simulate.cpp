@@ -297,8 +297,11 @@ private:
                                         table_->table().rows());
         bool undefined = false;
         if (request_.kind == TableKind::derivatives && !trajectory_->tangents_valid()) {
-            console_.err
-                << "graze: no derivatives exist after a contact without speed; start elsewhere, or end before it\n";
+            const bool to_end = interrupted_ == 0 && outcome.ending == Ending::end_time;
+            console_.err << (to_end
+                                 ? "graze: no derivatives exist after a contact without speed, or where they are not "
+                                   "finite; start elsewhere, or end before it\n"
+                                 : "graze: there are no derivatives where the motion has ended; end before it\n");
             undefined = true;
         } else if (const auto names = table_->table().incomplete_columns(); !names.empty()) {
             console_.err << fmt::format("graze: warning: {} has no finite value in some rows, where cells are empty\n",

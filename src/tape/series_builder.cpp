@@ -101,7 +101,15 @@ LinearForm SeriesBuilder::multiply(LinearForm left, LinearForm right) {
         return scale(std::move(left), right.constant);
     const Scaled a = split(left);
     const Scaled b = split(right);
-    return scaled({constants_.apply(Operation::multiply, a.coefficient, b.coefficient), multiply(a.reg, b.reg)});
+    const std::uint32_t coefficient = constants_.apply(Operation::multiply, a.coefficient, b.coefficient);
+    return is_moderate(coefficient) ? scaled({coefficient, multiply(a.reg, b.reg)})
+                                    : series(multiply(reg_of(left), reg_of(right)));
+}
+
+/// Factors that are split off of one product after the other would leave the range of numbers, where products need not.
+bool SeriesBuilder::is_moderate(std::uint32_t coefficient) const {
+    const double size = std::abs(constants_.value_of(coefficient).value_or(1));
+    return size == 0 || (size >= 0x1p-400 && size <= 0x1p400);
 }
 
 LinearForm SeriesBuilder::divide(LinearForm left, const LinearForm& right) {
@@ -112,11 +120,14 @@ LinearForm SeriesBuilder::divide(LinearForm left, const LinearForm& right) {
         return scaled({constants_.apply(Operation::divide, left.constant, b.coefficient),
                        emit(SeriesOperation::reciprocal, b.reg)});
     const Scaled a = split(left);
+    const std::uint32_t coefficient = constants_.apply(Operation::divide, a.coefficient, b.coefficient);
+    if (!is_moderate(coefficient))
+        return series(emit(SeriesOperation::divide, reg_of(left), reg_of(right)));
     const bool known = known_.count(Key{static_cast<std::uint32_t>(SeriesOperation::divide), a.reg, b.reg, 0}) > 0;
     const std::uint32_t quotient = prefers_reciprocals_ && !known
                                        ? multiply(a.reg, emit(SeriesOperation::reciprocal, b.reg))
                                        : emit(SeriesOperation::divide, a.reg, b.reg);
-    return scaled({constants_.apply(Operation::divide, a.coefficient, b.coefficient), quotient});
+    return scaled({coefficient, quotient});
 }
 
 LinearForm SeriesBuilder::power(LinearForm base, LinearForm exponent) {

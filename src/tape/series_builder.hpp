@@ -49,6 +49,7 @@ private:
     LinearForm scaled(Scaled scaled) const { return {zero_, {{scaled.reg, scaled.coefficient}}}; }
     LinearForm multiply(LinearForm left, LinearForm right);
     LinearForm divide(LinearForm left, const LinearForm& right);
+    bool is_moderate(std::uint32_t coefficient) const;
     LinearForm power(LinearForm base, LinearForm exponent);
     LinearForm integer_power(Scaled base, double exponent);
     LinearForm half_integer_power(std::uint32_t base, double exponent);

@@ -3,15 +3,24 @@
 #include "trajectory/saltation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace graze {
+
+namespace {
+
+/// The motion's own steps stay what they are. What derivatives leave over of one begins with the motion's series anew,
+/// so that they go on to its end where that is near: there it is seen whether they are right.
+constexpr double whole_step = 0.9;
+
+} // namespace
 
 Tangents::Tangents(const Simulation& simulation, std::span<const double> parameters, std::span<const double> seeds,
                    std::size_t directions)
     : simulation_(simulation), parameters_(parameters.begin(), parameters.end()), states_(simulation.system().states()),
       parameter_count_(parameters.size()), directions_(directions),
-      steps_(simulation.system(), simulation.options().tolerance, directions),
+      steps_(simulation.system(), simulation.options().tolerance, directions, whole_step),
       parameter_seeds_(parameter_count_ * directions), matrix_(states_ * directions), next_(states_ * directions) {
     for (std::size_t d = 0; d < directions; ++d) {
         const auto seed = seeds.subspan(d * (states_ + parameter_count_), states_ + parameter_count_);
@@ -76,6 +85,8 @@ void Tangents::advance(std::size_t mode, std::span<const double> state, double s
     for (int part = 0; part < TangentSteps::most_parts; ++part) {
         Jet& next = begin(mode, state);
         const double length = steps_.carry(next, s, next_);
+        if (std::isnan(length))
+            return invalidate();
         matrix_.swap(next_);
         if (!(length < s)) {
             if (!row.empty())

@@ -7,6 +7,7 @@
 #include "graze/model/named_value.hpp"
 #include "graze/orbit/solve.hpp"
 #include "graze/symbolic/input_error.hpp"
+#include "grazing/end_watch.hpp"
 #include "linear_oscillator.hpp"
 
 #include <gtest/gtest.h>
@@ -409,6 +410,45 @@ TEST(TripTime, is_refused_where_there_is_none) {
     CycleMap without = one.map;
     without.clearance_rate.reset();
     EXPECT_THROW(predicted_trip(without, one.verdict, 1e-6), InputError);
+}
+
+/// The level of a stop is reached where the motion turns round at it, whichever way round-off leaves it there.
+TEST(TripTime, TheLevelOfAStopIsReachedAtTheFirstContact) {
+    struct FirstContact : Observer {
+        double time = -1;
+        void contact(const Contact& contact) override {
+            if (time < 0)
+                time = contact.time;
+        }
+        bool stop() override { return time >= 0; }
+    };
+    const Model model = load_model("impact-oscillator");
+    const System system(model);
+    TripEnd end;
+    end.quantity = model.events[0].function;
+    const Simulation simulation = simulation_until(system, end, TripOptions{});
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> number(-1, 1);
+    int contacts = 0;
+    for (int i = 0; i < 300; ++i) {
+        std::vector<double> state = model.initial_state();
+        state[0] -= std::abs(number(random));
+        state[1] = number(random);
+        const std::vector<double> parameters = model.parameter_values();
+        FirstContact first;
+        Trajectory trajectory(simulation, parameters, first);
+        trajectory.start(state, model.initial_mode, 0, 50);
+        JetSet jets(simulation, LaneKind::single);
+        run(trajectory, jets);
+        EndWatch watch(end, {}, nullptr);
+        const TripTime trip = run_until(simulation, parameters, state, model.initial_mode, 50, watch);
+        if (first.time <= 0)
+            continue;
+        ++contacts;
+        EXPECT_EQ(trip.ending, "level");
+        EXPECT_NEAR(trip.time, first.time, 1e-12) << i;
+    }
+    EXPECT_GT(contacts, 100);
 }
 
 } // namespace

@@ -240,6 +240,27 @@ TEST(TangentSeries, BeginWhereStepsEnd) {
         }
 }
 
+/// Each square doubles what its derivative is multiplied by: 2^1200 is no number, but the derivative is one.
+TEST(TangentSeries, OfDeepNestingAreFinite) {
+    Problem p;
+    const Expression x = p.state("x", 0.3);
+    Expression nested = x;
+    for (int k = 0; k < 1200; ++k)
+        nested = nested * nested + x * 0.1;
+    p.rates = {nested};
+    const Linear linear(p);
+    for (const auto set : testing::supported_sets()) {
+        const auto jet = linear.jet(p, 10, set);
+        TangentSeries series(linear.tape, linear.equations, *jet, {}, 1, set);
+        series.load(std::vector{1.0}, {}, 1, 0, 1);
+        series.compute(*jet);
+        // y = y^2 + x / 10, where nesting leads: y' = 0.1 / (1 - 2 y)
+        const double root = std::sqrt(1 - 0.4 * 0.3), slope = 0.1 / root;
+        EXPECT_NEAR(jet->state(0)[1], (1 - root) / 2, 10 * eps);
+        EXPECT_NEAR(series.state(0)[1], slope, 10 * eps) << name_of(set);
+    }
+}
+
 TEST(TangentSeries, RefuseWhatDoesNotFit) {
     Problem p;
     const Expression x = p.state("x", 0.3), a = p.parameter("a", 2);

@@ -34,7 +34,9 @@ public:
     static std::size_t together(std::size_t directions);
 
     /// @param tolerance of the states; @param directions any number of them
-    TangentSteps(const System& system, double tolerance, std::size_t directions);
+    /// @param whole share of a step below which derivatives take parts of it: where what is left over takes as much
+    /// work as the step did, tails alone are no reason to leave a few percent of it
+    TangentSteps(const System& system, double tolerance, std::size_t directions, double whole = 1);
     ~TangentSteps();
     TangentSteps(TangentSteps&&) noexcept;
     TangentSteps& operator=(TangentSteps&&) noexcept;
@@ -74,7 +76,7 @@ private:
 
     System system_;
     std::size_t states_, directions_;
-    double tolerance_;
+    double tolerance_, whole_;
     std::vector<double> parameters_, parameter_seeds_;
     std::vector<char> moving_;          ///< of each parameter, whether some direction changes it
     std::vector<std::uint32_t> groups_; ///< of followers that are needed
