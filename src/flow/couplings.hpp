@@ -71,7 +71,7 @@ private:
     System system_;
     std::size_t mode_;
     std::vector<double> parameters_;
-    std::unique_ptr<Jet> jet_; ///< of the first variational equations, once something is measured
+    std::unique_ptr<Jet> jet_;                      ///< of the first variational equations, once something is measured
     std::vector<Entry> entries_;                    ///< row by row
     std::vector<std::size_t> row_starts_;           ///< in `entries_`
     std::vector<std::vector<std::size_t>> columns_; ///< entries of each

@@ -45,7 +45,8 @@ struct PredictedMotion {
 };
 
 /// Follows pieces of motions with their derivatives by states at their beginnings and by some parameters: along arcs by
-/// the first variational equations, through contacts by saltation, through accumulations of contacts as Trajectory does.
+/// the first variational equations, through contacts by saltation, through accumulations of contacts as Trajectory
+/// does.
 ///
 /// A state at the beginning may be a little beyond a surface, as an unknown can while it is sought: then the motion is
 /// followed, back or on, to where it is on the right side, and begins there. So it depends smoothly on that state.

@@ -1,7 +1,7 @@
 #include "sweep/step_maps.hpp"
 
-#include "graze/flow/step_check.hpp"
 #include "flow/tangent_reach.hpp"
+#include "graze/flow/step_check.hpp"
 #include "graze/flow/tangent_steps.hpp"
 #include "graze/symbolic/symbol_index.hpp"
 #include "graze/symbolic/transform.hpp"

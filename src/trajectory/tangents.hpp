@@ -11,8 +11,8 @@
 namespace graze {
 
 /// Derivatives of one trajectory in several directions (of initial state and parameters), carried along arcs by the
-/// first variational equations and through contacts by the saltation formulas (Aizerman and Gantmakher 1958; di Bernardo et
-/// al. 2008, section 2.5), with the field *before* the jump in the projection.
+/// first variational equations and through contacts by the saltation formulas (Aizerman and Gantmakher 1958; di
+/// Bernardo et al. 2008, section 2.5), with the field *before* the jump in the projection.
 ///
 /// Matrices are row by row, [row * directions + direction]. They hold derivatives at fixed time.
 class Tangents {
@@ -61,8 +61,8 @@ private:
     std::size_t states_, parameter_count_, directions_;
     TangentSteps steps_;
     std::vector<double> parameter_seeds_, matrix_, next_;
-    std::vector<double> period_rates_; ///< derivatives of the states' periods; empty: no direction changes any
-    std::vector<double> here_;         ///< state, within arcs that are followed in parts
+    std::vector<double> period_rates_;         ///< derivatives of the states' periods; empty: no direction changes any
+    std::vector<double> here_;                 ///< state, within arcs that are followed in parts
     Jet *jet_ = nullptr, *next_jet_ = nullptr; ///< those of the trajectory, while they are at its state
     std::unique_ptr<ModeJets> jets_;           ///< of its own, where these are not to be had
     bool valid_ = true;
