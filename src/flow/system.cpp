@@ -65,6 +65,7 @@ private:
     void compile_tape(System::CompiledMode& compiled, const std::vector<Expression>& rates,
                       const std::vector<Expression>& outputs);
     std::vector<Expression> watched_functions(const System::CompiledMode& compiled);
+    std::vector<Expression> with_observed(std::vector<Expression> outputs, std::span<const Expression> observed);
     System::CompiledJump map_of(const StateMap& map);
     std::vector<Expression> roots_in(std::span<const Expression> expanded);
     Function compile(const SymbolIndex& inputs, std::span<const Expression> outputs);
@@ -223,6 +224,14 @@ std::vector<Expression> SystemCompiler::watched_functions(const System::Compiled
     return expander_.expand(functions);
 }
 
+/// What a tape gives besides states, in its sequence.
+std::vector<Expression> SystemCompiler::with_observed(std::vector<Expression> outputs,
+                                                      std::span<const Expression> observed) {
+    const std::vector<Expression> more = expander_.expand(observed);
+    outputs.insert(outputs.end(), more.begin(), more.end());
+    return outputs;
+}
+
 std::vector<System::CompiledMode> SystemCompiler::compile_modes() {
     std::vector<System::CompiledMode> modes;
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> transitions;
@@ -253,18 +262,14 @@ std::vector<System::CompiledMode> SystemCompiler::compile_modes() {
 
 void SystemCompiler::observe(std::vector<System::CompiledMode>& modes, std::span<const Expression> observed) {
     for (std::size_t m = 0; m < modes.size(); ++m) {
-        std::vector<Expression> outputs = watched_functions(modes[m]);
-        const std::vector<Expression> more = expander_.expand(observed);
-        outputs.insert(outputs.end(), more.begin(), more.end());
-        compile_tape(modes[m], expander_.expand(model_.modes[m].rates), outputs);
+        compile_tape(modes[m], expander_.expand(model_.modes[m].rates),
+                     with_observed(watched_functions(modes[m]), observed));
     }
 }
 
 LinearMode SystemCompiler::linearise(const System& system, std::size_t mode, std::span<const Expression> observed) {
     const std::vector<Expression> rates = expander_.expand(model_.modes[mode].rates),
-                                  events = watched_functions(system.mode(mode)), more = expander_.expand(observed);
-    std::vector<Expression> outputs = events;
-    outputs.insert(outputs.end(), more.begin(), more.end());
+                                  events = watched_functions(system.mode(mode));
     const std::size_t states = states_.size();
     LinearMode linear;
     std::vector<TapeFollower> followers;
@@ -280,7 +285,8 @@ LinearMode SystemCompiler::linearise(const System& system, std::size_t mode, std
         add(linear.equations.entries, entry.row, entry.source, std::move(entry.coefficient), LinearMode::by_states);
     for (JacobianEntry& entry : sparse_jacobian(events, inputs_))
         add(linear.events, entry.row, entry.column, std::move(entry.value), LinearMode::of_events);
-    linear.tape = graze::compile_tape(states_.symbols(), parameters_.symbols(), rates, outputs, followers);
+    linear.tape = graze::compile_tape(states_.symbols(), parameters_.symbols(), rates, with_observed(events, observed),
+                                      followers);
     return linear;
 }
 

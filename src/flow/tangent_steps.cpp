@@ -27,9 +27,8 @@ TangentSteps& TangentSteps::operator=(TangentSteps&&) noexcept = default;
 void TangentSteps::set_parameters(std::span<const double> parameters, std::span<const double> seeds) {
     require_size(parameters.size(), system_.parameters(), "independent parameters");
     require_size(seeds.size(), parameters.size() * directions_, "directions of parameters");
-    parameters_.assign(parameters.begin(), parameters.end());
     parameter_seeds_.assign(seeds.begin(), seeds.end());
-    couplings_->set_parameters(parameters_);
+    couplings_->set_parameters(parameters);
     std::vector<char> moving(parameters.size(), 0);
     groups_ = {LinearMode::by_states};
     for (std::size_t j = 0; j < parameters.size(); ++j) {
@@ -191,32 +190,31 @@ double TangentSteps::carry(Jet& next, double length, std::span<double> after, st
     return length;
 }
 
-/// By how much a direction changes a state, at the beginning of the step, or a parameter.
-double TangentSteps::seed(std::size_t source, std::size_t direction) const {
-    return parameter_seeds_[(source - states_) * directions_ + direction];
+std::vector<std::uint32_t> TangentSteps::groups_with_events() const {
+    std::vector<std::uint32_t> groups = groups_;
+    groups.push_back(LinearMode::of_events);
+    return groups;
 }
 
 void TangentSteps::event_at_end(Jet& next, std::span<const double> after, std::size_t watched,
                                 std::span<double> row) const {
     require_size(row.size(), directions_, "derivatives of an event");
-    std::vector<std::uint32_t> groups = groups_;
-    groups.push_back(LinearMode::of_events);
-    next.begin_followers(groups);
+    next.begin_followers(groups_with_events());
     std::fill(row.begin(), row.end(), 0.0);
     for (const TangentEntry& entry : system_.linear(mode_).events) {
         if (entry.row != watched || (entry.source >= states_ && moving_[entry.source - states_] == 0))
             continue;
         const double slope = *next.follower(entry.follower);
+        const double* change = entry.source < states_ ? &after[entry.source * directions_]
+                                                      : &parameter_seeds_[(entry.source - states_) * directions_];
         for (std::size_t d = 0; d < directions_; ++d)
-            row[d] += slope * (entry.source < states_ ? after[entry.source * directions_ + d] : seed(entry.source, d));
+            row[d] += slope * change[d];
     }
 }
 
 void TangentSteps::event_coefficient(std::size_t watched, std::size_t k, std::span<double> row) {
     require_size(row.size(), directions_, "derivatives of an event");
-    std::vector<std::uint32_t> groups = groups_;
-    groups.push_back(LinearMode::of_events);
-    jet_->follow(groups);
+    jet_->follow(groups_with_events());
     std::fill(row.begin(), row.end(), 0.0);
     const LinearMode& linear = system_.linear(mode_);
     const std::size_t width = lanes_of_mode().here->width();

@@ -77,18 +77,19 @@ private:
             if (!expression || !system)
                 return false;
             if (!function)
-                function = system->with_gradient(*expression);
-            std::vector<double> inputs(state.begin(), state.end());
+                function = system->function_of({&*expression, 1});
+            std::vector<double> inputs(state.begin(), state.end()), errors;
             inputs.insert(inputs.end(), parameters.begin(), parameters.end());
-            const std::vector<double> numbers = (*function)(inputs);
-            double size = 0;
-            for (std::size_t i = 0; i < inputs.size(); ++i)
-                size += std::abs(numbers[1 + i] * inputs[i]);
-            return std::abs(numbers[0]) <= round_off * size;
+            for (const double number : inputs)
+                errors.push_back(round_off * std::abs(number));
+            double bound = 0;
+            std::vector<double> work(2 * function->workspace());
+            function->error_bounds(inputs, errors, {&bound, 1}, work);
+            return std::abs((*function)(inputs)[0]) <= bound;
         }
         std::optional<Expression> expression{}; ///< zero at the level
         std::optional<System> system{};
-        std::optional<Function> function{}; ///< its value and derivatives, once there is a contact
+        std::optional<Function> function{}; ///< the same, once there is a contact
         std::vector<double> parameters{};
     };
     bool is_over(double time) const { return !ending_.empty() && time >= time_; }

@@ -327,7 +327,7 @@ FitChecks check_point(const FitRows& rows, const FitPoint& point, const std::vec
     const std::vector<FitPiece>& pieces = rows.layout.pieces;
     for (std::size_t k = 0; k < pieces.size(); ++k) {
         const PieceRows& piece = known[k];
-        squares += piece.readings.col(piece.readings.cols() - 1).squaredNorm();
+        squares += piece.squares();
         if (!piece.complete && checks.broken.empty())
             checks.broken = piece.detail;
         if (!pieces[k].leads)

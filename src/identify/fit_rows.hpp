@@ -23,6 +23,8 @@ struct PieceRows {
     std::size_t end_mode = 0, contacts = 0, misplaced = 0;
     bool complete = false, finite = false;
     std::string detail;
+    /// Sum of the squares of what is left.
+    double squares() const { return readings.col(readings.cols() - 1).squaredNorm(); }
     std::vector<double> periods, period_slopes; ///< of cyclic states; by the parameters that are found, in no scale
 };
 

@@ -77,7 +77,7 @@ private:
             if (!rows.finite || !rows.complete)
                 return motion;
             motion.modes.push_back(piece.mode);
-            squares += rows.readings.col(rows.readings.cols() - 1).squaredNorm();
+            squares += rows.squares();
         }
         motion.point = std::move(point);
         motion.cost = squares / 2;
@@ -193,7 +193,7 @@ DescentReport descend_joined(FitRows& rows, FitPoint& point, double joint, bool 
     for (const PieceRows& piece : rows.evaluate(point)) {
         if (!piece.finite)
             return {};
-        squares += piece.readings.col(piece.readings.cols() - 1).squaredNorm();
+        squares += piece.squares();
     }
     JoinedDescent descent(rows, point, joint);
     if (!std::isfinite(descent.best().cost))

@@ -130,15 +130,13 @@ private:
     int order_;
     std::size_t states_;
     std::size_t parameters_;
-    bool begun_ = false; ///< all of orders 0 and 1 is that of the states and parameters, and no more
     JetLayout layout_;
     AlignedNumbers memory_;
     std::vector<TermOperands> terms_;
     std::vector<KernelProgram> programs_; ///< of states and outputs, then of each part of what follows
-    /// How far each part of what follows has been computed.
+    /// How far each has been computed: nothing, orders 0 and 1, or all, from the states and parameters that are there.
     enum class Progress : unsigned char { none, begun, computed };
     std::vector<Progress> progress_;
-    bool computed_ = false; ///< all coefficients of states and outputs
     std::vector<KernelStep> constant_code_;
     std::vector<Copy> constant_copies_; ///< to rates and outputs that are constants
     std::vector<const double*> outputs_, followers_;
@@ -170,7 +168,7 @@ TapeJet::TapeJet(const Tape& tape, int order, const KernelTable& table)
     for (std::size_t part = 0; part < tape.follower_code.size(); ++part)
         programs_.emplace_back(StepFinder(tape, part, table, layout_, memory_.data(), terms_), table, order,
                                KernelProgram::Sequence::by_instruction);
-    progress_.assign(tape.follower_code.size(), Progress::none);
+    progress_.assign(programs_.size(), Progress::none);
 
     std::size_t constant_outputs = 0;
     for (const Tape::Location& location : tape.outputs) {
@@ -266,7 +264,7 @@ void TapeJet::set_parameters(std::span<const double> parameters) {
     require_size(parameters.size(), parameters_ * layout_.number, "parameters of a jet");
     if (parameters.empty() || std::memcmp(parameters.data(), memory_.data(), parameters.size_bytes()) == 0)
         return;
-    begun_ = computed_ = false;
+    progress_.front() = Progress::none;
     std::ranges::copy(parameters, memory_.data());
     compute_constants();
 }
@@ -311,54 +309,53 @@ bool TapeJet::has_states(std::span<const double> states) const {
 
 void TapeJet::compute(std::span<const double> states) {
     begin(states);
-    begun_ = false;
     programs_.front().go_on();
-    computed_ = true;
+    progress_.front() = Progress::computed;
 }
 
 void TapeJet::begin(std::span<const double> states) {
-    if (begun_ && states.size() == states_ * layout_.number && has_states(states))
+    if (progress_.front() == Progress::begun && states.size() == states_ * layout_.number && has_states(states))
         return;
     set_states(states);
     programs_.front().begin();
-    begun_ = true;
-    computed_ = false;
     std::ranges::fill(progress_, Progress::none);
+    progress_.front() = Progress::begun;
 }
 
-/// Applies to each part that has something of some groups: what all need, what several share, and their own.
+/// Applies to each program that has something of some groups: what all need, what several share, and their own.
 template <class Run>
 void TapeJet::run_followers(std::span<const std::uint32_t> groups, Run&& run) {
-    if (progress_.empty())
+    constexpr std::size_t first = 1, shared = 2; // among the programs; the others are two behind their groups
+    if (programs_.size() == first)
         return;
-    run(0);
+    run(first);
     for (const std::uint32_t group : groups) {
-        if (group > 0 && 1 + group < progress_.size()) {
-            run(1);
-            run(1 + group);
+        if (group > 0 && shared + group < programs_.size()) {
+            run(shared);
+            run(shared + group);
         }
     }
 }
 
 void TapeJet::begin_followers(std::span<const std::uint32_t> groups) {
-    if (!begun_ && !computed_)
+    if (progress_.front() == Progress::none)
         throw std::logic_error("followers begin where a jet has begun");
-    run_followers(groups, [this](std::size_t part) {
-        if (progress_[part] == Progress::none) {
-            programs_[1 + part].begin();
-            progress_[part] = Progress::begun;
+    run_followers(groups, [this](std::size_t program) {
+        if (progress_[program] == Progress::none) {
+            programs_[program].begin();
+            progress_[program] = Progress::begun;
         }
     });
 }
 
 void TapeJet::follow(std::span<const std::uint32_t> groups) {
-    if (!computed_)
+    if (progress_.front() != Progress::computed)
         throw std::logic_error("followers follow what a jet has computed");
     begin_followers(groups);
-    run_followers(groups, [this](std::size_t part) {
-        if (progress_[part] == Progress::begun) {
-            programs_[1 + part].go_on();
-            progress_[part] = Progress::computed;
+    run_followers(groups, [this](std::size_t program) {
+        if (progress_[program] == Progress::begun) {
+            programs_[program].go_on();
+            progress_[program] = Progress::computed;
         }
     });
 }

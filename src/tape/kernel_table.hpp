@@ -124,7 +124,9 @@ struct TangentKernels {
     int width;
     /// Coefficients of this order of the intermediate quantities, and so the next ones of the states.
     void (*order[highest_order])(const TangentOperands& operands, const double* jet);
-    void (*sums_and_slopes)(const TangentStates& states, double time, double* values, double* slopes);
+    /// As that of KernelTable.
+    void (*sums_and_slopes)(const Series* series, const int* degrees, std::size_t count, const double* times,
+                            double* values, double* slopes);
     /// The largest share that the last two terms have in their sizes, the latter at least as given.
     /// @param floors [state * width + lane], or null
     double (*tails)(const TangentStates& states, double step, const double* floors);

@@ -134,25 +134,6 @@ void tangent_order(const TangentOperands& o, const double* jet) {
     }
 }
 
-/// Sums of the states' changes and of their derivatives with respect to time.
-template <class V>
-void tangent_sums_and_slopes(const TangentStates& states, double time, double* values, double* slopes) {
-    constexpr std::size_t width = Numbers<V>::width;
-    const V at_time = Numbers<V>::of(time);
-    for (std::size_t i = 0; i < states.states; ++i) {
-        const double* const c = states.numbers + i * states.size;
-        V value = at<V>(c, states.order);
-        V slope = value;
-#pragma GCC unroll 4
-        for (int k = states.order - 1; k > 0; --k) {
-            value = multiply_add(value, at_time, at<V>(c, k));
-            slope = multiply_add(slope, at_time, value);
-        }
-        Numbers<V>::store(slopes + i * width, slope);
-        Numbers<V>::store(values + i * width, multiply_add(value, at_time, at<V>(c, 0)));
-    }
-}
-
 /// Where a size is that of nothing, the share is not known this way.
 GRAZE_INLINE double share_of(double last, double size) {
     return size > smallest_derivative ? last / size : 0;
@@ -229,7 +210,7 @@ constexpr TangentKernels make_tangent_kernels() {
     TangentKernels kernels{};
     kernels.width = Numbers<V>::width;
     fill_tangent_orders<V>(kernels, std::make_integer_sequence<int, highest_order>{});
-    kernels.sums_and_slopes = &tangent_sums_and_slopes<V>;
+    kernels.sums_and_slopes = &sums_and_slopes<V>;
     kernels.tails = &tangent_tails<V>;
     kernels.misfit = &tangent_misfit<V>;
     return kernels;

@@ -45,7 +45,7 @@ TangentSeries::TangentSeries(const Tape& tape, const TangentEquations& equations
     : kernels_(tangent_kernels(directions, set)), states_(equations.states), parameters_(equations.parameters),
       intermediates_(equations.intermediates), width_(static_cast<std::size_t>(kernels_.width)), order_(like.order()),
       size_((static_cast<std::size_t>(order_) + 1) * width_), parameter_rows_(parameters_, no_row),
-      numbers_(rows_of(equations, moving) * size_) {
+      numbers_(rows_of(equations, moving) * size_), degrees_(states_, order_), times_(width_) {
     require_size(moving.size(), parameters_, "parameters");
     require_size(static_cast<std::size_t>(like.width()), 1, "lanes of a jet");
     for (std::size_t j = 0; j < parameters_; ++j)
@@ -53,6 +53,8 @@ TangentSeries::TangentSeries(const Tape& tape, const TangentEquations& equations
             parameter_rows_[j] = states_ + intermediates_ + moving_.size();
             moving_.push_back(j);
         }
+    for (std::size_t i = 0; i < states_; ++i)
+        series_.push_back({state(i), width_});
     find_rows(tape, equations, like);
 }
 
@@ -164,10 +166,11 @@ const double* TangentSeries::source(std::size_t index) const {
     return row == no_row ? nullptr : numbers_.data() + row * size_;
 }
 
-void TangentSeries::evaluate(double time, std::span<double> values, std::span<double> slopes) const {
+void TangentSeries::evaluate(double time, std::span<double> values, std::span<double> slopes) {
     require_room(values.size(), states_ * width_, "changes of states");
     require_room(slopes.size(), states_ * width_, "changes of states");
-    kernels_.sums_and_slopes(in_use(), time, values.data(), slopes.data());
+    std::fill(times_.begin(), times_.end(), time);
+    kernels_.sums_and_slopes(series_.data(), degrees_.data(), states_, times_.data(), values.data(), slopes.data());
 }
 
 double TangentSeries::tails(double step, std::span<const double> floors) const {

@@ -47,7 +47,7 @@ public:
     const double* source(std::size_t index) const;
     /// Sums of the states' series, and of their derivatives with respect to time. @param values, slopes
     /// [state * width() + direction]
-    void evaluate(double time, std::span<double> values, std::span<double> slopes) const;
+    void evaluate(double time, std::span<double> values, std::span<double> slopes);
     /// The largest share that the last two terms of any state's changes have in their first three, or in floors where
     /// these are larger. @param floors [state * width() + direction], or none
     double tails(double step, std::span<const double> floors) const;
@@ -72,7 +72,10 @@ private:
     std::vector<std::size_t> moving_;         ///< which these are
     std::vector<TangentTerm> terms_;
     std::vector<TangentRow> rows_;
-    AlignedNumbers numbers_; ///< of states, then intermediate quantities, then parameters
+    AlignedNumbers numbers_;     ///< of states, then intermediate quantities, then parameters
+    std::vector<Series> series_; ///< of states
+    std::vector<int> degrees_;   ///< of all of these
+    std::vector<double> times_;
 };
 
 } // namespace graze

@@ -19,14 +19,13 @@ constexpr double whole_step = 0.9;
 Tangents::Tangents(const Simulation& simulation, std::span<const double> parameters, std::span<const double> seeds,
                    std::size_t directions)
     : simulation_(simulation), parameters_(parameters.begin(), parameters.end()), states_(simulation.system().states()),
-      parameter_count_(parameters.size()), directions_(directions),
-      steps_(simulation.system(), simulation.options().tolerance, directions, whole_step),
-      parameter_seeds_(parameter_count_ * directions), matrix_(states_ * directions), next_(states_ * directions) {
+      directions_(directions), steps_(simulation.system(), simulation.options().tolerance, directions, whole_step),
+      parameter_seeds_(parameters_.size() * directions), matrix_(states_ * directions), next_(states_ * directions) {
     for (std::size_t d = 0; d < directions; ++d) {
-        const auto seed = seeds.subspan(d * (states_ + parameter_count_), states_ + parameter_count_);
+        const auto seed = seeds.subspan(d * (states_ + parameters_.size()), states_ + parameters_.size());
         for (std::size_t i = 0; i < states_; ++i)
             matrix_[i * directions + d] = seed[i];
-        for (std::size_t j = 0; j < parameter_count_; ++j)
+        for (std::size_t j = 0; j < parameters_.size(); ++j)
             parameter_seeds_[j * directions + d] = seed[states_ + j];
     }
     steps_.set_parameters(parameters, parameter_seeds_);
@@ -44,10 +43,10 @@ void Tangents::find_period_rates(const System& system, std::span<const double> p
         return;
     period_rates_.assign(states_ * directions_, 0.0);
     for (std::size_t i = 0; i < states_; ++i)
-        for (std::size_t j = 0; j < parameter_count_; ++j)
+        for (std::size_t j = 0; j < parameters_.size(); ++j)
             for (std::size_t d = 0; d < directions_; ++d)
                 period_rates_[i * directions_ + d] +=
-                    rates[i * parameter_count_ + j] * parameter_seeds_[j * directions_ + d];
+                    rates[i * parameters_.size() + j] * parameter_seeds_[j * directions_ + d];
 }
 
 void Tangents::set_back(std::size_t state, double periods) {

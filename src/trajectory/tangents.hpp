@@ -58,7 +58,7 @@ private:
 
     Simulation simulation_;
     std::vector<double> parameters_;
-    std::size_t states_, parameter_count_, directions_;
+    std::size_t states_, directions_;
     TangentSteps steps_;
     std::vector<double> parameter_seeds_, matrix_, next_;
     std::vector<double> period_rates_;         ///< derivatives of the states' periods; empty: no direction changes any

@@ -117,20 +117,26 @@ protected:
     std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("graze-hdf5-" + std::to_string(getpid()));
 };
 
-/// A run of the linear impact oscillator, with its orbits as one orbit is changed by a function of its number.
-void write_branch(
-    const std::string& path, std::size_t orbits = 1,
-    const std::function<void(OrbitRecord&, std::size_t)>& change = [](OrbitRecord&, std::size_t) {}) {
-    const Model model = load_model("impact-oscillator");
+/// A run of a model, of which nothing is known yet.
+RunRecord run_of(const Model& model, const char* name, const char* kind) {
     RunRecord run;
-    run.name = "b";
-    run.kind = "continue";
+    run.name = name;
+    run.kind = kind;
     run.model_name = model.name;
     run.model = write_model(model);
     for (const auto& symbol : model.parameter_symbols())
         run.coordinates.push_back({symbol.name(), ""});
     for (const State& state : model.states)
         run.states.push_back({state.name, ""});
+    return run;
+}
+
+/// A run of the linear impact oscillator, with its orbits as one orbit is changed by a function of its number.
+void write_branch(
+    const std::string& path, std::size_t orbits = 1,
+    const std::function<void(OrbitRecord&, std::size_t)>& change = [](OrbitRecord&, std::size_t) {}) {
+    const Model model = load_model("impact-oscillator");
+    RunRecord run = run_of(model, "b", "continue");
     run.values = {{"period", ""}, {"speed", "m/s"}};
     OrbitRecord record;
     record.part = "up";
@@ -185,17 +191,9 @@ TEST_F(Hdf5, branches_have_orbits_segments_and_multipliers) {
 
 TEST_F(Hdf5, estimates_have_their_units_and_covariances) {
     {
-        RunRecord run;
-        run.name = "found";
-        run.kind = "identify";
-        run.directions = {""};
         const Model model = load_model("impact-oscillator");
-        run.model_name = model.name;
-        run.model = write_model(model);
-        for (const auto& symbol : model.parameter_symbols())
-            run.coordinates.push_back({symbol.name(), ""});
-        for (const State& state : model.states)
-            run.states.push_back({state.name, ""});
+        RunRecord run = run_of(model, "found", "identify");
+        run.directions = {""};
         for (const Mode& mode : model.modes)
             run.modes.push_back(mode.name);
         ResultFile file(path("results.sqlite"), ResultFile::Access::write);

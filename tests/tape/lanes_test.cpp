@@ -56,21 +56,11 @@ TEST(Lanes, EnsembleEqualsSingleBitForBit) {
         }
 }
 
-/// Size of coefficients of an order, to which errors are compared.
-std::vector<double> sizes(const std::vector<double>& series, int order) {
-    std::vector<double> size(static_cast<std::size_t>(order) + 1, 0.0);
-    for (std::size_t i = 0; i < series.size(); ++i) {
-        double& largest = size[i % size.size()];
-        largest = std::max(largest, std::abs(series[i]));
-    }
-    return size;
-}
-
 TEST(Lanes, InstructionSetsAgree) {
     const Problem p = testing::everything();
     constexpr int order = 20;
     const auto reference = series_of(p, order, InstructionSet::baseline, p.state_values, p.parameter_values);
-    const auto size = sizes(reference, order);
+    const auto size = testing::sizes_of(reference, order);
     for (const auto set : testing::supported_sets()) {
         const auto series = series_of(p, order, set, p.state_values, p.parameter_values);
         for (std::size_t i = 0; i < series.size(); ++i)

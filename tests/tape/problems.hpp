@@ -125,6 +125,14 @@ inline Problem everything() {
     return p;
 }
 
+/// The largest coefficient of each order, to which errors are compared. @param series one after another
+inline std::vector<double> sizes_of(const std::vector<double>& series, int order) {
+    std::vector<double> size(static_cast<std::size_t>(order) + 1, 0.0);
+    for (std::size_t i = 0; i < series.size(); ++i)
+        size[i % size.size()] = std::max(size[i % size.size()], std::abs(series[i]));
+    return size;
+}
+
 /// Copies numbers into lanes: [number * width + lane], lane l changed by `change(number, l)`.
 template <class Change>
 std::vector<double> spread(const std::vector<double>& numbers, int width, Change&& change) {

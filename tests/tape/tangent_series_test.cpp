@@ -18,6 +18,7 @@ namespace {
 
 using testing::eps;
 using testing::Problem;
+using testing::sizes_of;
 
 /// The first variational equations of a problem, as a mode compiles them.
 struct Linear {
@@ -68,14 +69,6 @@ std::vector<double> changes_of(const TangentSeries& series, std::size_t states, 
         for (std::size_t k = 0; k <= static_cast<std::size_t>(series.order()); ++k)
             numbers.push_back(series.state(i)[k * series.width() + direction]);
     return numbers;
-}
-
-/// The largest coefficient of each order, to which errors are compared.
-std::vector<double> sizes_of(const std::vector<double>& series, int order) {
-    std::vector<double> size(static_cast<std::size_t>(order) + 1, 0.0);
-    for (std::size_t i = 0; i < series.size(); ++i)
-        size[i % size.size()] = std::max(size[i % size.size()], std::abs(series[i]));
-    return size;
 }
 
 /// Seeds of the states, then of the parameters, in so many directions.

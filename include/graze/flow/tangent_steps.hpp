@@ -72,12 +72,12 @@ private:
     std::span<const double> floors(double time);
     std::span<const double> noise();
     const Couplings& couplings_here();
-    double seed(std::size_t source, std::size_t direction) const;
+    std::vector<std::uint32_t> groups_with_events() const;
 
     System system_;
     std::size_t states_, directions_;
     double tolerance_, whole_;
-    std::vector<double> parameters_, parameter_seeds_;
+    std::vector<double> parameter_seeds_;
     std::vector<char> moving_;          ///< of each parameter, whether some direction changes it
     std::vector<std::uint32_t> groups_; ///< of followers that are needed
     std::vector<Lanes> lanes_;          ///< of modes, made when first needed
