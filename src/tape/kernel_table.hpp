@@ -97,21 +97,25 @@ struct TangentTerm {
 struct TangentRow {
     std::size_t result; ///< where its series is
     bool is_rate;
-    /// In this sequence: coefficients that are constant; others of which there are few products; all others.
-    const TangentTerm *fixed, *few, *many, *end;
+    /// In this sequence: coefficients that are constant; sources that are; others of which there are few products; all
+    /// others.
+    const TangentTerm *fixed, *still, *few, *many, *end;
 };
+/// Series of changes that are polynomials known to be of a degree up to this are not computed further than that.
+inline constexpr int low_degree = 4;
 /// Changes in some directions, in lanes: [row][order][lane].
 struct TangentOperands {
-    const TangentRow* rows; ///< those of intermediate quantities first
-    std::size_t count;
+    /// Those of intermediate quantities first. Rows before `lasting` and from `lasting_end` on are of low degree.
+    const TangentRow *begin, *lasting, *lasting_end, *end;
     double* numbers;
 };
 
 /// The changes of the states alone, row after row in their sequence.
 struct TangentStates {
     const double* numbers;
-    std::size_t states, size; ///< numbers in a series
-    int count, order;         ///< lanes that are in use
+    std::size_t states, size;                   ///< numbers in a series
+    int count, order;                           ///< lanes that are in use
+    const std::size_t *followed, *followed_end; ///< those that are no polynomials of low degree
 };
 /// What these are compared with at the end of a step.
 struct TangentEnds {
@@ -119,11 +123,11 @@ struct TangentEnds {
     const double *sums, *slopes; ///< of the polynomials, [state * width + lane]
     double length, allowed, smallest;
 };
-/// What is done for directions, as many side by side as fit. (One kernel for each order.)
+/// What is done for directions, as many side by side as fit.
 struct TangentKernels {
     int width;
-    /// Coefficients of this order of the intermediate quantities, and so the next ones of the states.
-    void (*order[highest_order])(const TangentOperands& operands, const double* jet);
+    /// Coefficients of the intermediate quantities from 0 to below this order, and so of the states from 1 to it.
+    void (*compute)(const TangentOperands& operands, const double* jet, int order);
     /// As that of KernelTable.
     void (*sums_and_slopes)(const Series* series, const int* degrees, std::size_t count, const double* times,
                             double* values, double* slopes);

@@ -369,39 +369,68 @@ GRAZE_INLINE void whole_pair(const KernelOperands& o, Order highest) {
     }
 }
 #if defined(__FMA__)
-/// Numbers from one on, without the first `missing` of them, which are zero and not read.
-GRAZE_INLINE Pack load_behind(const double* from, Order missing) {
+/// Numbers moved up by one lane, behind the last of those before them.
+GRAZE_INLINE Pack moved_up(Pack before, Pack numbers) {
 #if defined(__AVX512F__)
-    return _mm512_maskz_loadu_pd(static_cast<__mmask8>(0xffU << missing), from);
+    // The mask leaves nothing out; without one g++ 12 warns of what is not initialised.
+    return _mm512_castsi512_pd(
+        _mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(numbers), _mm512_castpd_si512(before), lanes - 1));
 #else
-    const __m256i place = _mm256_setr_epi64x(0, 1, 2, 3);
-    return _mm256_maskload_pd(from, _mm256_cmpgt_epi64(place, _mm256_set1_epi64x(missing - 1)));
+    return _mm256_blend_pd(_mm256_permute4x64_pd(numbers, 0x93), _mm256_permute4x64_pd(before, 0x93), 1);
+#endif
+}
+/// Stores the lanes from one on, up to another.
+GRAZE_INLINE void put_lanes(double* to, Pack numbers, Order first, Order end) {
+#if defined(__AVX512F__)
+    _mm512_mask_storeu_pd(to, static_cast<__mmask8>((0xffU << first) & ~(~0U << end)), numbers);
+#else
+    const __m256i lane = _mm256_setr_epi64x(0, 1, 2, 3);
+    _mm256_maskstore_pd(to,
+                        _mm256_andnot_si256(_mm256_cmpgt_epi64(_mm256_set1_epi64x(first), lane),
+                                            _mm256_cmpgt_epi64(_mm256_set1_epi64x(end), lane)),
+                        numbers);
 #endif
 }
 
-/// The product of two series of one lane of which all coefficients are known: those of many orders side by side. (It
-/// reads behind the last coefficient, what it makes of which is left out.)
-GRAZE_INLINE void whole_product(const KernelOperands& o, Order highest) {
-    const double *const a = o.left, *const b = o.right;
-    for (Order first = 2; first <= highest; first += lanes) {
-        Pack one = splat(0), other = splat(0);
-        const auto term = [&](Order j) __attribute__((always_inline)) {
-            Pack numbers;
-            __builtin_memcpy(&numbers, b + first - j, sizeof(Pack));
-            return numbers;
-        };
-        Order j = 0;
-        for (; j < first; j += 2) { // it is even
-            one = multiply_add(splat(a[j]), term(j), one);
-            other = multiply_add(splat(a[j + 1]), term(j + 1), other);
-        }
-        one = multiply_add(splat(a[j]), term(j), one);
-        const Order left = highest + 1 - first, count = left < lanes ? left : lanes;
-        for (Order missing = 1; missing < count; ++missing)
-            other = multiply_add(splat(a[first + missing]), load_behind(b - missing, missing), other);
-        const Pack sum = one + other;
-        __builtin_memcpy(o.result + first, &sum, sizeof(double) * static_cast<std::size_t>(count));
+/// The product of two series of one lane of which all coefficients are known: those of all orders side by side, in so
+/// many packs. For each coefficient of one the other has been moved up by one order. (What is read behind the last
+/// coefficient comes to orders above it alone, which are left out.)
+template <int packs>
+GRAZE_INLINE void product_in_packs(const KernelOperands& o, Order highest) {
+    Pack moved[packs], sums[packs];
+    for (int i = 0; i < packs; ++i) {
+        __builtin_memcpy(&moved[i], o.right + i * lanes, sizeof(Pack));
+        sums[i] = splat(0);
     }
+    const auto add_block = [&]<int block>() __attribute__((always_inline)) { // packs before it are zero by now
+        const Order first = block * lanes, end = block + 1 < packs ? first + lanes : highest + 1;
+        for (Order j = first; j < end; ++j) {
+            const Pack factor = splat(o.left[j]);
+            for (int i = block; i < packs; ++i)
+                sums[i] = multiply_add(factor, moved[i], sums[i]);
+            for (int i = packs - 1; i > block; --i)
+                moved[i] = moved_up(moved[i - 1], moved[i]);
+            moved[block] = moved_up(splat(0), moved[block]);
+        }
+    };
+    [&]<int... block>(Indices<block...>) __attribute__((always_inline)) {
+        (add_block.template operator()<block>(), ...);
+    }
+    (std::make_integer_sequence<int, packs>{});
+    for (int i = 0; i < packs; ++i) {
+        const Order left = highest + 1 - i * lanes;
+        put_lanes(o.result + i * lanes, sums[i], i == 0 ? 2 : 0, left < lanes ? left : lanes);
+    }
+}
+template <int packs>
+GRAZE_INLINE void whole_product(const KernelOperands& o, Order highest) {
+    if constexpr (packs * lanes <= highest_order) {
+        if (highest >= packs * lanes) {
+            whole_product<packs + 1>(o, highest);
+            return;
+        }
+    }
+    product_in_packs<packs>(o, highest);
 }
 #endif
 

@@ -19,7 +19,8 @@ GRAZE_INLINE unsigned lanes_above(Packs<n> a, Packs<n> b) {
     return bits;
 }
 
-/// A row's coefficient of order k, as a sum in parts that do not wait for each other.
+/// A row's coefficient of order k, as a sum in parts that do not wait for each other. Orders share this code: that of
+/// each by itself, without loops, would drive what else a step does out of the processor's first cache.
 template <class V>
 class TangentSum {
 public:
@@ -30,12 +31,24 @@ public:
     GRAZE_INLINE void add(double a, V w) { add_to<0>(a, w); }
     GRAZE_INLINE void add_beside(double a, V w) { add_to<1>(a, w); }
     /// Terms j = 0 .. k of a_j w_{k-j}.
-    template <int k>
-    GRAZE_INLINE void add_all(const double* a, const double* w) {
-        [&]<int... j>(Indices<j...>) __attribute__((always_inline)) {
-            (add_to<j % 4>(a[j], at<V>(w, k - j)), ...);
+    GRAZE_INLINE void add_all(const double* a, const double* w, int k) {
+        constexpr std::ptrdiff_t width = Numbers<V>::width;
+        w += k * width;
+        int left = k + 1;
+        for (; left >= 4; left -= 4, a += 4, w -= 4 * width) {
+            add_to<0>(a[0], Numbers<V>::load(w));
+            add_to<1>(a[1], Numbers<V>::load(w - width));
+            add_to<2>(a[2], Numbers<V>::load(w - 2 * width));
+            add_to<3>(a[3], Numbers<V>::load(w - 3 * width));
         }
-        (std::make_integer_sequence<int, k + 1>{});
+        if ((left & 2) != 0) {
+            add_to<0>(a[0], Numbers<V>::load(w));
+            add_to<1>(a[1], Numbers<V>::load(w - width));
+            a += 2;
+            w -= 2 * width;
+        }
+        if ((left & 1) != 0)
+            add_to<2>(a[0], Numbers<V>::load(w));
     }
     /// Of products of single coefficients alone.
     GRAZE_INLINE V total_of_few() const { return parts_[0] + parts_[1]; }
@@ -55,24 +68,20 @@ class TangentSum<double> {
 public:
     GRAZE_INLINE void add(double a, double w) { sums_[0] = multiply_add(a, w, sums_[0]); }
     GRAZE_INLINE void add_beside(double a, double w) { sums_[1] = multiply_add(a, w, sums_[1]); }
-    template <int k>
-    GRAZE_INLINE void add_all(const double* a, const double* w) {
-#if defined(__FMA__)
-        constexpr int blocks = k / 4;
-#else
-        constexpr int blocks = 0;
-#endif
+    GRAZE_INLINE void add_all(const double* a, const double* w, int k) {
         // The newest coefficient by itself: it is still on its way to memory, from where four cannot be read at once.
         sums_[0] = multiply_add(a[0], w[k], sums_[0]);
-        [&]<int... block>(Indices<block...>) __attribute__((always_inline)) {
-            (add_four(a + 1 + 4 * block, w + k - 4 * block - 4), ...);
+        int j = 1;
+#if defined(__FMA__)
+        for (; j + 3 <= k; j += 4)
+            add_four(a + j, w + k - j - 3);
+#endif
+        for (; j < k; j += 2) {
+            sums_[1] = multiply_add(a[j], w[k - j], sums_[1]);
+            sums_[0] = multiply_add(a[j + 1], w[k - j - 1], sums_[0]);
         }
-        (std::make_integer_sequence<int, blocks>{});
-        [&]<int... j>(Indices<j...>) __attribute__((always_inline)) {
-            ((sums_[(j + 1) % 2] = multiply_add(a[1 + 4 * blocks + j], w[k - 1 - 4 * blocks - j], sums_[(j + 1) % 2])),
-             ...);
-        }
-        (std::make_integer_sequence<int, k - 4 * blocks>{});
+        if (j == k)
+            sums_[1] = multiply_add(a[j], w[0], sums_[1]);
     }
     GRAZE_INLINE double total_of_few() const {
         return sums_[0] + sums_[1];
@@ -93,44 +102,45 @@ private:
         four_ = _mm256_fmadd_pd(_mm256_loadu_pd(a), _mm256_permute4x64_pd(_mm256_loadu_pd(w), 0x1b), four_);
     }
     __m256d four_ = _mm256_setzero_pd();
-#else
-    GRAZE_INLINE void add_four(const double*, const double*) {}
 #endif
     double sums_[2] = {0, 0};
 };
 
-/// Coefficient k of each intermediate quantity, and k + 1 of each state.
-template <class V, int k>
-void tangent_order(const TangentOperands& o, const double* jet) {
-    const TangentRow* const end = o.rows + o.count;
-    for (const TangentRow* row = o.rows; row != end; ++row) {
-        TangentSum<V> sum;
-        const TangentTerm* term = row->fixed;
-        for (; row->few - term >= 2; term += 2) {
-            sum.add(jet[term[0].series], at<V>(o.numbers + term[0].source, k));
-            sum.add_beside(jet[term[1].series], at<V>(o.numbers + term[1].source, k));
-        }
-        if (term != row->few) {
-            sum.add(jet[term->series], at<V>(o.numbers + term->source, k));
-            ++term;
-        }
-        for (; term != row->many; ++term) {
-            const int last = term->degree < k ? term->degree : k;
-            for (int j = k > term->source_degree ? k - term->source_degree : 0; j <= last; ++j)
-                sum.add(jet[term->series + j], at<V>(o.numbers + term->source, k - j));
-        }
-        V change;
-        if (term == row->end) {
-            change = sum.total_of_few();
-        } else {
-            for (; term != row->end; ++term)
-                sum.template add_all<k>(jet + term->series, o.numbers + term->source);
-            change = sum.total();
-        }
-        if (row->is_rate)
-            put(o.numbers + row->result, k + 1, change * inverse.of[k + 1]);
-        else
-            put(o.numbers + row->result, k, change);
+/// Coefficient k of an intermediate quantity, or k + 1 of a state.
+template <class V>
+GRAZE_INLINE void tangent_row(const TangentRow& row, double* numbers, const double* jet, int k) {
+    TangentSum<V> sum;
+    const TangentTerm* term = row.fixed;
+    for (; term != row.still; ++term)
+        sum.add(jet[term->series], at<V>(numbers + term->source, k));
+    for (; term != row.few; ++term)
+        sum.add_beside(jet[term->series + k], at<V>(numbers + term->source, 0));
+    for (; term != row.many; ++term) {
+        const int last = term->degree < k ? term->degree : k;
+        for (int j = k > term->source_degree ? k - term->source_degree : 0; j <= last; ++j)
+            sum.add(jet[term->series + j], at<V>(numbers + term->source, k - j));
+    }
+    V change;
+    if (term == row.end) {
+        change = sum.total_of_few();
+    } else {
+        for (; term != row.end; ++term)
+            sum.add_all(jet + term->series, numbers + term->source, k);
+        change = sum.total();
+    }
+    if (row.is_rate)
+        put(numbers + row.result, k + 1, change * inverse.of[k + 1]);
+    else
+        put(numbers + row.result, k, change);
+}
+
+template <class V>
+void tangent_orders(const TangentOperands& o, const double* jet, int order) {
+    for (int k = 0; k < order; ++k) {
+        const bool all = k <= low_degree;
+        const TangentRow* const end = all ? o.end : o.lasting_end;
+        for (const TangentRow* row = all ? o.begin : o.lasting; row != end; ++row)
+            tangent_row<V>(*row, o.numbers, jet, k);
     }
 }
 
@@ -168,7 +178,8 @@ double tangent_tails(const TangentStates& states, double step, const double* flo
     for (int k = 1; k < order; ++k)
         power *= step;
     V worst = Numbers<V>::of(0);
-    for (std::size_t i = 0; i < states.states; ++i) {
+    for (const std::size_t* state = states.followed; state != states.followed_end; ++state) {
+        const std::size_t i = *state;
         const double* c = states.numbers + i * states.size;
         V size = absolute(at<V>(c, 0)) + (absolute(at<V>(c, 1)) + absolute(at<V>(c, 2)) * step) * step;
         if (floors != nullptr)
@@ -201,15 +212,11 @@ std::size_t tangent_misfit(const TangentStates& states, const TangentEnds& ends,
     return states.states;
 }
 
-template <class V, int... k>
-constexpr void fill_tangent_orders(TangentKernels& kernels, Indices<k...>) {
-    ((kernels.order[k] = &tangent_order<V, k>), ...);
-}
 template <class V>
 constexpr TangentKernels make_tangent_kernels() {
     TangentKernels kernels{};
     kernels.width = Numbers<V>::width;
-    fill_tangent_orders<V>(kernels, std::make_integer_sequence<int, highest_order>{});
+    kernels.compute = &tangent_orders<V>;
     kernels.sums_and_slopes = &sums_and_slopes<V>;
     kernels.tails = &tangent_tails<V>;
     kernels.misfit = &tangent_misfit<V>;

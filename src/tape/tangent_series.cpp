@@ -3,7 +3,9 @@
 #include "graze/symbolic/require.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <tuple>
 
@@ -12,8 +14,6 @@ namespace graze {
 namespace {
 
 constexpr int unbounded = std::numeric_limits<int>::max();
-/// Degrees up to which products are looked for one by one.
-constexpr int low_degree = 4;
 
 int limited(int degree) {
     return degree > low_degree ? unbounded : degree;
@@ -90,38 +90,64 @@ std::vector<int> TangentSeries::degrees_of_rows(const Tape& tape, const TangentE
     return degrees;
 }
 
+/// Terms of a row, by what is computed for them.
+TangentRow TangentSeries::row_of(std::size_t row, std::span<const TangentTerm> terms) {
+    std::array<std::vector<TangentTerm>, 4> kinds;
+    for (const TangentTerm& term : terms) {
+        const bool lasts = term.degree == unbounded, source_lasts = term.source_degree == unbounded;
+        kinds[term.degree == 0                   ? 0
+              : lasts && term.source_degree == 0 ? 1
+              : lasts && source_lasts            ? 3
+                                                 : 2]
+            .push_back(term);
+    }
+    std::array<const TangentTerm*, 5> places{terms_.data() + terms_.size()};
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+        terms_.insert(terms_.end(), kinds[kind].begin(), kinds[kind].end());
+        places[kind + 1] = places[kind] + kinds[kind].size();
+    }
+    const bool is_rate = row >= intermediates_;
+    return {(is_rate ? row - intermediates_ : states_ + row) * size_,
+            is_rate,
+            places[0],
+            places[1],
+            places[2],
+            places[3],
+            places[4]};
+}
+
 void TangentSeries::find_rows(const Tape& tape, const TangentEquations& equations, const Jet& like) {
     const std::vector<int> degrees = degrees_of_rows(tape, equations);
-    const std::size_t rows = intermediates_ + states_;
     terms_.reserve(equations.entries.size()); // rows point to them
     auto entry = equations.entries.begin();
-    for (std::size_t row = 0; row < rows; ++row) {
-        const TangentTerm* const first = terms_.data() + terms_.size();
-        std::vector<TangentTerm> kinds[3];
-        for (; entry != equations.entries.end() && entry->row == row; ++entry) {
-            const std::size_t from = row_of_source(entry->source);
-            if (from == no_row)
-                continue;
-            const int degree = degree_of(tape, entry->follower);
-            kinds[degree == 0                                         ? 0
-                  : degree != unbounded || degrees[from] != unbounded ? 1
-                                                                      : 2]
-                .push_back({like.follower(entry->follower) - like.state(0), from * size_, degree, degrees[from]});
-        }
-        for (const std::vector<TangentTerm>& kind : kinds)
-            terms_.insert(terms_.end(), kind.begin(), kind.end());
-        const bool is_rate = row >= intermediates_;
-        const TangentTerm *const few = first + kinds[0].size(), *const many = few + kinds[1].size();
-        rows_.push_back({(is_rate ? row - intermediates_ : states_ + row) * size_, is_rate, first, few, many,
-                         many + kinds[2].size()});
+    for (std::size_t row = 0; row < intermediates_ + states_; ++row) {
+        std::vector<TangentTerm> terms;
+        for (; entry != equations.entries.end() && entry->row == row; ++entry)
+            if (const std::size_t from = row_of_source(entry->source); from != no_row)
+                terms.push_back({like.follower(entry->follower) - like.state(0), from * size_,
+                                 degree_of(tape, entry->follower), degrees[from]});
+        rows_.push_back(row_of(row, terms));
     }
     require_size(static_cast<std::size_t>(equations.entries.end() - entry), 0, "entries behind the last row");
-    // Rates do not wait for one another. Those that are alike come together, so that branches are foreseen.
-    const auto shape = [](const TangentRow& row) {
-        return std::tuple(row.end - row.many, row.many - row.few, row.few - row.fixed);
+    // Intermediate quantities of low degree are made of nothing else, and come before the others. Rates do not wait for
+    // one another: those that are alike come together, so that branches are foreseen.
+    const auto lasts = [&](const TangentRow& row) { return degrees[row.result / size_] == unbounded; };
+    const auto rates = rows_.begin() + static_cast<std::ptrdiff_t>(intermediates_);
+    const auto lasting = std::stable_partition(rows_.begin(), rates, std::not_fn(lasts));
+    const auto shape = [&](const TangentRow& row) {
+        return std::tuple(lasts(row), row.end - row.many, row.many - row.few, row.few - row.still,
+                          row.still - row.fixed);
     };
-    std::stable_sort(rows_.begin() + static_cast<std::ptrdiff_t>(intermediates_), rows_.end(),
-                     [&](const TangentRow& a, const TangentRow& b) { return shape(a) > shape(b); });
+    std::stable_sort(rates, rows_.end(), [&](const TangentRow& a, const TangentRow& b) { return shape(a) > shape(b); });
+    const auto lasting_end = std::partition_point(rates, rows_.end(), lasts);
+    const TangentRow* first = rows_.data();
+    operands_ = {first, first + (lasting - rows_.begin()), first + (lasting_end - rows_.begin()), first + rows_.size(),
+                 numbers_.data()};
+    for (std::size_t i = 0; i < states_; ++i) {
+        degrees_[i] = std::clamp(degrees[i], 1, order_);
+        if (degrees_[i] >= order_ - 1)
+            followed_.push_back(i);
+    }
 }
 
 void TangentSeries::load(std::span<const double> matrix, std::span<const double> seeds, std::size_t directions,
@@ -129,11 +155,14 @@ void TangentSeries::load(std::span<const double> matrix, std::span<const double>
     require_index(count, width_ + 1, "number of directions");
     require_size(matrix.size(), states_ * directions, "derivatives");
     require_size(seeds.size(), parameters_ * directions, "directions of parameters");
+    const std::size_t filled = std::max(count, count_); // lanes behind are zero already
     count_ = count;
     const auto load_row = [&](std::size_t to, const double* from) {
         double* numbers = numbers_.data() + to * size_;
-        for (std::size_t d = 0; d < width_; ++d)
-            numbers[d] = d < count ? from[d] : 0.0;
+        for (std::size_t d = 0; d < count; ++d)
+            numbers[d] = from[d];
+        for (std::size_t d = count; d < filled; ++d)
+            numbers[d] = 0;
     };
     for (std::size_t i = 0; i < states_; ++i)
         load_row(i, matrix.data() + i * directions + first);
@@ -152,13 +181,11 @@ void TangentSeries::load(std::span<const double> states, const TangentSeries& pa
 }
 
 void TangentSeries::compute(const Jet& jet) {
-    const TangentOperands operands{rows_.data(), rows_.size(), numbers_.data()};
-    for (int k = 0; k < order_; ++k)
-        kernels_.order[k](operands, jet.state(0));
+    kernels_.compute(operands_, jet.state(0), order_);
 }
 
 void TangentSeries::begin(const Jet& jet) {
-    kernels_.order[0]({rows_.data(), rows_.size(), numbers_.data()}, jet.state(0));
+    kernels_.compute(operands_, jet.state(0), 1);
 }
 
 const double* TangentSeries::source(std::size_t index) const {

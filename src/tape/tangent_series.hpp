@@ -59,9 +59,18 @@ public:
                             std::span<const double> values, std::span<const double> slopes, std::size_t from) const;
 
 private:
-    TangentStates in_use() const { return {numbers_.data(), states_, size_, static_cast<int>(count_), order_}; }
+    TangentStates in_use() const {
+        return {numbers_.data(),
+                states_,
+                size_,
+                static_cast<int>(count_),
+                order_,
+                followed_.data(),
+                followed_.data() + followed_.size()};
+    }
     std::size_t row_of_source(std::size_t source) const;
     std::vector<int> degrees_of_rows(const Tape& tape, const TangentEquations& equations) const;
+    TangentRow row_of(std::size_t row, std::span<const TangentTerm> terms);
     void find_rows(const Tape& tape, const TangentEquations& equations, const Jet& like);
 
     const TangentKernels& kernels_;
@@ -72,9 +81,11 @@ private:
     std::vector<std::size_t> moving_;         ///< which these are
     std::vector<TangentTerm> terms_;
     std::vector<TangentRow> rows_;
-    AlignedNumbers numbers_;     ///< of states, then intermediate quantities, then parameters
-    std::vector<Series> series_; ///< of states
-    std::vector<int> degrees_;   ///< of all of these
+    TangentOperands operands_{};
+    AlignedNumbers numbers_;            ///< of states, then intermediate quantities, then parameters
+    std::vector<Series> series_;        ///< of states
+    std::vector<int> degrees_;          ///< of all of these
+    std::vector<std::size_t> followed_; ///< states of which the last terms say how far a step may go
     std::vector<double> times_;
 };
 
