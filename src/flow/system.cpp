@@ -177,8 +177,10 @@ Function SystemCompiler::compile(const SymbolIndex& inputs, std::span<const Expr
 
 Function SystemCompiler::compile(const SymbolIndex& inputs, std::size_t outputs,
                                  std::span<const Function::Output> given, Function::Others others) {
+    std::vector<Expression> values;
     for (const Function::Output& output : given)
-        require_known(inputs, {&output.value, 1});
+        values.push_back(output.value);
+    require_known(inputs, values);
     return counted({inputs, outputs, given, others});
 }
 

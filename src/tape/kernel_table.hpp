@@ -194,9 +194,9 @@ struct KernelTable {
     Kernel sine_and_cosine;
     /// All coefficients from 2 to the order that they are called with, of an argument of degree 1, found likewise.
     Kernel whole_sine_and_cosine, whole_hyperbolic_pair, whole_exponential;
-    /// All coefficients from 2 to the order of the product of two known series; only for one lane, or null. It may read
-    /// `read_behind` numbers behind them.
-    Kernel whole_product;
+    /// All coefficients from 2 to the order of the product of two known series, and of one over one; only for one lane,
+    /// or null. They may read `read_behind` numbers behind them.
+    Kernel whole_product, whole_reciprocal;
     /// Goes on with the next order and the operands found in the link that follows.
     Kernel next_order;
     // Of two steps, one after the other; null where there is no such kernel.

@@ -379,6 +379,15 @@ GRAZE_INLINE Pack moved_up(Pack before, Pack numbers) {
     return _mm256_blend_pd(_mm256_permute4x64_pd(numbers, 0x93), _mm256_permute4x64_pd(before, 0x93), 1);
 #endif
 }
+/// And down by one, before the first of those behind them.
+GRAZE_INLINE Pack moved_down(Pack numbers, Pack behind) {
+#if defined(__AVX512F__)
+    return _mm512_castsi512_pd(
+        _mm512_maskz_alignr_epi64(0xff, _mm512_castpd_si512(behind), _mm512_castpd_si512(numbers), 1));
+#else
+    return _mm256_blend_pd(_mm256_permute4x64_pd(numbers, 0x39), _mm256_permute4x64_pd(behind, 0x39), 8);
+#endif
+}
 /// Stores the lanes from one on, up to another.
 GRAZE_INLINE void put_lanes(double* to, Pack numbers, Order first, Order end) {
 #if defined(__AVX512F__)
@@ -422,15 +431,44 @@ GRAZE_INLINE void product_in_packs(const KernelOperands& o, Order highest) {
         put_lanes(o.result + i * lanes, sums[i], i == 0 ? 2 : 0, left < lanes ? left : lanes);
     }
 }
+
+/// One over such a series. Sums for all orders that are left are side by side, the next first: each coefficient is
+/// added to those behind it once it is found.
 template <int packs>
-GRAZE_INLINE void whole_product(const KernelOperands& o, Order highest) {
-    if constexpr (packs * lanes <= highest_order) {
-        if (highest >= packs * lanes) {
-            whole_product<packs + 1>(o, highest);
-            return;
-        }
+GRAZE_INLINE void reciprocal_in_packs(const KernelOperands& o, Order highest) {
+    Pack known[packs], sums[packs];
+    const double first = o.result[0];
+    for (int i = 0; i < packs; ++i) {
+        __builtin_memcpy(&known[i], o.left + 1 + i * lanes, sizeof(Pack));
+        sums[i] = splat(first) * known[i];
     }
+    const auto add = [&](double coefficient) __attribute__((always_inline)) {
+        for (int i = 0; i < packs; ++i)
+            sums[i] =
+                multiply_add(splat(coefficient), known[i], moved_down(sums[i], i + 1 < packs ? sums[i + 1] : splat(0)));
+    };
+    add(o.result[1]);
+    for (Order k = 2; k <= highest; ++k) {
+        const double coefficient = -(sums[0][0] * first);
+        o.result[k] = coefficient;
+        add(coefficient);
+    }
+}
+
+/// Both, with as many packs as it takes.
+template <int packs = 1>
+GRAZE_INLINE void whole_product(const KernelOperands& o, Order highest) {
+    if constexpr (packs * lanes <= highest_order)
+        if (highest >= packs * lanes)
+            return whole_product<packs + 1>(o, highest);
     product_in_packs<packs>(o, highest);
+}
+template <int packs = 1>
+GRAZE_INLINE void whole_reciprocal(const KernelOperands& o, Order highest) {
+    if constexpr (packs * lanes < highest_order)
+        if (highest > packs * lanes)
+            return whole_reciprocal<packs + 1>(o, highest);
+    reciprocal_in_packs<packs>(o, highest);
 }
 #endif
 

@@ -86,7 +86,8 @@ constexpr void fill_with_multiple(KernelTable& table, SeriesOperation operation)
 /// Only for a single lane: where there are more, each step has work enough for itself.
 constexpr void fill_twos(KernelTable& table) {
 #if defined(__FMA__)
-    table.whole_product = &chained<&whole_product<1>>;
+    table.whole_product = &chained<&whole_product<>>;
+    table.whole_reciprocal = &chained<&whole_reciprocal<>>;
 #endif
     table.two_states = &chained_two<&two_states<double>>;
     fill_with_multiple<Multiply<double>>(table, SeriesOperation::multiply);

@@ -184,6 +184,8 @@ std::vector<StepFinder::Run> StepFinder::runs() const {
         std::uint32_t unused = reciprocals;
         const bool product = (one.operation == SeriesOperation::multiply || one.operation == SeriesOperation::square) &&
                              table_.whole_product != nullptr && tape_.degrees[one.result] == Tape::unbounded;
+        const bool reciprocal = one.operation == SeriesOperation::reciprocal && end == first + 1 &&
+                                table_.whole_reciprocal != nullptr && tape_.degrees[one.result] == Tape::unbounded;
         const bool sum =
             one.operation == SeriesOperation::linear_combination && tape_.degrees[one.result] == Tape::unbounded;
         if (sum) {
@@ -195,6 +197,8 @@ std::vector<StepFinder::Run> StepFinder::runs() const {
             if (one.operation == SeriesOperation::square)
                 operands.right = operands.left;
             run = {true, {{{table_.whole_product, operands}}}};
+        } else if (reciprocal) {
+            run = {true, {{{table_.whole_reciprocal, operands_of(one, unused)}}}};
         } else {
             for (int order = 2; order <= highest; ++order)
                 add_instructions(order, first, end, reciprocals, run.steps.emplace_back());
