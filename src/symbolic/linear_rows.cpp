@@ -120,6 +120,12 @@ void LinearRows::pass_on(Position position, const Expression& weight) {
         return;
     }
     const Expression right = part_.expression(part_.items[item.right]);
+    if (const auto divisor = power_below(item)) {
+        if (reaches_[item.left])
+            add(item.left, weight / right);
+        add(divisor->base, -(divisor->exponent * value * weight / part_.expression(part_.items[divisor->base])));
+        return;
+    }
     const bool to_both = reaches_[item.left] && reaches_[item.right];
     if (to_both && operation == Operation::divide) { // once is enough
         const Expression share = weight / right;
@@ -131,6 +137,19 @@ void LinearRows::pass_on(Position position, const Expression& weight) {
         add(item.left, to_left(operation, left, right, weight));
     if (reaches_[item.right])
         add(item.right, to_right(operation, value, left, right, weight));
+}
+
+/// A quotient by a power a / u^c changes with u by -c (a / u^c) / u: most of that the motion has already.
+std::optional<LinearRows::Divisor> LinearRows::power_below(const Subgraph::Item& item) const {
+    if (part_.node(item).operation != Operation::divide || sources_[item.right] != none || !reaches_[item.right])
+        return std::nullopt;
+    const Subgraph::Item& right = part_.items[item.right];
+    if (part_.node(right).operation != Operation::power)
+        return std::nullopt;
+    const Expression exponent = part_.expression(part_.items[right.right]);
+    if (!exponent.is_number() || !(exponent.node().value > 0)) // below zero it need not be singular where u is zero
+        return std::nullopt;
+    return Divisor{right.left, exponent};
 }
 
 std::vector<LinearRows::Position> LinearRows::nodes_of(const Row& row) {
@@ -201,8 +220,20 @@ Expression LinearRows::rate_of(Position position) const {
     const Expression &left = weights_[item.left], none_at_all = {}, &right = two ? weights_[item.right] : none_at_all;
     if (left.empty() && right.empty())
         return {};
-    Expression rate = derivative_of(operation, part_.expression(item), part_.expression(part_.items[item.left]),
-                                    part_.expression(part_.items[two ? item.right : item.left]), left, right);
+    const Expression value = part_.expression(item);
+    Expression rate;
+    if (const auto divisor = power_below(item)) {
+        const Expression& base = weights_[divisor->base];
+        if (!left.empty())
+            rate = left / part_.expression(part_.items[item.right]);
+        if (!base.empty()) {
+            const Expression share = divisor->exponent * value * base / part_.expression(part_.items[divisor->base]);
+            rate = rate.empty() ? -share : rate - share;
+        }
+    } else {
+        rate = derivative_of(operation, value, part_.expression(part_.items[item.left]),
+                             part_.expression(part_.items[two ? item.right : item.left]), left, right);
+    }
     return rate.is_number(0) ? Expression() : rate;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <queue>
 #include <span>
 #include <vector>
@@ -43,6 +44,13 @@ private:
 
     void add(Position position, const Expression& weight);
     void pass_on(Position position, const Expression& weight);
+
+    /// What a quotient divides by: a power of another node.
+    struct Divisor {
+        Position base;
+        Expression exponent; ///< a number above zero
+    };
+    std::optional<Divisor> power_below(const Subgraph::Item& item) const;
 
     /// Nodes between a row and its sources, these included, operands first.
     std::vector<Position> nodes_of(const Row& row);

@@ -117,17 +117,25 @@ LinearForm SeriesBuilder::divide(LinearForm left, const LinearForm& right) {
         return scale(std::move(left), constants_.apply(Operation::divide, one_, right.constant));
     const Scaled b = split(right);
     if (left.is_constant())
-        return scaled({constants_.apply(Operation::divide, left.constant, b.coefficient),
-                       emit(SeriesOperation::reciprocal, b.reg)});
+        return scaled({constants_.apply(Operation::divide, left.constant, b.coefficient), reciprocal_of(b.reg)});
     const Scaled a = split(left);
     const std::uint32_t coefficient = constants_.apply(Operation::divide, a.coefficient, b.coefficient);
     if (!is_moderate(coefficient))
         return series(emit(SeriesOperation::divide, reg_of(left), reg_of(right)));
     const bool known = known_.count(Key{static_cast<std::uint32_t>(SeriesOperation::divide), a.reg, b.reg, 0}) > 0;
-    const std::uint32_t quotient = prefers_reciprocals_ && !known
-                                       ? multiply(a.reg, emit(SeriesOperation::reciprocal, b.reg))
-                                       : emit(SeriesOperation::divide, a.reg, b.reg);
+    const std::uint32_t quotient = prefers_reciprocals_ && !known ? multiply(a.reg, reciprocal_of(b.reg))
+                                                                  : emit(SeriesOperation::divide, a.reg, b.reg);
     return scaled({coefficient, quotient});
+}
+
+/// Where reciprocals are preferred, that of a square is a square.
+std::uint32_t SeriesBuilder::reciprocal_of(std::uint32_t a) {
+    const auto root = roots_.find(a);
+    const bool known = known_.count(Key{static_cast<std::uint32_t>(SeriesOperation::reciprocal), a, 0, 0}) > 0;
+    if (!prefers_reciprocals_ || known || root == roots_.end())
+        return emit(SeriesOperation::reciprocal, a);
+    const std::uint32_t factor = reciprocal_of(root->second);
+    return multiply(factor, factor);
 }
 
 LinearForm SeriesBuilder::power(LinearForm base, LinearForm exponent) {
@@ -262,8 +270,11 @@ std::uint32_t SeriesBuilder::one_and_square(std::uint32_t a, double sign) {
 }
 
 std::uint32_t SeriesBuilder::multiply(std::uint32_t left, std::uint32_t right) {
-    if (left == right)
-        return emit(SeriesOperation::square, left);
+    if (left == right) {
+        const std::uint32_t result = emit(SeriesOperation::square, left);
+        roots_.emplace(result, left);
+        return result;
+    }
     // The kernel waits least for its right operand: let it be the one computed later.
     return emit(SeriesOperation::multiply, std::min(left, right), std::max(left, right));
 }

@@ -61,6 +61,7 @@ private:
     std::uint32_t reg_of(const LinearForm& form);
     Scaled split(const LinearForm& form);
     std::uint32_t multiply(std::uint32_t left, std::uint32_t right);
+    std::uint32_t reciprocal_of(std::uint32_t a);
     std::uint32_t emit(SeriesOperation operation, std::uint32_t left, std::uint32_t right = 0, std::uint32_t third = 0);
     /// 1 + sign a^2
     std::uint32_t one_and_square(std::uint32_t a, double sign);
@@ -73,7 +74,8 @@ private:
     std::uint32_t one_;
     std::vector<Instruction> code_;
     std::vector<Term> terms_;
-    std::map<Key, std::uint32_t> known_; ///< registers by what is in them
+    std::map<Key, std::uint32_t> known_;           ///< registers by what is in them
+    std::map<std::uint32_t, std::uint32_t> roots_; ///< of registers that are squares
 };
 
 } // namespace graze
