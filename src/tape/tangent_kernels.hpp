@@ -111,8 +111,14 @@ template <class V>
 GRAZE_INLINE void tangent_row(const TangentRow& row, double* numbers, const double* jet, int k) {
     TangentSum<V> sum;
     const TangentTerm* term = row.fixed;
-    for (; term != row.still; ++term)
+    for (; row.still - term >= 2; term += 2) {
+        sum.add(jet[term[0].series], at<V>(numbers + term[0].source, k));
+        sum.add_beside(jet[term[1].series], at<V>(numbers + term[1].source, k));
+    }
+    if (term != row.still) {
         sum.add(jet[term->series], at<V>(numbers + term->source, k));
+        ++term;
+    }
     for (; term != row.few; ++term)
         sum.add_beside(jet[term->series + k], at<V>(numbers + term->source, 0));
     for (; term != row.many; ++term) {

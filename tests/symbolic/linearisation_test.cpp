@@ -142,6 +142,13 @@ TEST_F(LinearisationTest, QuotientsPowersAndFunctionsHaveTheirDerivatives) {
                              "3/x1",
                              "x1/3",
                              "x1/x1^2",
+                             "x1/x2^2",
+                             "3/(x1 + x2)^3",
+                             "x1*x3/(x1 + 2*x2)^2.5",
+                             "x1/x2^x3",
+                             "x1/(x2^2)^2",
+                             "x1/(x2/(x1 + x3)^2)^3",
+                             "x1/x2^(-2)",
                              "x1^x2",
                              "2^x1",
                              "x1^0.5",
@@ -169,6 +176,8 @@ TEST_F(LinearisationTest, DerivativesAreFiniteWherePlainOnesAre) {
                                    {"(x1*x2)^1.5", {0, 3}},
                                    {"x1^3 + 0.1*x2^2", {-2, 0}},
                                    {"(x1 - x2)^-2", {-2, 1}},
+                                   {"x1/x2^(-2)", {3, 0}},
+                                   {"x1/x2^2", {0, -3}},
                                    {"x1/x2", {1e-320, 1e-310}},
                                    {"x1/x2", {1e300, 1e-5}},
                                    {"exp(x1)*x2", {-700, 1e300}},
@@ -227,6 +236,17 @@ TEST_F(LinearisationTest, AMeanFieldTakesTwoProductsForEachState) {
     EXPECT_EQ(linear.intermediates, 1u);
     EXPECT_EQ(linear.entries.size(), 3 * x.size());
     EXPECT_EQ(linear.varying_entries(), 3 * x.size());
+}
+
+TEST_F(LinearisationTest, QuotientsByPowersOfMeansPassThroughTheMean) {
+    make(20);
+    const Expression mean = sum([](const Expression& one) { return sin(one); });
+    std::vector<Expression> functions;
+    for (const Expression& one : x)
+        functions.push_back(one / pow(mean, 2) + cos(one) / pow(mean, 3));
+    const Linearisation linear = checked(functions);
+    EXPECT_GT(linear.intermediates, 0u);
+    EXPECT_LT(linear.entries.size(), 100u);
 }
 
 TEST_F(LinearisationTest, SumsOnTheWayAreNoIntermediates) {
