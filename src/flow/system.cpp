@@ -11,6 +11,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace graze {
@@ -75,7 +76,8 @@ private:
                                  const SymbolIndex& symbols);
     System::CompiledGradient gradient_of(const Expression& function);
     Function counted(Function function);
-    void require_known(const SymbolIndex& inputs, std::span<const Expression> outputs) const;
+    template <class... Arguments>
+    Function checked(const SymbolIndex& inputs, std::span<const Expression> values, Arguments&&... arguments);
 
     Model model_;
     Expander expander_;
@@ -158,21 +160,26 @@ Function System::with_gradient(const Expression& expression) const {
     return SystemCompiler(model()).with_gradient(expression);
 }
 
-void SystemCompiler::require_known(const SymbolIndex& inputs, std::span<const Expression> outputs) const {
-    for (const Expression& symbol : symbols_of(outputs))
-        if (!inputs.find(symbol.index()))
-            model_.require_known(inputs.symbols(), outputs);
-}
-
 Function SystemCompiler::counted(Function function) {
     workspace_ = std::max(workspace_, function.workspace());
     operations_ += function.operations();
     return function;
 }
 
+/// A function finds by itself what it does not know. Only then is it asked whose it is: most of them know everything.
+template <class... Arguments>
+Function SystemCompiler::checked(const SymbolIndex& inputs, std::span<const Expression> values,
+                                 Arguments&&... arguments) {
+    try {
+        return counted({inputs, std::forward<Arguments>(arguments)...});
+    } catch (const std::invalid_argument&) {
+        model_.require_known(inputs.symbols(), values);
+        throw;
+    }
+}
+
 Function SystemCompiler::compile(const SymbolIndex& inputs, std::span<const Expression> outputs) {
-    require_known(inputs, outputs);
-    return counted({inputs, outputs});
+    return checked(inputs, outputs, outputs);
 }
 
 Function SystemCompiler::compile(const SymbolIndex& inputs, std::size_t outputs,
@@ -180,8 +187,7 @@ Function SystemCompiler::compile(const SymbolIndex& inputs, std::size_t outputs,
     std::vector<Expression> values;
     for (const Function::Output& output : given)
         values.push_back(output.value);
-    require_known(inputs, values);
-    return counted({inputs, outputs, given, others});
+    return checked(inputs, values, outputs, given, others);
 }
 
 /// Derivatives row by row: functions x symbols.
