@@ -166,6 +166,48 @@ TEST(TangentSeries, MatchDifferences) {
     }
 }
 
+/// What follows is computed by kernels of its own, many orders at once: at every order, with every instruction set, it
+/// has to be what the same expressions are as outputs, which are computed order by order.
+TEST(TangentSeries, FollowersAreWhatOutputsAre) {
+    constexpr double radius = 2; // within that of convergence of all
+    for (int order = 1; order <= highest_order; ++order) {
+        Problem p;
+        const Expression x = p.state("x", 0.3), y = p.state("y", 0.2), a = p.parameter("a", 0.7);
+        p.rates = {y, -x};
+        const std::vector<Expression> wanted{x * y,
+                                             pow(x - y, 2),
+                                             1 / (2 + x),
+                                             a / pow(3 + y, 2),
+                                             x / pow(3 + y, 2),
+                                             x * y / (2 + x),
+                                             y / pow(pow(2 + x, 2), 2),
+                                             pow(3 + x * y, -3),
+                                             sqrt(4 + x * y) / (2 + x)};
+        p.outputs = wanted;
+        std::vector<TapeFollower> followers;
+        for (const Expression& one : wanted)
+            followers.push_back({one, 0});
+        const Tape tape = compile_tape(p.states, p.parameters, p.rates, {}, followers);
+        const auto expected = testing::output_series(p, order, InstructionSet::baseline);
+        for (const InstructionSet set : testing::supported_sets()) {
+            const auto jet = make_jet(tape, order, LaneKind::single, set);
+            jet->set_parameters(p.parameter_values);
+            jet->compute(p.state_values);
+            const std::uint32_t group = 0;
+            jet->follow({&group, 1});
+            for (std::size_t i = 0; i < wanted.size(); ++i) {
+                double size = 0;
+                for (std::size_t k = expected[i].size(); k-- > 0;)
+                    size = std::max(size, std::abs(expected[i][k]) * std::pow(radius, static_cast<double>(k)));
+                for (std::size_t k = 0; k < expected[i].size(); ++k)
+                    ASSERT_NEAR(jet->follower(i)[k], expected[i][k],
+                                100 * eps * size / std::pow(radius, static_cast<double>(k)))
+                        << name_of(set) << ", order " << order << ", follower " << i << ", coefficient " << k;
+            }
+        }
+    }
+}
+
 /// Followers change nothing in what they follow, whichever groups are computed; and groups do not depend on others.
 TEST(TangentSeries, FollowersLeaveTheMotionAlone) {
     const Problem p = testing::everything();
