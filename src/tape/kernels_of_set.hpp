@@ -5,6 +5,7 @@
 #include "tape/column_kernels.hpp"
 #include "tape/guard_kernels.hpp"
 #include "tape/kernels.hpp"
+#include "tape/known_series_kernels.hpp"
 #include "tape/recurrence.hpp"
 #include "tape/step_kernels.hpp"
 #include "tape/sum_kernels.hpp"
