@@ -79,17 +79,6 @@ void BranchOfTheMicroactuator(benchmark::State& state) {
 }
 BENCHMARK(BranchOfTheMicroactuator)->UseManualTime()->Unit(benchmark::kMillisecond)->MinTime(1);
 
-/// A one-impact orbit of the linear oscillator, repeated.
-Orbit repeated(const Orbit& one, std::size_t times) {
-    Orbit orbit = one;
-    for (std::size_t i = 1; i < times; ++i) {
-        orbit.signature.insert(orbit.signature.end(), one.signature.begin(), one.signature.end());
-        orbit.starts.insert(orbit.starts.end(), one.starts.begin(), one.starts.end());
-        orbit.durations.insert(orbit.durations.end(), one.durations.begin(), one.durations.end());
-    }
-    return orbit;
-}
-
 void OrbitOfManySegments(benchmark::State& state) {
     const Model model = microactuator(microactuator_start);
     const std::size_t segments = static_cast<std::size_t>(state.range(0));

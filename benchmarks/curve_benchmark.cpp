@@ -116,17 +116,6 @@ void CurveOfTorusPoints(benchmark::State& state) {
 }
 BENCHMARK(CurveOfTorusPoints)->Unit(benchmark::kMillisecond);
 
-/// An orbit gone round several times.
-Orbit gone_round(const Orbit& one, std::size_t rounds) {
-    Orbit orbit = one;
-    for (std::size_t i = 1; i < rounds; ++i) {
-        orbit.signature.insert(orbit.signature.end(), one.signature.begin(), one.signature.end());
-        orbit.starts.insert(orbit.starts.end(), one.starts.begin(), one.starts.end());
-        orbit.durations.insert(orbit.durations.end(), one.durations.begin(), one.durations.end());
-    }
-    return orbit;
-}
-
 /// A point of the orbit {J1, J8}, gone round several times: of folds, and of flips, whose coefficient takes more. An
 /// odd number of rounds keeps the multiplier -1.
 void CurveOfManySegments(benchmark::State& state, PointType type) {
@@ -139,9 +128,9 @@ void CurveOfManySegments(benchmark::State& state, PointType type) {
     const auto next = std::min_element(branch.points.begin(), branch.points.end(), [&](const auto& a, const auto& b) {
         return std::abs(a.arclength - point.arclength) < std::abs(b.arclength - point.arclength);
     });
-    const Orbit elsewhere = solve_orbit(model, gone_round(next->solution.orbit, rounds)).orbit;
+    const Orbit elsewhere = solve_orbit(model, repeated(next->solution.orbit, rounds)).orbit;
     const std::size_t segments = point.solution.orbit.segments();
-    point.solution.orbit = gone_round(point.solution.orbit, rounds);
+    point.solution.orbit = repeated(point.solution.orbit, rounds);
     const std::size_t frame = *model.find_state("x1");
     for (std::size_t i = segments; i < segments * rounds; ++i)
         point.solution.orbit.starts[i][frame] += elsewhere.starts[i][frame] - elsewhere.starts[i % segments][frame];

@@ -38,3 +38,14 @@ inline const graze::Orbit& microactuator_orbit() {
     }();
     return orbit;
 }
+
+/// An orbit gone round several times.
+inline graze::Orbit repeated(const graze::Orbit& one, std::size_t times) {
+    graze::Orbit orbit = one;
+    for (std::size_t i = 1; i < times; ++i) {
+        orbit.signature.insert(orbit.signature.end(), one.signature.begin(), one.signature.end());
+        orbit.starts.insert(orbit.starts.end(), one.starts.begin(), one.starts.end());
+        orbit.durations.insert(orbit.durations.end(), one.durations.begin(), one.durations.end());
+    }
+    return orbit;
+}

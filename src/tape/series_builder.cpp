@@ -122,17 +122,16 @@ LinearForm SeriesBuilder::divide(LinearForm left, const LinearForm& right) {
     const std::uint32_t coefficient = constants_.apply(Operation::divide, a.coefficient, b.coefficient);
     if (!is_moderate(coefficient))
         return series(emit(SeriesOperation::divide, reg_of(left), reg_of(right)));
-    const bool known = known_.count(Key{static_cast<std::uint32_t>(SeriesOperation::divide), a.reg, b.reg, 0}) > 0;
-    const std::uint32_t quotient = prefers_reciprocals_ && !known ? multiply(a.reg, reciprocal_of(b.reg))
-                                                                  : emit(SeriesOperation::divide, a.reg, b.reg);
+    const std::uint32_t quotient = prefers_reciprocals_ && !is_known(SeriesOperation::divide, a.reg, b.reg)
+                                       ? multiply(a.reg, reciprocal_of(b.reg))
+                                       : emit(SeriesOperation::divide, a.reg, b.reg);
     return scaled({coefficient, quotient});
 }
 
 /// Where reciprocals are preferred, that of a square is a square.
 std::uint32_t SeriesBuilder::reciprocal_of(std::uint32_t a) {
     const auto root = roots_.find(a);
-    const bool known = known_.count(Key{static_cast<std::uint32_t>(SeriesOperation::reciprocal), a, 0, 0}) > 0;
-    if (!prefers_reciprocals_ || known || root == roots_.end())
+    if (!prefers_reciprocals_ || is_known(SeriesOperation::reciprocal, a) || root == roots_.end())
         return emit(SeriesOperation::reciprocal, a);
     const std::uint32_t factor = reciprocal_of(root->second);
     return multiply(factor, factor);
@@ -279,10 +278,14 @@ std::uint32_t SeriesBuilder::multiply(std::uint32_t left, std::uint32_t right) {
     return emit(SeriesOperation::multiply, std::min(left, right), std::max(left, right));
 }
 
+SeriesBuilder::Key SeriesBuilder::key_of(SeriesOperation operation, std::uint32_t left, std::uint32_t right,
+                                         std::uint32_t third) {
+    return {static_cast<std::uint32_t>(operation), left, right, third};
+}
+
 std::uint32_t SeriesBuilder::emit(SeriesOperation operation, std::uint32_t left, std::uint32_t right,
                                   std::uint32_t third) {
-    const auto [found, added] =
-        known_.try_emplace(Key{static_cast<std::uint32_t>(operation), left, right, third}, registers_);
+    const auto [found, added] = known_.try_emplace(key_of(operation, left, right, third), registers_);
     if (added)
         code_.push_back({operation, registers_++, left, right, third});
     return found->second;

@@ -39,6 +39,7 @@ public:
     const ConstantPool& constants() const { return constants_; }
 
 private:
+    using Key = std::vector<std::uint32_t>;
     struct Scaled {
         std::uint32_t coefficient;
         std::uint32_t reg;
@@ -66,7 +67,12 @@ private:
     /// 1 + sign a^2
     std::uint32_t one_and_square(std::uint32_t a, double sign);
 
-    using Key = std::vector<std::uint32_t>;
+    static Key key_of(SeriesOperation operation, std::uint32_t left, std::uint32_t right, std::uint32_t third);
+    /// Whether there is a register with this in it.
+    bool is_known(SeriesOperation operation, std::uint32_t left, std::uint32_t right = 0) const {
+        return known_.contains(key_of(operation, left, right, 0));
+    }
+
     bool prefers_reciprocals_ = false;
     std::uint32_t registers_;
     ConstantPool constants_;
